@@ -73,6 +73,7 @@ docs: $(INSTALLED)
 
 reference: $(INSTALLED)
 	$(BIN)/python .ci/reference.py
+	$(BIN)/python .ci/pairs.py
 	$(BIN)/python tests/sessions.py
 	$(BIN)/orderconds table --write docs/reference/library.md
 

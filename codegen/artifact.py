@@ -2,7 +2,7 @@
 
 ``manifest.json`` has an entry for each module and target of the folder, with the digest of each file. Files
 are written completely before they get their final names, the manifest last. If the writing process is killed
-between two files, the digests reveal the mismatch, and writing the module again repairs the folder. Only one
+between two files, files and digests do not match. Writing the module again repairs the folder. Only one
 process at a time writes to a folder.
 """
 
@@ -67,8 +67,8 @@ class Artifact:
         """Raise an InputError if this module would overwrite the files of an entry that belongs to another
         method.
 
-        This may happen because methods such as ``a.b`` and ``a-b`` have the same default name. A prefix that
-        the user chose may be used again.
+        Methods such as ``a.b`` and ``a-b`` have the same default name. A module with a prefix that the user
+        chose may be overwritten.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
@@ -85,7 +85,7 @@ class Artifact:
 def writing(folder: Path) -> Iterator[None]:
     """Lock a folder for writing, and remove temporary files of writers that were killed."""
     with locked(folder) as held:
-        if held:  # without the lock, a temporary file may belong to another writer
+        if held:  # without the lock, a temporary file may belong to a process that is still writing
             for path in folder.iterdir():
                 if is_temporary(path.name):
                     path.unlink(missing_ok=True)
@@ -117,7 +117,7 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
         raise InputError(reason(problem), where=str(path), expected="the file that emit wrote") from None
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise InputError(
-            "this is not a manifest",
+            "this file is not a manifest",
             where=str(path),
             expected="the file that emit wrote",
             hint="remove the file",
@@ -143,7 +143,8 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     try:
         with locked(folder, shared=True):
             return _read(folder, entries_of(folder), module, target)
-    # The folder cannot be locked if it cannot be opened. Reading the manifest then raises the InputError.
+    # If the folder cannot be opened, it cannot be locked. The InputError is then raised when the manifest is
+    # read.
     except OSError:
         return _read(folder, entries_of(folder), module, target)
 

@@ -1,5 +1,5 @@
-"""Compile emitted C to a shared object. A cache keeps the shared object for the same sources and the same
-compiler.
+"""Compile emitted C to a shared object. A cache stores the shared object, which is used again for equal
+sources and the same compiler.
 
 The compiler writes into a temporary folder inside the cache, and the finished file is renamed
 (:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes may build the same
@@ -67,7 +67,7 @@ def _find(named: str, path: str) -> Compiler:
         if shutil.which(words[0], path=path):
             return _identify(tuple(words))
     where = "$CC" if named.strip() else "PATH"
-    message = f"{candidates[0][0]} does not exist" if named.strip() else "no C compiler"
+    message = f"the compiler {candidates[0][0]} does not exist" if named.strip() else "no C compiler"
     raise CompilerMissing(
         message, where=where, expected="cc, gcc or clang", hint="install one, or set CC to its command"
     )
@@ -80,7 +80,7 @@ def _identify(command: tuple[str, ...]) -> Compiler:
         )
     except (OSError, subprocess.TimeoutExpired) as error:
         raise CompilerMissing(
-            f"{command[0]} does not run: {error}", where="$CC", hint="set CC to a C compiler"
+            f"the compiler {command[0]} cannot be run: {error}", where="$CC", hint="set CC to a C compiler"
         ) from None
     return Compiler(command, answer.stdout.partition("\n")[0].strip())
 
@@ -138,7 +138,7 @@ def compile_files(
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    # The compiler writes its temporary files into this folder, so they are removed with it even if the
+    # The compiler writes its temporary files into this folder. They are removed with the folder, even if the
     # compiler is killed.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
@@ -153,7 +153,7 @@ def compile_files(
         )
     except FileNotFoundError:
         raise CompilerMissing(
-            f"{compiler.command[0]} no longer exists", where="$CC", hint="set CC to a C compiler"
+            f"the compiler {compiler.command[0]} no longer exists", where="$CC", hint="set CC to a C compiler"
         ) from None
     if answer.returncode or not output.exists():
         words = (answer.stderr or answer.stdout).strip()

@@ -1,8 +1,9 @@
-"""The cache: files that are computed once, and for each file a digest of its content.
+"""The cache: a folder of computed files, with a digest of the content of each file.
 
-An entry is used only if it is a regular file of the user and its content has the digest. Otherwise it is
-computed again. The folder has mode 0700 and belongs to the user, because compiled code in it is executed. If
-such a folder cannot be created, a temporary folder is used until the process ends.
+An entry is used only if it is a regular file that belongs to the user, and its content has the recorded
+digest. Otherwise the file is computed again. The folder has mode 0700 and belongs to the user, because
+compiled code in it is executed. If such a folder cannot be created, a temporary folder is used until the
+process ends.
 """
 
 from __future__ import annotations
@@ -55,7 +56,8 @@ def _require_private(folder: Path) -> None:
     """Remove other users' access to the folder; raise an OSError if it does not belong to the user alone."""
     if not hasattr(os, "geteuid"):
         return
-    for status in (folder.lstat(), folder.stat()):  # a symbolic link must also belong to the user
+    # If the folder is a symbolic link, the link must belong to the user, too.
+    for status in (folder.lstat(), folder.stat()):
         if status.st_uid != os.geteuid():
             raise PermissionError(1, "a folder of another user")
     if folder.stat().st_mode & 0o077:
@@ -79,7 +81,7 @@ def temporary_directory(why: str) -> Path:
 
 
 def _remove(folder: Path, owner: int) -> None:
-    # Only the process that created the folder removes it. A forked worker process must not remove it.
+    # Only the process that created the folder removes it: a forked worker process must leave it in place.
     if os.getpid() == owner:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -109,7 +111,7 @@ def keep(entry: Path, content: bytes) -> None:
 
 
 def write_entries(contents: Mapping[Path, bytes]) -> None:
-    """Write files that the user alone can read, each atomically; a folder in the place of a file is removed.
+    """Write files that only the user can read, each atomically; a folder with the name of a file is removed.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     (Path(folder) / "x" / "y").mkdir(parents=True)
@@ -148,7 +150,7 @@ def _sweep(folder: Path) -> None:
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:
-                continue  # its process may not have locked it yet
+                continue  # the process that has created the folder may not have locked it yet
             if is_temporary(path.name):
                 path.unlink()
             elif path.name.startswith(WORKING) and path.is_dir():

@@ -1,4 +1,5 @@
-"""The order that a header states: computed by ``orderconds.check``, never copied from a claim."""
+"""The order in the header of emitted code. It is computed by ``orderconds.check``; the order that a tableau's
+file claims is not used."""
 
 from __future__ import annotations
 
@@ -26,10 +27,10 @@ DOUBLE_BITS = 53
 class CertifiedOrder:
     """An order, its certificate, and the conditions of the next order that fail.
 
-    If ``bound`` is true, the search ended before a condition failed, so the order may be higher. If the order
-    was computed for an abelian group, ``classical`` is the classical family to which the method reduces
-    there. ``radius`` is the uncertainty of the coefficients if it exceeds the rounding error of a double; in
-    this case there is no certificate.
+    If ``bound`` is true, no condition failed up to the largest order that was examined, so the order may be
+    higher. If the order was computed for an abelian group, ``classical`` is the classical family to which the
+    method reduces there. ``radius`` is the uncertainty of the coefficients if it exceeds the rounding error
+    of a double; in this case there is no certificate.
     """
 
     order: int
@@ -117,7 +118,8 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    # Coefficients that were given as doubles are emitted unchanged, whatever their author meant.
+    # Coefficients that were given as doubles are exact for emitted code, even if they approximate other
+    # numbers.
     known = method.coefficients is None or method.coefficients.doubles
     radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate

@@ -27,8 +27,8 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # The library is closed, because loading a rebuilt library of the same name would otherwise return
-            # this one.
+            # The library is closed. Otherwise loading a rebuilt library of the same name would return the old
+            # library.
             self._ffi.dlclose(self._library)
             raise
 
@@ -100,7 +100,8 @@ class CompiledIntegrator(Integrator):
 
 
 class _Callback:
-    """A function of time that C may call. If it raises, the error is stored, and NaNs make the step fail."""
+    """A function of time that C can call. If the Python function raises an error, the error is stored, and
+    the inputs are NaNs, with which the step fails."""
 
     def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:
         self.function, self.count = function, len(interface.inputs)
@@ -115,7 +116,7 @@ class _Callback:
                 inputs = [float(x) for x in self.function(t)]
             if len(inputs) != self.count:
                 raise TypeError(f"expected {self.count} inputs, found {len(inputs)}")
-        except BaseException as error:  # an exception must not cross C frames
+        except BaseException as error:  # a Python exception must not pass through C code
             self.failure, inputs = error, [math.nan] * self.count
         for k, x in enumerate(inputs):
             values[k] = x

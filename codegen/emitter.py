@@ -29,8 +29,8 @@ from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
-from codegen.lower import families_for, lower, lower_composed, lowering, problem_for
-from codegen.method import Method, method_of
+from codegen.lower import lower, lower_composed, lowering, method_for, problem_for
+from codegen.method import Method
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -57,12 +57,12 @@ COUNTED = "; the numbers of sweeps above are for double precision"
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
-"""The cost of an operation in units of one addition, by which two forms of a step are compared. Additions and
-products cost 1, and functions that are not listed cost 12."""
+"""The cost of operations in units of an addition; two forms of a step are compared by these costs. Additions
+and products cost 1, and functions that are not listed cost 12."""
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""Headers and modules that emitted files or their examples include. No emitted file may have the name of one
-of them."""
+"""Names of the headers and modules that emitted files or their examples include. No emitted file may have
+such a name."""
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,7 @@ def compile_method(
         scene = with_inputs(scene, tuple(inputs))
     chosen = find_form(scene, form) if form != PRINTED else None
     scene = with_frame(scene if chosen is None else chosen.problem, frame)
-    method = method_of(method, families_for(scene), family)
+    method = method_for(scene, method, family)
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
@@ -278,7 +278,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # If a fixed parameter is also a run-time argument, the value is the default of the argument.
+    # If a parameter with a given value remains a run-time argument, the value is the argument's default.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 
@@ -288,7 +288,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE
-    # Without a tableau there are no coefficients that could be rounded.
+    # A method without a tableau has no coefficients that could be rounded.
     tableau = method.coefficients is not None
     digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
     return Recipe(
@@ -296,6 +296,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
         facts=(
             ("method", f"family {method.family_label}" + f", tableau {method.name}" * bool(method.name)),
             ("source", method.source),
+            *coordinates_of(compiled),
             ("order", order.text()),
             *digits,
             *scene_facts(compiled),
@@ -313,6 +314,15 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
         command=command,
         version=__version__,
     )
+
+
+def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
+    """Return the sentence about the coordinate map of the scene, if the method uses the map."""
+    used = compiled.scene.coordinates if lowering(compiled.method.family).reads_coordinates else None
+    if used is None:
+        return ()
+    unread = f"; the cut-off {compiled.method.cutoff} is not read, because nothing is truncated"
+    return (("coordinates", used.text + unread * (compiled.method.cutoff is not None)),)
 
 
 def emit_kernel(
@@ -394,10 +404,10 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
     if folded:
-        lines.append(f"parameters, folded: {', '.join(folded)}")
+        lines.append(f"arguments for parameters, which are constants: {', '.join(folded)}")
     closed = [name for name in scene.signals if name not in scene.inputs]
     if closed:
-        lines.append(f"run-time inputs: {', '.join(closed)} by formula")
+        lines.append(f"run-time inputs: {', '.join(closed)} computed by formula")
     if TIME not in kernel.used_scalars():
         lines.append("the time: the scene does not depend on it")
     if not any(isinstance(s, Loop) for s in kernel.body):
@@ -411,7 +421,7 @@ def flows_of(problem: Problem) -> str:
 
 
 def bare(name: str) -> str:
-    """Return a name without folders, so that no path reaches emitted text.
+    """Return a name without folders, because emitted text must not contain a path of the machine.
 
     >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
     ('vcg:mine.toml', 'top.py')

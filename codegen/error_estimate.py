@@ -1,11 +1,11 @@
 """The order of the error estimate of an embedded method, compared with the order of the error.
 
-The estimate is the difference of the results of two rows. The estimate is called blind if it has a higher
-order than the local error, that is, if both rows have the same leading error term. RKMK methods with a small
-cut-off are an example: the same brackets are missing in both rows. If the orders of the rows differ, the
-estimate is not blind. Otherwise the orders of the estimate and of the local error are computed from very
-short steps in 100 digits. The local error is measured by the difference between one step of size h and two
-steps of size h/2.
+The estimate is the difference between the results of the main row and of the embedded row of a tableau. If
+both rows have the same leading error term, the estimate has a higher order than the local error. It is then
+called blind. RKMK methods with a small cut-off are an example: the same brackets are missing in both rows. If
+the orders of the rows differ, the estimate is not blind. Otherwise the orders of the estimate and of the
+local error are computed from very short steps in 100 digits. The local error is measured by the difference
+between one step of size h and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""The local error in the shortest step is about 10^-SMALLEST."""
+"""The size of the shortest step is such that its local error is about 10^-SMALLEST."""
 
 RATIO = 8
 HIGHER = 0.5
@@ -59,7 +59,7 @@ def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bo
     """Return True if the error estimate of an embedded pair has a higher order than the local error.
 
     The estimate is the difference of the results of the two rows, which both have order ``order``. It is
-    compared with the local error in very short steps. An estimate that is always zero is also blind. If
+    compared with the local error in very short steps. An estimate that is always zero is blind, too. If
     the steps cannot be computed, the result is False.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
@@ -107,8 +107,7 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 
 
 def _hint(method: Method, scene: Problem) -> str:
-    """Return a hint for the user that names the smallest larger cut-off for which the estimate is not
-    blind."""
+    """Return a hint for the user: it names the next larger cut-off for which the estimate is not blind."""
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):
             longer = replace(method, cutoff=cutoff)

@@ -53,7 +53,8 @@ class StepFailed(ArithmeticError):
 
 @dataclass(frozen=True)
 class Arrival:
-    """The end of an adaptive run: state, time, size of the next step, accepted and rejected steps."""
+    """The result of an adaptive run: the last state and its time, the proposed size of the next step, and the
+    numbers of accepted and rejected steps."""
 
     state: State
     t: float
@@ -81,8 +82,8 @@ class Statistics:
 
 @dataclass(frozen=True)
 class Begun:
-    """The checked arguments of a call: form of the state, state as numbers, parameter values, inputs,
-    statistics."""
+    """The checked arguments of a call: the form of the state, the numbers of the state, the parameter values,
+    the inputs and the statistics."""
 
     form: StateForm
     numbers: list[float]
@@ -141,7 +142,8 @@ class Integrator(ABC):
         )
 
     def __reduce__(self) -> tuple[Callable[..., Integrator], tuple[object, ...]]:
-        # Libraries and modules cannot be pickled. A pickle contains the emitted files, to load them again.
+        # A loaded library or module cannot be pickled. The pickle contains the emitted files, which are
+        # loaded again.
         if self.artifact is None:
             raise TypeError("only integrators that codegen.load has returned can be pickled")
         interface = self.interface.as_json()
@@ -268,7 +270,7 @@ class Integrator(ABC):
         times = None if t_eval is None else monotone(t, t_eval)
         if end is None:
             if not times:
-                raise TypeError("expected end, the time at which the run ends")
+                raise TypeError("expected the argument end, the time at which the run ends")
             end = times[-1]
         end = real(end, "end")
         if times and (end - times[-1]) * (times[-1] - t) < 0:
@@ -296,13 +298,14 @@ class Integrator(ABC):
         tolerances: tuple[float, float],
         limit: int,
     ) -> Arrival:
-        """Run with step control through all these times; the last one is the end."""
+        """Run with step control from time to time; the run ends at the last of these times."""
         rows: list[Sequence[float]] = []
         accepted = rejected = 0
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # A time that is close to the last one leaves a short step, which is no suggestion for the next.
+            # If the next time is close, the step to it is short. The size of this step is no good proposal
+            # for later steps.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -317,8 +320,8 @@ class Integrator(ABC):
         inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the derivative of one step with respect to the state. The header of the emitted module
-        describes its rows and columns.
+        """Return the derivative of one step with respect to the state, as a matrix. The header of the emitted
+        module describes the rows and columns of the matrix.
 
         TypeError is raised for a module without a Jacobian (``emit(..., jacobian=True)``), StepFailed if the
         step fails.
@@ -403,7 +406,7 @@ def _numbers(inputs: object) -> tuple[float, ...]:
 
 
 def _joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
-    """Return the arrival of a batch."""
+    """Return the result of adaptive runs from all states of a batch."""
     last = arrivals[-1]
     states = None if last.states is None else batch.joined([x.states for x in arrivals])
     accepted, rejected = sum(x.accepted for x in arrivals), sum(x.rejected for x in arrivals)
@@ -413,7 +416,7 @@ def _joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
 def _loaded(
     target: str, interface: dict[str, Any], defaults: Mapping[str, float], artifact: Artifact
 ) -> Integrator:
-    """Return the integrator of a pickle."""
+    """Return the integrator that is loaded from the files of a pickle."""
     integrator = known_target(target).load(Interface.from_json(interface), defaults, artifact.files)
     integrator.artifact = artifact
     return integrator

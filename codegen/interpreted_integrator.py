@@ -49,8 +49,8 @@ class InterpretedIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[dict[str, Any]]:
-        """Yield the argument for statistics; convert StepFailed of the emitted module to
-        :class:`StepFailed`."""
+        """Yield the argument for statistics. If the emitted module raises its own error StepFailed,
+        :class:`StepFailed` of this package is raised in its place."""
         counts = self.module.Statistics() if self.interface.blocks else None
         try:
             yield {} if counts is None else {"statistics": counts}

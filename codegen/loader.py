@@ -37,7 +37,8 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
         defaults = dict(artifact.manifest["defaults"])
     except (KeyError, TypeError, ValueError, AttributeError):
         raise InputError(
-            f"the manifest's entry for {artifact.key[0]} was changed", hint="emit the module again"
+            f"the manifest's entry for {artifact.key[0]} was changed after it was written",
+            hint="emit the module again",
         ) from None
     integrator = known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
     integrator.artifact = artifact
@@ -51,8 +52,8 @@ def load_compiled(
     try:
         return CompiledIntegrator(interface, defaults, build(files))
     except (OSError, AttributeError):
-        # The cached file has the recorded digest, but it is no library or it lacks the functions of the
-        # module. It is built again.
+        # The content of the cached file has the recorded digest, but it is no library, or functions of the
+        # module are missing in it. The file is built again.
         return CompiledIntegrator(interface, defaults, build(files, again=True))
 
 

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
-"""The form of a label of a method without tableau: the name of a family, and a number in parentheses if
-necessary."""
+"""The form of a method's label without a tableau: the name of a family, and a number in parentheses if the
+family needs one."""
 
 PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
@@ -103,8 +103,8 @@ class Method:
         return method
 
     def can_reduce_brackets(self) -> bool:
-        """Return True if the tableau is explicit and its coefficients are exact: the search for the fewest
-        brackets requires both."""
+        """Return True if the tableau is explicit and its coefficients are exact. The search for the fewest
+        brackets requires such a tableau."""
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
             return False
@@ -151,20 +151,22 @@ class Method:
         return replace(self, coefficients=lower, adaptive=False)
 
     def abscissae(self) -> tuple[Element, ...]:
-        """Return c_i, the sum of the coefficients of stage i, where the method is read as commutator-free."""
+        """Return c_i, the sum of all coefficients of stage i in the method's form as a commutator-free
+        method."""
         return self.commutator_free().as_runge_kutta(self.ring).c
 
 
 def _file(name: str) -> Path:
-    """Return the file with this path, or the library's file with this name."""
+    """Return the tableau file with this path, or the file of the library with this name."""
     path = Path(name)
     return path if path.suffix == ".toml" else find(name)
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return a tableau with the exact solution that its proof encloses, instead of the decimals of its file.
+    """Return the tableau whose coefficients are the exact solution that the tableau's proof encloses; the
+    file contains only decimals.
 
-    The certificate is for this solution, so emitted code must use the solution and not the decimals.
+    The certificate is valid for the exact solution, so emitted code must use it in place of the decimals.
     """
     if tableau.proof is None:
         return tableau
@@ -194,7 +196,9 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
         return None
     if match["family"] not in families:
         raise MethodError(
-            f"family {match['family']} on this scene", where=text, expected=f"one of {', '.join(families)}"
+            f"family {match['family']} cannot be used on this scene",
+            where=text,
+            expected=f"one of {', '.join(families)}",
         )
     number = None if match["number"] is None else int(match["number"])
     # The family raises an InputError for a number that is missing or out of range.
@@ -220,7 +224,8 @@ def _unclaimed(
     """Return the error for a tableau that claims no order under the families that can read it."""
     family = match["family"]
     fitting = [f for f in readable if not _divides_by_zero(f, tableau)]
-    # A family that takes a cut-off needs one: a name without it would lead to a second hint.
+    # If the family has a cut-off, the hint contains one, because a name without a cut-off would be refused,
+    # too.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     return MethodError(
         f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
@@ -231,7 +236,7 @@ def _unclaimed(
 
 
 def _label(family: str, tableau: str) -> str:
-    """Return the label of a method, with a cut-off if the family takes one."""
+    """Return the label of a method, with a cut-off if the family has one."""
     return f"{family}(2):{tableau}" if family_class(family).takes_cutoff else f"{family}:{tableau}"
 
 
@@ -257,8 +262,8 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
     """Return the method that an argument of a function in Python denotes: a method, a tableau, or a text.
 
     ``families`` are the families that accept the scene. ``family`` chooses a family for a tableau, as
-    ``"rkmk(2)"``. Without it, a tableau that claims nothing is used in the family in which its computed order
-    is highest; claims decide otherwise, as in :func:`parse`.
+    ``"rkmk(2)"``. Without ``family``, the claims of the tableau determine the family, as in :func:`parse`. A
+    tableau without claims is used in the family in which its computed order is highest.
     """
     if isinstance(given, Method):
         return given
@@ -278,8 +283,8 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Yield the computed orders of a tableau in the families in which a complete file claims an order; with
-    ``family`` in the variants of this family."""
+    """Yield the computed orders of a tableau in all families for which a complete tableau file states an
+    order, or, if ``family`` is given, in the variants of this family."""
     from orderconds.checking import check, claimable_families
 
     for member in claimable_families(tableau):
@@ -287,6 +292,20 @@ def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
             for variant in member.claimed_variants():
                 (order,) = check(tableau, family=variant.label()).orders
                 yield variant.claim(order.order)
+
+
+def family_in(given: Method | str) -> str:
+    """Return the family that an argument names; '' if it names none.
+
+    >>> family_in("rkmk(2):rk4"), family_in("taylor(12)"), family_in("rk4")
+    ('rkmk', 'taylor', '')
+    """
+    if isinstance(given, Method):
+        return given.family
+    alone, match = ALONE.fullmatch(given.strip()), PATTERN.fullmatch(given.strip())
+    if alone is not None and alone["family"] in names() and not family_class(alone["family"]).has_tableau:
+        return alone["family"]
+    return (match["family"] or "") if match is not None else ""
 
 
 def parse(text: str, families: Sequence[str]) -> Method:
@@ -312,12 +331,15 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
 
 def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
-    """Return the method of a tableau in the family that a text names, or in the family that claims choose."""
+    """Return the method of a tableau in the family that a text names; if the text names none, the claims of
+    the tableau determine the family."""
     assert match is not None
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
         raise MethodError(
-            f"family {family} on this scene", where=text, expected=f"one of {', '.join(families)}"
+            f"family {family} cannot be used on this scene",
+            where=text,
+            expected=f"one of {', '.join(families)}",
         )
     if family is not None and not family_class(family).has_tableau:
         raise MethodError(
@@ -330,8 +352,8 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"a cut-off for {' or '.join(cutting)} only, as in rkmk(2):rk4",
         )
-    # A commutator-free tableau has no A and b. It may claim an order in rk, but the claim is for the sums of
-    # its exponents.
+    # A commutator-free tableau has no A and b. If it claims an order in rk, the claim is for the Runge-Kutta
+    # method whose coefficients are the sums of its exponents.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

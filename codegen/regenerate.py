@@ -94,7 +94,7 @@ class Difference:
 
 
 def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Return the differences between the folder and the expected files, by path."""
+    """Return the differences between the folder and the expected files, sorted by path."""
     there = {p.relative_to(directory).as_posix() for p in directory.rglob("*") if p.is_file()}
     ours = emitted(directory)
     extra = [path for path in sorted(there - files.keys()) if not ignored(path)]
@@ -110,7 +110,7 @@ def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
 def _holds(path: Path, content: bytes) -> bool:
     try:
         return content_of(path, limit=len(content)) == content
-    except OSError:  # for example, the file is larger than the expected content
+    except OSError:  # the file could not be read, for example because it is larger than the expected content
         return False
 
 
@@ -125,8 +125,8 @@ def emitted(directory: Path) -> set[str]:
 
 
 def ignored(path: str) -> bool:
-    """Return whether a file may be ignored, because running an emitted module creates it, or because a
-    process that was writing the folder was killed."""
+    """Return True if a file may be ignored: a file that Python creates when an emitted module is run, or a
+    temporary file of a writing process that was killed."""
     return "__pycache__" in path.split("/") or is_temporary(path.rpartition("/")[2])
 
 

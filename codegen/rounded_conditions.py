@@ -24,8 +24,8 @@ terms of a residual cancel.
 """
 
 MOST = 3000
-"""The most conditions of one order that are evaluated; with more, the evaluation would take most of the time
-of ``emit``.
+"""The largest number of conditions of one order that are evaluated. Evaluating more would take most of the
+time of ``emit``.
 """
 
 
@@ -68,7 +68,7 @@ def largest_residual(tableau: Tableau, family: Family, order: int) -> float | No
         except ZeroDivisionError:
             return None
         largest = max([largest, *(abs(_fraction(end)) for x in residuals for end in endpoints(x.value))])
-    # The division rounds to the nearest double.
+    # Dividing two integers in Python rounds once, to the nearest double.
     return float(largest)
 
 

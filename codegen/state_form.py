@@ -1,12 +1,13 @@
 """The forms of a state: a flat sequence, a NumPy array of any shape, or a tuple such as (q, mu); and batches.
 
-A compiled step reads and writes one flat list of numbers. A :class:`StateForm` remembers how the caller wrote
-the state, and writes results in the same form: lists for lists, arrays for arrays, tuples for tuples. In a
-tuple, each part may have its own shape, such as a 3 x 3 matrix q and a vector mu; matrices are flattened by
-rows. A batch is an array with a state in each row, or a tuple of such arrays.
+A compiled step reads and writes one flat list of numbers. A :class:`StateForm` stores the form in which the
+caller passed the state, and returns results in this form: lists for lists, arrays for arrays, tuples for
+tuples. In a tuple, each part may have its own shape, such as a 3 x 3 matrix q and a vector mu; matrices are
+flattened by rows. A batch is an array with a state in each row, or a tuple of such arrays.
 
-The parts of a tuple are in the order of the manifest's entry ``state``, for T*G (q, mu). The sizes of the
-parts are compared with the sizes of these fields. Parts of equal sizes in the wrong order cannot be detected.
+The parts of a tuple are in the order of the fields in the manifest's entry ``state``, on T*G (q, mu). The
+size of each part must agree with the fields. If two parts of equal size are exchanged, this cannot be
+detected.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ Fields = tuple[tuple[str, int], ...]
 
 @dataclass(frozen=True)
 class StateForm:
-    """The shape of each part of a state, whether the state is a tuple of parts, and whether parts are NumPy
-    arrays; parts that are no arrays are lists."""
+    """The form of a state: the shape of each part, whether the state is a tuple of parts, and whether parts
+    are NumPy arrays. Other parts are lists."""
 
     shapes: tuple[tuple[int, ...], ...]
     is_tuple: bool
@@ -118,7 +119,7 @@ def _fields_text(fields: Fields) -> str:
 
 @dataclass(frozen=True)
 class Batch:
-    """States and the functions that join results: the form of the whole batch."""
+    """The states of a batch; the methods join results of single states to a result of the batch."""
 
     states: tuple[State, ...]
 
@@ -148,7 +149,8 @@ def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
 
     try:
         tables = [np.array(part, dtype=float) for part in parts]
-    except (TypeError, ValueError):  # ragged or complex; the state is refused where it is read
+    # The array is ragged or complex; such a state is refused later, when its numbers are read.
+    except (TypeError, ValueError):
         return None
     count = len(tables[0])
     if sum(table.size for table in tables) == size or any(len(table) != count for table in tables):

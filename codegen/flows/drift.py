@@ -1,4 +1,4 @@
-"""Drifts: flows of kinetic energies on abelian groups."""
+"""Drifts: flows of kinetic energies on abelian groups, for which the momentum is constant."""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
 """The field of a Hamiltonian as the sum of the fields of its parts, if the sum needs fewer operations.
 
-The field that is computed by differentiation contains many entries of q. For a recognised part there is a
-shorter formula, which has the same values because q is an element of the group. For the symmetric top the
-shorter formula of xi is mu/I_1 + s (mu.d) d, which contains only the entries of q that form the axis d.
+The formula of the field that differentiation gives contains many entries of q. For a part with a known exact
+flow there is a shorter formula. Both have equal values, because q is an element of the group. For the
+symmetric top the shorter formula of xi is mu/I_1 + s (mu.d) d, which contains only the entries of q that form
+the axis d.
 """
 
 from __future__ import annotations
@@ -19,8 +20,8 @@ from codegen.scene.problem import TIME, Problem
 
 
 def with_field_by_parts(problem: Problem) -> Problem:
-    """Return the problem with the field by parts if this field has fewer operations, else the problem
-    itself."""
+    """Return the problem with its field written as the sum of the fields of the parts; if this takes more
+    operations, return the problem unchanged."""
     if problem.hamiltonian is None or not problem.parts:
         return problem
     if problem.stated or problem.inputs or problem.forced:

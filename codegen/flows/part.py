@@ -21,7 +21,7 @@ from orderconds.ring.protocol import Element
 Matrix = list[list[Fraction]]
 
 CONSTANTS = SeriesDomain(QQ, 0)
-"""The domain of exact rational numbers, as power series of degree zero."""
+"""The domain of exact rational numbers: power series in h of degree zero."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Summand:
 class Part:
     """A part of a Hamiltonian as the sum of summands with exact flows.
 
-    If there are no summands, no closed form is known, and ``reason`` says why.
+    If there are no summands, no closed form is known, and ``reason`` is the reason for this.
     """
 
     name: str
@@ -55,18 +55,18 @@ class Part:
 
 @dataclass(frozen=True)
 class Formula:
-    """The formula of one part, in which each kind of flow looks for a closed form."""
+    """The formula of one part, with the derivatives and values by which a kind of flow is recognised."""
 
     problem: Problem
     name: str
     root: Expr
 
     def whole(self, flow: Flow) -> Part:
-        """Return the part with one flow."""
+        """Return the part with a single exact flow."""
         return Part(self.name, (Summand(((self.name, flow),)),))
 
     def refused(self, reason: str) -> Part:
-        """Return the part without flows, with the reason."""
+        """Return the part without flows, and the reason why no closed form is known."""
         return Part(self.name, (), reason)
 
     @property
@@ -96,7 +96,7 @@ class Formula:
 
     @cached_property
     def orbit(self) -> Orbit:
-        """The points at which formulas are compared."""
+        """The sample points at which formulas are compared."""
         return orbit_of(self.problem)
 
     def constants(self, roots: Sequence[Expr], q: Vector[Element]) -> list[Fraction] | None:

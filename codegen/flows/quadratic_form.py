@@ -47,7 +47,7 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 
 
 def isotropic_part(B: Matrix) -> Fraction:
-    """Return a number a such that B - a is the sum of few squares with small coefficients.
+    """Return a number a such that B - a I is the sum of few squares with small coefficients.
 
     The number a is the double eigenvalue of a 3 x 3 matrix if there is one, else the middle entry of a
     diagonal matrix.
@@ -64,6 +64,7 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # B - a has rank one only if its 2 x 2 minors vanish; this minor determines a.
+                    # B - a I has rank one only if all its 2 x 2 minors vanish. The value a is computed from
+                    # one of these minors.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -3,8 +3,8 @@
 Each kind of flow has a function that examines the formula of a part. It returns the part with its flows, the
 part with the reason why no flow is known, or None if another kind of flow may apply. V(q) is a kick. On T*R^n
 a function of the momentum alone is a drift, and a quadratic function of both is a linear flow if the square
-of its matrix is diagonal. On other groups a quadratic function of the momentum in the body or in space is a
-sum of rotations (:mod:`codegen.flows.top`).
+of its matrix is diagonal. On other groups a quadratic function of the momentum, in the body frame or in the
+space frame, is a sum of rotations (:mod:`codegen.flows.top`).
 """
 
 from __future__ import annotations
@@ -17,8 +17,9 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """If the part depends on the time, return it without flows; return None for any other part. The functions
-    before this one accept parts that depend on time: kicks, and flows that the scene gives as formulas."""
+    """If the part depends on the time, return it without flows; return None for any other part. Kicks, and
+    flows that the scene gives as formulas, may depend on time; their functions come before this function in
+    the list."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 
@@ -30,7 +31,8 @@ KINDS: Sequence[Callable[[Formula], Part | None]] = (
     linear.recognise,
     top.recognise,
 )
-"""The kinds of flow in the order in which they examine a part; the first result other than None is used."""
+"""The functions that recognise the kinds of flow, in the order in which they are called; the first result
+other than None is used."""
 
 
 def recognise(problem: Problem) -> tuple[Part, ...]:

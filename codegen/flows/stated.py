@@ -16,7 +16,7 @@ from codegen.scene.hamiltonian_scene import TAU
 
 @dataclass(frozen=True)
 class Stated(Flow):
-    """Formulas of (q, mu) after the time tau. They were checked when the scene was read."""
+    """The formulas of a scene for (q, mu) after the time tau; they were verified when the scene was read."""
 
     formulas: tuple[Expr, ...]
 
@@ -31,7 +31,7 @@ class Stated(Flow):
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
         """Raise ArithmeticError, because the scene gives formulas for the flow and not for its field."""
-        raise ArithmeticError("a stated flow has no field of its own")
+        raise ArithmeticError("the scene gives formulas for the flow, but none for its field")
 
     def text(self) -> str:
         """Return the name of the motion."""

@@ -1,10 +1,10 @@
-"""Tops: quadratic functions of the momentum in the body or in space, split into rotations.
+"""Tops: quadratic functions of the momentum in the body frame or in the space frame, split into rotations.
 
-P is the momentum: P = Ad*_q mu in the body, P = mu in space. The split is exact: P.BP/2 = a P.P/2 + sum_k d_k
-(e_k.P)^2/2. If Ad preserves the inner product, the flow of the first term is a rotation about the momentum,
-which commutes with the flows of all other terms. The flow of each other term is a turn about a fixed axis.
-With at most one turn the flow of the part is exact, as for a symmetric top. With more turns the part is a sum
-of several summands, which do not commute, as for an asymmetric top.
+P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. The split is exact: P.BP/2 = a
+P.P/2 + sum_k d_k (e_k.P)^2/2. If Ad preserves the inner product, the flow of the first term is a rotation
+about the momentum, which commutes with the flows of all other terms. The flow of each other term is a turn
+about a fixed axis. With at most one turn, as for a symmetric top, the exact flow of the part is known. With
+more turns, as for an asymmetric top, the part is a sum of summands whose flows do not commute.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool:
-    """Return whether H - H(e, 0) is P.BP/2 + w.P."""
+    """Return True if H = H(e, 0) + P.BP/2 + w.P, where e is the identity of the group."""
     orbit, group = formula.orbit, formula.problem.group.require(Coadjoint)
     d = orbit.domain
     base = None
@@ -72,7 +72,7 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
         number = str(k + 1) if len(turns) > 1 else ""
         flows.append([(f"{formula.name}.turn{number}" if several else formula.name, turn)])
     if mean:
-        # The rotation about the momentum commutes with every turn, so it joins the first summand.
+        # The rotation about the momentum commutes with every turn, so it is added to the first summand.
         flow = (f"{formula.name}.mean" if several else formula.name, Isotropic(mean))
         flows = [[flow, *(flows[0] if flows else [])], *flows[1:]]
     return [Summand(tuple(f)) for f in flows]

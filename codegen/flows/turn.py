@@ -17,8 +17,9 @@ class Turn(Flow):
     """H = rate (e.P)^2/2 + offset e.P, where P is the momentum in the body or in space: a turn about the
     fixed axis e.
 
-    e.P is conserved, so the angle is tau (rate e.P + offset). In the body P = Ad*_q mu: the turn multiplies q
-    from the right, and mu is constant. In space P = mu: the turn acts on q and mu from the left.
+    The component e.P is conserved, so the turn has the angle tau (rate e.P + offset). In the body P = Ad*_q
+    mu: the turn multiplies q from the right, and mu is constant. In space P = mu: the turn acts on q and mu
+    from the left.
     """
 
     axis: tuple[Fraction, ...]
@@ -41,7 +42,8 @@ class Turn(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (speed e, 0) for an axis in space, else (speed Ad_q e, n), where n keeps mu constant."""
+        """Return the field (xi, n): (speed e, 0) for an axis in space, else (speed Ad_q e, n), where n is
+        such that mu is constant."""
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)
         zero: Vector[S] = (d.rational(0),) * group.dim
@@ -49,7 +51,7 @@ class Turn(Flow):
         return tuple(speed * e for e in axis), n
 
     def _axis(self, d: Domain, group: Coadjoint, q: Vector[S]) -> Vector[S]:
-        """Return the axis in space."""
+        """Return the axis in the space frame."""
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         return group.Ad(d, q, axis) if self.body else axis
 

@@ -14,7 +14,22 @@ from codegen.groups.registry import Registry
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
-    from codegen.groups.actions import Action, LeftMultiplication, Linear, Motion, Rotation
+    from codegen.groups.actions import (
+        Action,
+        AdjointAction,
+        AffineAction,
+        CoadjointAction,
+        Columns,
+        Conjugation,
+        DiagonalAction,
+        FactorwiseAction,
+        LeftMultiplication,
+        Linear,
+        Motion,
+        RightMultiplication,
+        Rotation,
+        Stiefel,
+    )
     from codegen.groups.affine import Affine
     from codegen.groups.base import LieGroup
     from codegen.groups.cotangent import Cotangent
@@ -52,8 +67,15 @@ __all__ = [
     "SU",
     "SU2",
     "Action",
+    "AdjointAction",
     "Affine",
+    "AffineAction",
+    "CoadjointAction",
+    "Columns",
+    "Conjugation",
     "Cotangent",
+    "DiagonalAction",
+    "FactorwiseAction",
     "Galilean",
     "Heisenberg",
     "LeftMultiplication",
@@ -62,10 +84,12 @@ __all__ = [
     "MatrixGroup",
     "Motion",
     "Product",
+    "RightMultiplication",
     "Rn",
     "Rotation",
     "Semidirect",
     "Sp",
+    "Stiefel",
     "Unitary",
     "Unitriangular",
     "get",
@@ -102,7 +126,22 @@ LISTED = (
 
 lazy(
     __name__,
-    actions=("Action", "LeftMultiplication", "Linear", "Motion", "Rotation"),
+    actions=(
+        "Action",
+        "AdjointAction",
+        "AffineAction",
+        "CoadjointAction",
+        "Columns",
+        "Conjugation",
+        "FactorwiseAction",
+        "DiagonalAction",
+        "LeftMultiplication",
+        "Linear",
+        "Motion",
+        "RightMultiplication",
+        "Rotation",
+        "Stiefel",
+    ),
     affine=("Affine",),
     base=("LieGroup",),
     cotangent=("Cotangent",),

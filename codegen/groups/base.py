@@ -89,6 +89,12 @@ class LieGroup(ABC):
         """Return dexp^{-1}_{(order),x} y = sum over k <= order of B_k/k! ad_x^k y."""
         return bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)
 
+    def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
+        """Return exp(t e_k) for the element e_k of the basis of the algebra; a subclass may have a shorter
+        formula."""
+        zero: S = d.rational(0)
+        return self.exp(d, tuple(t if i == k else zero for i in range(self.dim)))
+
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return exp(x) g."""
         return self.mul(d, self.exp(d, x), g)

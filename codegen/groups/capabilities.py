@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from codegen.groups.base import LieGroup
 from codegen.groups.bernoulli import bernoulli_over_factorial, bernoulli_sum, last_term
-from codegen.groups.linear_algebra import S, Vector
+from codegen.groups.linear_algebra import S, Vector, invert
 from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
@@ -186,7 +186,38 @@ class MatrixRepresentation(LieGroup):
         """Return the coordinates of x in the algebra, given its matrix: the inverse of :meth:`hat`."""
 
 
-class MatrixElements(MatrixRepresentation):
+class Inverse(LieGroup):
+    """Elements have an inverse in the coordinates of the group."""
+
+    provides: ClassVar[str] = "inverse of elements"
+
+    @abstractmethod
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return g^-1: mul(g, inverse(g)) = mul(inverse(g), g) = e."""
+
+
+class CayleyMap(LieGroup):
+    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential, as products of matrices
+    or of quaternions.
+
+    The map takes the algebra to the group only if the algebra contains x^3 for each of its elements x.
+    """
+
+    provides: ClassVar[str] = "Cayley map"
+
+    @abstractmethod
+    def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return cay(x); cay(0) = e, and the derivative of cay(eps x) at eps = 0 is x."""
+
+    @abstractmethod
+    def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return dcay^{-1}_x y = (1 - x/2) y (1 + x/2) = y - [x, y]/2 - x y x/4.
+
+        If x' = dcay^{-1}_x y, then cay(x)' = y.cay(x).
+        """
+
+
+class MatrixElements(MatrixRepresentation, Inverse):
     """Elements are n x n matrices row by row, size = n^2; the matrices act on columns of n scalars.
 
     The matrix of an element is the element itself, so velocity(x, g) = hat(x) g.
@@ -207,6 +238,10 @@ class MatrixElements(MatrixRepresentation):
     def order(self) -> int:
         """The number n of rows."""
         return isqrt(self.size)
+
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the inverse matrix."""
+        return invert(d, g, self.order)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
         """Return the symbols of the entries: ``name`` followed by the digits of row and column.

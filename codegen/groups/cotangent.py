@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from codegen.groups.base import C, LieGroup
-from codegen.groups.capabilities import Coadjoint, CotangentBundle, Projection
+from codegen.groups.capabilities import Coadjoint, CotangentBundle, Inverse, Projection
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
 
-class Cotangent(CotangentBundle, Projection):
+class Cotangent(CotangentBundle, Projection, Inverse):
     """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu); the coordinates of g come before the
     coordinates of mu.
 
@@ -77,10 +77,16 @@ class Cotangent(CotangentBundle, Projection):
         return b + tuple(x - y for x, y in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group as a group with a capability; it has a projection only if the base group has
-        one."""
+        """Return this group as a group with a capability; it has a projection, and inverses of elements,
+        only if the base group has them."""
         own = super().offers(capability)
-        return None if capability is Projection and self.base.offers(Projection) is None else own
+        return None if capability in (Projection, Inverse) and self.base.offers(capability) is None else own
+
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return (q^-1, -Ad*_q mu)."""
+        q, mu = self._split(g)
+        back = self.base.Adt(d, q, mu)
+        return self.base.require(Inverse).inverse(d, q) + tuple(-m for m in back)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the pair g = (q, mu) with q projected onto the base group."""

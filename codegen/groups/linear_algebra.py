@@ -140,6 +140,26 @@ def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
     return tuple(-(x / c) for x in m)
 
 
+def solved_near_identity(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
+    """Return x with a x = b for an n x n matrix a and a matrix b of n rows, by elimination without pivots.
+
+    The pivots are close to 1 if a is close to the unit matrix. They are positive if the symmetric part of a
+    is positive definite, for example if a is the sum of the unit matrix and a skew matrix.
+    """
+    width = len(b) // n
+    rows = [[*a[n * i : n * i + n], *b[width * i : width * i + width]] for i in range(n)]
+    for k in range(n):
+        for i in range(k + 1, n):
+            factor = rows[i][k] / rows[k][k]
+            rows[i][k:] = [x - factor * y for x, y in zip(rows[i][k:], rows[k][k:], strict=True)]
+    for k in reversed(range(n)):
+        rows[k][n:] = [x / rows[k][k] for x in rows[k][n:]]
+        for i in range(k):
+            factor = rows[i][k]
+            rows[i][n:] = [x - factor * y for x, y in zip(rows[i][n:], rows[k][n:], strict=True)]
+    return tuple(x for row in rows for x in row[n:])
+
+
 def rational_inverse(a: Sequence[Sequence[Fraction]]) -> list[list[Fraction]] | None:
     """Return the inverse of a rational matrix by Gauss-Jordan elimination; None for a singular matrix.
 

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING
 from codegen.errors import SceneError
 from codegen.groups.base import C, LieGroup
 from codegen.groups.capabilities import (
+    CayleyMap,
     Coadjoint,
     DirectProduct,
+    Inverse,
     LeftTranslation,
     Projection,
     RightTrivialisation,
@@ -24,7 +26,7 @@ if TYPE_CHECKING:
     import sympy
 
 
-class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection):
+class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, Inverse, CayleyMap):
     """G1 x G2 x ...: the coordinates of the factors follow one another, and every operation acts on each
     factor.
 
@@ -129,6 +131,18 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection):
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the projection of each factor."""
         return self._each(Projection, lambda f, a: f.project(d, a), g)
+
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the inverse of each factor."""
+        return self._each(Inverse, lambda f, a: f.inverse(d, a), g)
+
+    def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the Cayley map of each factor."""
+        return self._each(CayleyMap, lambda f, a: f.cay(d, a), x)
+
+    def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return dcay^{-1}_x y of each factor."""
+        return self._each(CayleyMap, lambda f, a, b: f.dcayinv(d, a, b), x, y)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x with v = x.g, of each factor."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from codegen.groups.capabilities import (
+    CayleyMap,
+    Inverse,
     LeftTranslation,
     MatrixRepresentation,
     Projection,
@@ -15,7 +17,7 @@ from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
 
 
-class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation, Projection):
+class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation, Projection, Inverse, CayleyMap):
     """The abelian group (R^n, +): exp is the identity map and every bracket vanishes.
 
     On R^n, RKMK, CG and CF methods are Runge-Kutta methods, and variational methods are symplectic
@@ -63,6 +65,18 @@ class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation, Projection)
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return mu."""
         return mu
+
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return -g."""
+        return tuple(-a for a in g)
+
+    def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return x: the matrix of a translation minus the unit matrix has the square zero."""
+        return x
+
+    def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return y."""
+        return y
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x."""

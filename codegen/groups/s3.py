@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.groups.capabilities import LeftTranslation, Projection, RightTrivialisation
+from codegen.groups.capabilities import CayleyMap, Inverse, LeftTranslation, Projection, RightTrivialisation
 from codegen.groups.cubic_ad import CubicAd
 from codegen.groups.linear_algebra import S, Vector, cross, dot, rescaled
 from codegen.ir.domain import Domain
@@ -12,7 +12,7 @@ from codegen.ir.normal_form import Relation
 from codegen.ir.number import Number
 
 
-class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection):
+class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, CayleyMap):
     """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
 
     The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6): [x, y] = x y - y x = 2 x
@@ -40,6 +40,22 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection):
         z = dot(x, x)
         c0, c1 = d.call("stumpff0", z), d.call("stumpff1", z)
         return (c0, *(c1 * a for a in x))
+
+    def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return (1 - |x|^2/4, x)/(1 + |x|^2/4)."""
+        quarter, one = d.rational(1, 4) * dot(x, x), d.rational(1)
+        factor = one / (one + quarter)
+        return ((one - quarter) * factor, *(factor * a for a in x))
+
+    def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return (1 - |x|^2/4) y - x cross y + (x.y) x/2."""
+        plain = d.rational(1) - d.rational(1, 4) * dot(x, x)
+        factor = d.rational(1, 2) * dot(x, y)
+        return tuple(plain * b - c + factor * a for a, b, c in zip(x, y, cross(x, y), strict=True))
+
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the conjugate quaternion."""
+        return (g[0], *(-a for a in g[1:]))
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
         """Return 4 x.x, the square of the angle of the rotation exp(x)."""

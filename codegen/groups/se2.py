@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from codegen.groups.capabilities import Coadjoint, PointMotions, Projection
+from codegen.groups.capabilities import CayleyMap, Coadjoint, Inverse, PointMotions, Projection
 from codegen.groups.linear_algebra import S, Vector, rescaled
 from codegen.ir.domain import Domain
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import sympy
 
 
-class SE2(Coadjoint, PointMotions, Projection):
+class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     """Motions z -> R z + a of the plane as (c, s, a0, a1): R rotates by the angle with cosine c and sine s.
 
     An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. With
@@ -35,6 +35,26 @@ class SE2(Coadjoint, PointMotions, Projection):
         c0, c1, c2 = (d.call(f"stumpff{k}", z) for k in range(3))
         turned = w * c2
         return (c0, w * c1, c1 * u - turned * v, c1 * v + turned * u)
+
+    def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the Cayley map of the 3 x 3 matrices of plane motions: its translation is (1 - w J/2)^-1
+        u."""
+        w, u, v = x
+        one, half = d.rational(1), d.rational(1, 2) * w
+        square = half * half
+        factor = one / (one + square)
+        translation = (factor * (u - half * v), factor * (v + half * u))
+        return ((one - square) * factor, w * factor, *translation)
+
+    def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return y - [x, y]/2 - x y x/4, where x y x = -w w' (w, u) for y = (w', u')."""
+        factor, half = d.rational(1, 4) * (x[0] * y[0]), d.rational(1, 2)
+        return tuple(b - half * c + factor * a for a, b, c in zip(x, y, self.ad(d, x, y), strict=True))
+
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the motion z -> R^T (z - a)."""
+        c, s, a, b = g
+        return (c, -s, -(c * a + s * b), s * a - c * b)
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
         """Return the product g k: the motion k, followed by the motion g."""

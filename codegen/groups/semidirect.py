@@ -11,6 +11,7 @@ from codegen.groups.capabilities import (
     ClosedFormSeries,
     Coadjoint,
     Covered,
+    Inverse,
     LeftTranslation,
     MatrixRepresentation,
     PointMotions,
@@ -37,6 +38,7 @@ class Semidirect(
     PointMotions,
     MatrixRepresentation,
     Covered,
+    Inverse,
 ):
     """G x V with (g, a)(k, b) = (g k, a + rho(g) b): a linear factor G and a vector space V on which G acts.
 
@@ -108,6 +110,12 @@ class Semidirect(
         (q, a), (r, b) = self._element(g), self._element(k)
         moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), b)
         return self.linear.mul(d, q, r) + _sum(a, moved)
+
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return (g^-1, -rho(g^-1) a)."""
+        q, a = self._element(g)
+        moved = self._each(lambda v: self.representation.inverse(d, self.linear, q, v), a)
+        return self.linear.require(Inverse).inverse(d, q) + tuple(-x for x in moved)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return (exp x, phi(x) u)."""

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from codegen.groups.capabilities import (
+    CayleyMap,
+    Inverse,
     LeftTranslation,
     MatrixRepresentation,
     PointMotions,
@@ -21,7 +23,9 @@ if TYPE_CHECKING:
     import sympy
 
 
-class SO2(LeftTranslation, RightTrivialisation, Projection, PointMotions, MatrixRepresentation):
+class SO2(
+    LeftTranslation, RightTrivialisation, Projection, PointMotions, MatrixRepresentation, Inverse, CayleyMap
+):
     """Rotations of the plane as (c, s), the cosine and the sine of the angle.
 
     An element of the algebra is the angular velocity w, and exp(w) = (c_0(w^2), w c_1(w^2)) with the Stumpff
@@ -44,6 +48,16 @@ class SO2(LeftTranslation, RightTrivialisation, Projection, PointMotions, Matrix
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return (c, -s)."""
         return (g[0], -g[1])
+
+    def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return (1 - w^2/4, w)/(1 + w^2/4)."""
+        quarter, one = d.rational(1, 4) * (x[0] * x[0]), d.rational(1)
+        factor = one / (one + quarter)
+        return ((one - quarter) * factor, x[0] * factor)
+
+    def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return (1 + w^2/4) y."""
+        return ((d.rational(1) + d.rational(1, 4) * (x[0] * x[0])) * y[0],)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return (cos w, sin w)."""

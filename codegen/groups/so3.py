@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from codegen.groups.ad_polynomial import ad_polynomial
 from codegen.groups.capabilities import (
     BodyFrame,
+    CayleyMap,
     ClosedFormSeries,
     Covered,
     DependentCoordinates,
@@ -31,6 +32,7 @@ class SO3(
     RightTrivialisation,
     Projection,
     DependentCoordinates,
+    CayleyMap,
 ):
     """Rotations of R^3: a matrix row by row; the hat map and the dot product identify so(3) and so(3)* with
     R^3.
@@ -79,6 +81,31 @@ class SO3(
             *(xy + c, one - (xx + zz), yz - a),
             *(xz - b, yz + a, one - (xx + yy)),
         )
+
+    def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return 1 + (hat(x) + hat(x)^2/2)/(1 + x.x/4): the rotation about x by the angle 2 atan(|x|/2)."""
+        quarter = d.rational(1, 4) * dot(x, x)
+        one = d.rational(1)
+        c1 = one / (one + quarter)
+        c2 = d.rational(1, 2) * c1
+        a, b, c = (c1 * t for t in x)
+        p, q, r = (c2 * t for t in x)
+        xy, xz, yz = p * x[1], p * x[2], q * x[2]
+        xx, yy, zz = p * x[0], q * x[1], r * x[2]
+        return (
+            *(one - (yy + zz), xy - c, xz + b),
+            *(xy + c, one - (xx + zz), yz - a),
+            *(xz - b, yz + a, one - (xx + yy)),
+        )
+
+    def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return y - (x cross y)/2 + (x.y) x/4."""
+        half, factor = d.rational(1, 2), d.rational(1, 4) * dot(x, y)
+        return tuple(b - half * c + factor * a for a, b, c in zip(x, y, cross(x, y), strict=True))
+
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the transpose."""
+        return tuple(g[3 * j + i] for i in range(3) for j in range(3))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return x cross y."""

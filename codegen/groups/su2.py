@@ -28,6 +28,14 @@ class SU2(S3):
         """Return (cos |x|/2, sin(|x|/2)/|x| x)."""
         return S3.exp(self, d, _half(d, x))
 
+    def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the Cayley map of the quaternion x/2."""
+        return S3.cay(self, d, _half(d, x))
+
+    def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return dcay^{-1}_x y: twice that of the quaternions x/2 and y/2."""
+        return tuple(d.rational(2) * a for a in S3.dcayinv(self, d, _half(d, x), _half(d, y)))
+
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return x cross y."""
         return cross(x, y)

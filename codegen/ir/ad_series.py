@@ -1,4 +1,4 @@
-"""Words: products of the functions dexp, dexp^{-1} and exp of the same operator ad_x.
+"""Words: products of functions of one operator ad_x, such as exp(ad_x), dexp_x and dexp_x^{-1}.
 
 The factors of a word are functions phi(s t) of one variable t. The variable t is ad_x, or ad*_x on the dual.
 The factors commute, so a word is their product in any order.
@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 
-# Factors can be compared by <, because a simplified word is sorted: equal products must become equal tuples.
+# Factors have an order <, by which simplified words are sorted, so that equal products become equal tuples.
 @dataclass(frozen=True, order=True)
 class Factor:
-    """phi(scale t)^power, where phi is exp, dexp = (e^t - 1)/t, or dexpinv: the series of 1/dexp truncated
-    after t^order."""
+    """phi(scale t)^power, where phi is exp(t), dexp(t) = (e^t - 1)/t, or dexpinv(t), the series of 1/dexp(t)
+    truncated after t^order."""
 
     function: str
     scale: Fraction
@@ -28,7 +28,7 @@ class Factor:
         return f"{'1/' if self.power < 0 else ''}{self.function}{order}({scale}t)"
 
     def scaled(self, by: Fraction) -> Factor:
-        """Return phi(by*scale*t)^power: the factor with ``by`` times t in place of t."""
+        """Return the factor with t replaced by ``by`` times t: phi(by*scale*t)^power."""
         # phi(scale*t) with t = by*t' is phi(scale*by*t'): only the scale changes.
         return Factor(self.function, self.scale * by, self.order, self.power)
 
@@ -50,11 +50,12 @@ def simplified(word: Word) -> Word:
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
     """
-    # All factors are functions of one t and commute, so only the exponent of each distinct function counts.
+    # All factors are functions of one variable t and commute, so a product is determined by the exponent of
+    # each distinct function.
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:
-        # Exponentials join by e^{at} e^{bt} = e^{(a+b)t}; no other factor has such a law.
+        # Exponentials are joined by e^{at} e^{bt} = e^{(a+b)t}; the other functions have no such law.
         if f.function == "exp":
             rate += f.scale * f.power
         else:

@@ -1,8 +1,8 @@
-"""The depth of a kernel: the length of its longest chain of rotation angles in which each angle depends on
-the previous angle.
+"""The depth of a kernel: the length of the longest chain of rotation angles in which each angle is computed
+from the previous angle.
 
-The depth limits the angle of a step, because each link of the chain multiplies rounding errors
-(:func:`codegen.snippets.stumpff.limit`).
+The largest angle that a step accepts depends on the depth, because each angle of the chain multiplies the
+rounding errors of the angle before it (:func:`codegen.snippets.stumpff.limit`).
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from codegen.ir.kernel import Kernel, Let
 def chain(kernel: Kernel) -> int:
     """Return the largest number of nested Stumpff functions, at least 1.
 
-    A kernel with equations has depth 1, because the solution is as accurate as the equations. A kernel with
-    deferred flows also has depth 1, because a flow does not multiply the angle errors of earlier flows.
+    A kernel with implicit equations has depth 1, because its solution is as accurate as the equations. A
+    kernel with deferred flows also has depth 1, because a flow does not multiply the angle errors of earlier
+    flows.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -36,8 +37,8 @@ def chain(kernel: Kernel) -> int:
     for statement in kernel.body:
         if isinstance(statement, Let):
             depths[statement.name] = _depth(statement.value, depths)
-    # Only the expressions of outputs count: a value that no output reads cannot damage the state. The depth
-    # is at least 1, because the bound on the angle is divided by the depth.
+    # Only expressions of outputs count, because other values do not affect the new state. The depth is at
+    # least 1, because the bound of the angle is divided by the depth.
     return max([1, *(_depth(x, depths) for x in kernel.outputs)])
 
 
@@ -50,7 +51,7 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
         # Inputs have depth 0, because the state is assumed to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # The signed Stumpff functions also count. The slope functions do not count, because they occur only
-        # in derivatives that also contain Stumpff functions of the same angle.
+        # Signed Stumpff functions also add 1 to the depth. Slope functions add nothing, because they occur
+        # only in derivatives that also contain Stumpff functions of the same angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -1,10 +1,10 @@
-"""Numbers of many digits as Arb balls: the fast counterpart of :class:`codegen.ir.domain.PreciseDomain`.
+"""Numbers of many digits as Arb balls: a faster replacement for :class:`codegen.ir.domain.PreciseDomain`.
 
 An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers.
 Therefore steps with 60 digits, of which a report needs thousands, are evaluated in this domain. A ball
-has an error radius. The radii are not error bounds of the result: after each operation of a step program,
-a number is replaced by the midpoint of its ball, because the radii of an iteration would grow without
-bound.
+has an error radius. In an iteration the radii would grow without bound. Therefore each result of an operation
+of a step program is replaced by the midpoint of its ball, and the radii of the final result are not error
+bounds.
 
 The working precision of balls is a global variable of python-flint. Code that uses this domain therefore runs
 inside ``with domain.precision():``.
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 BITS_PER_DIGIT = math.log2(10)
 
 GUARD = 32
-"""Bits beyond the stated number of digits."""
+"""The number of bits of the working precision beyond the requested number of digits."""
 
 
 class BallDomain:
@@ -50,7 +50,7 @@ class BallDomain:
         with self.precision():
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
-        # The same limit as for mpmath numbers.
+        # Arguments have the same limit as in :class:`codegen.ir.domain.PreciseDomain`.
         self.patience = 3 * digits
 
     def precision(self) -> precision:
@@ -146,7 +146,8 @@ class BallDomain:
     def _stumpff(self, k: int, z: arb) -> arb:
         """Return c_k(z) = sum_j (-z)^j/(2j + k)!."""
         if z > 1:
-            # Above 1 the closed forms lose at most three bits. The worst case is c_3, since 1 - sin 1 = 0.16.
+            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3, which
+            # contains sqrt z - sin sqrt z: 1 - sin 1 = 0.16.
             root = z.sqrt()
             if k == 0:
                 return root.cos()
@@ -188,12 +189,12 @@ class BallDomain:
         return total
 
     def computed(self, name: str, value: Value) -> Value:
-        """Return the midpoints of the result ``name`` of an operation."""
+        """Return the result of an operation with each number replaced by the midpoint of its ball."""
         return tuple(x.mid() for x in value) if isinstance(value, tuple) else value.mid()
 
     def settled(self, old: Sequence[arb], new: Sequence[arb], previous: Scalar) -> tuple[bool, arb]:
-        """Return whether the changes are within 2^12 units of the precision and no longer decrease, and the
-        last change."""
+        """Return two values: True if the changes are within 2^12 rounding units and no longer decrease, and
+        the size of the last change."""
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
         # Comparisons with NaN are false, so without this test the iteration would continue up to its limit.
         if not all(x.is_finite() for x in new):

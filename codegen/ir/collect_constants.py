@@ -1,9 +1,10 @@
 """Collect constants: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
 
 The rewriting is exact. Each expression becomes a linear combination of atoms: expressions that are not linear
-combinations themselves. Numbers move out of products and powers, and into numerators: 3/2 (1/sqrt x)^3
-becomes (3/2)/(x sqrt x), which shortens the chain of dependent products by two or three. Expanded sums may
-share fewer subexpressions, so the result is used only if it has fewer operations.
+combinations themselves. Numbers are taken out of products and powers, and are put into numerators: 3/2
+(1/sqrt x)^3 becomes (3/2)/(x sqrt x), which shortens the chain of dependent products by two or three. An
+expanded sum may have fewer subexpressions in common with other sums, so the result is used only if it has
+fewer operations.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
         if node.args:
             # A node in ``kept`` is an atom: its linear combination is 1 times the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # These are the numbers of the kept nodes, recorded before whole() adds other nodes to sums. Kept nodes
+    # The numbers of the kept nodes are recorded here, before whole() adds other nodes to ``sums``. Kept nodes
     # are not counted, because they cost the same in both forms.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
@@ -73,7 +74,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # Pairs of a node and an expression that reads it. The caller reads the results, so their reader is None.
+    # Pairs of a node and an expression that reads it. The caller reads the roots; it is represented by the
+    # reader None.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
@@ -220,7 +222,8 @@ def _size(c: Number) -> Number:
 
 
 def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
-    """Return a combination as an expression: terms whose coefficients differ only in sign are added first."""
+    """Return a combination as an expression. Terms whose coefficients differ only in sign are added before
+    they are multiplied."""
     # Terms are grouped by |c|, so 3/2 a - 3/2 b takes one product. Dictionaries keep the order of first use,
     # so the result depends on the input alone.
     groups: dict[object, list[tuple[bool, Expr]]] = {}
@@ -236,7 +239,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
         for minus, atom in terms[1:]:
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # A negative sign of a group's first term becomes a subtraction, so no coefficient is stored with both
-        # signs.
+        # If the first term of a group is negative, the group is subtracted, so no coefficient occurs with
+        # both signs.
         result = result - part if first else result + part
     return result

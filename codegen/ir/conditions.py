@@ -1,7 +1,8 @@
 """Conditions of Piecewise formulas: comparisons of expressions, joined by And, Or and Not.
 
-A condition selects one of two expressions by :data:`codegen.ir.selection.CHOOSE`. Emitted code therefore
-has no branches, and all comparisons are those of a difference with zero.
+A condition selects one of two expressions by :data:`codegen.ir.selection.CHOOSE`. Emitted code therefore has
+no branches for conditions. Every comparison of two expressions becomes a comparison of their difference with
+zero.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ if TYPE_CHECKING:
     import sympy
 
 Condition = Callable[[Expr, Expr], Expr]
-"""A function that returns its first argument where the condition holds, otherwise its second argument."""
+"""A condition is a function of two expressions: the result equals the first expression where the condition is
+true, and the second expression elsewhere."""
 
 EXPECTED = "comparisons of formulas (<, <=, >, >=, Eq, Ne) joined by And, Or and Not"
 
@@ -28,17 +30,17 @@ def positive(x: Expr) -> Condition:
 
 
 def negation(condition: Condition) -> Condition:
-    """Return the condition that holds where the given one does not."""
+    """Return the negation of a condition."""
     return lambda yes, no: condition(no, yes)
 
 
 def both(a: Condition, b: Condition) -> Condition:
-    """Return the condition a and b."""
+    """Return the conjunction of the conditions a and b."""
     return lambda yes, no: a(b(yes, no), no)
 
 
 def always(yes: Expr, no: Expr) -> Expr:
-    """Return the first argument: a condition that holds everywhere."""
+    """The condition that is always true: return the first expression."""
     return yes
 
 
@@ -56,7 +58,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
     if isinstance(condition, sympy.And | sympy.Or):
         joins_all = isinstance(condition, sympy.And)
         total: Condition = always
-        # The order of ``args`` depends on hashes, so the parts are sorted.
+        # The parts are sorted, because the order of ``args`` in sympy depends on hashes.
         for part in sorted(condition.args, key=sympy.default_sort_key):
             total = both(total, inner(part) if joins_all else negation(inner(part)))
         return total if joins_all else negation(total)

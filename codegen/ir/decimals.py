@@ -1,6 +1,6 @@
-"""Floats in formulas: each means the shortest decimal that prints it, so 0.1 is 1/10.
+"""Floats in formulas: a float is read as the shortest decimal that rounds to it, so 0.1 is 1/10.
 
-The binary value of a float is never used: 0.1 would be 3602879701896397/36028797018963968.
+The binary value of a float is never used, because with it 0.1 would be 3602879701896397/36028797018963968.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import sympy
 
 DIGITS_OF_BITS = 0.30103
-"""Decimal digits of one bit."""
+"""The number of decimal digits to which one bit corresponds."""
 
 
 def decimal(value: sympy.Float) -> Fraction:

@@ -44,10 +44,10 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
-    If the ids of the nodes that are not constant are given as ``moving``, the derivatives of a vector
-    function with respect to other arguments may be zero.
-    The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
-    raised for second derivatives of Stumpff functions.
+    ``moving`` may contain the ids of the nodes that are not constant. Derivatives of a vector function with
+    respect to constant arguments are then not computed, but set to zero. The derivatives of ``quotient`` are
+    valid where its divisor is not zero. :class:`NotDifferentiable` is raised for second derivatives of
+    Stumpff functions.
     """
     space, args = node.space, node.args
     match node.op:
@@ -101,7 +101,7 @@ def _derivatives(node: Expr) -> list[Expr]:
             return [node]
         case "log":
             return [space.one / x]
-        # For k = 0 the term in c_2 is absent: c_0' = -c_1/2. The rule holds for z of either sign.
+        # For k = 0 the term k c_{k+2} is zero: c_0' = -c_1/2. The rule holds for positive and negative z.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
@@ -122,22 +122,23 @@ def _derivatives(node: Expr) -> list[Expr]:
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:
-            message = f"{node.payload} is not differentiated"
+            message = f"the function {node.payload} has no rule for its derivative"
             raise NotDifferentiable(message)
 
 
 def sign(x: Expr) -> Expr:
-    """Return the sign of an expression, which is 0 at 0."""
+    """Return the sign of an expression; the sign of 0 is 0."""
     space = x.space
     return space.call(CHOOSE, x, space.one, space.call(CHOOSE, -x, -space.one, space.zero))
 
 
 def _selection(node: Expr) -> list[Expr]:
-    """Return the derivatives of an absolute value, which is 0 at 0, or of the selected formula."""
+    """Return the derivatives of an absolute value or of the selected formula; the derivative of the absolute
+    value at 0 is set to 0."""
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # An adjoint that is added to a number is never read, so it is not formed.
+    # A number needs no adjoint, so the adjoint of a branch that is a number is not formed.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

@@ -23,8 +23,7 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """The error of an iteration of the interpreter that did not converge within its limit, or computed a
-    number that is not finite."""
+    """The error for an iteration that reached its limit of sweeps or computed a number that is not finite."""
 
 
 # The type is Any, because scalars are float, mpf, series or Expr, which have the same operators but no common
@@ -71,11 +70,10 @@ class Differenced(Domain, Protocol):
 
 
 def stumpff(k: int, z: float) -> float:
-    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z of either sign.
+    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative z.
 
-    The error is a few units in the last place of the amplitude of the oscillation at z. Beyond z = 2^52 the
-    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26 there, so its number of full
-    turns takes up half of the digits.
+    The error is a few units in the last place of the amplitude of the oscillation at z. For z > 2^52 the
+    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26, so half of its digits count turns.
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
@@ -92,9 +90,9 @@ def stumpff(k: int, z: float) -> float:
         return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
-    # c_3 uses its series on a longer interval: sqrt z - sin sqrt z cancels while the angle is below about 2.
+    # sqrt z - sin sqrt z in c_3 loses digits for angles below about 2: the series is used for these angles.
     if z < (0.5 if k < 3 else 4.0):
-        # Horner's rule begins with the smallest term. If z < 4, the first omitted term is below 1e-27.
+        # Horner's rule begins with the highest power. For z < 4 the first omitted term is below 1e-27.
         total, j = 0.0, 14
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
@@ -111,7 +109,7 @@ def stumpff(k: int, z: float) -> float:
 
 
 def slope(k: int, z: float) -> float:
-    """Return c_k'(z) for k = 1, 2, 3 and z of either sign.
+    """Return c_k'(z) for k = 1, 2, 3, and positive or negative z.
 
     The series is used for abs(z) up to 1, else the closed form (c_{k-1} - k c_k)/(2 z).
 
@@ -147,8 +145,7 @@ def curvature(k: int, z: float) -> float:
 class FloatDomain:
     """IEEE double precision.
 
-    If a fixed-point iteration has not converged after ``patience`` sweeps, Newton's method solves the block
-    instead.
+    If a fixed-point iteration has not converged after ``patience`` sweeps, Newton's method replaces it.
     """
 
     patience = 40
@@ -199,8 +196,8 @@ class FloatDomain:
         # so the change itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
-        # Changes that no longer decrease are rounding errors if they are small, and a sign of divergence if
-        # they are not.
+        # Small changes that no longer decrease are rounding errors; large changes that no longer decrease are
+        # a sign of divergence.
         return change == 0.0 or 0 < before <= change <= 2.0**-44 * max(1.0, scale), change
 
     def increment(self, x: float) -> float:
@@ -232,8 +229,7 @@ class PreciseDomain:
         self.h = (
             self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
         )
-        # Newton's method replaces a fixed-point iteration in which a sweep gives less than a third of a
-        # correct digit.
+        # Newton's method replaces a fixed-point iteration after three sweeps for each digit.
         self.patience = 3 * digits
 
     def number(self, value: Number) -> Scalar:
@@ -264,7 +260,7 @@ class PreciseDomain:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
         if z > 1:
-            # Above 1 the closed forms lose at most three bits. The worst case is c_3, since 1 - sin 1 = 0.16.
+            # For z > 1 the closed forms lose at most three bits, in the term 1 - sin 1 = 0.16 of c_3(1).
             root = self.context.sqrt(z)
             sine = self.context.sin(root)
             closed = (self.context.cos(root), sine / root, 2 * (self.context.sin(root / 2) / root) ** 2)
@@ -309,12 +305,12 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether the changes are within 2^12 units of the precision and no longer decrease, and the
-        last change."""
+        """Return two values: True if the changes are within 2^12 rounding units and no longer decrease, and
+        the size of the last change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
-        # A small change is not sufficient, because the next sweep may give further correct digits. The
-        # changes must also have stopped decreasing.
+        # A small change is not sufficient, because the next sweep may give further correct digits. Therefore
+        # the changes must also have stopped decreasing.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
@@ -328,7 +324,7 @@ class SeriesDomain:
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
-        # The coefficients are exact, so a local error that is zero up to some order proves the order.
+        # The coefficients are exact: a local error without terms up to h^p proves the order p.
         self.ring = PowerSeries(base, order)
         self.h = self.ring.h
 
@@ -347,8 +343,8 @@ class SeriesDomain:
         """Return an entire function of a series without constant term, exactly; raise an ArithmeticError
         otherwise.
 
-        In a quotient by a series whose lowest power is h^v, the last v coefficients are unknown and are set
-        to zero.
+        If a divisor has the lowest power h^v, the last v coefficients of the quotient cannot be known and are
+        set to zero.
         """
         z = args[0]
         if function == "quotient":
@@ -367,7 +363,7 @@ class SeriesDomain:
         }
         # sin, cos and exp of a non-zero algebraic number are transcendental, so no base field contains them.
         if self.base.is_zero(z.coefficients[0]) is not True:
-            raise ArithmeticError(f"{function} of a series with a constant term is not exact")
+            raise ArithmeticError(f"{function} of a series with a constant term cannot be computed exactly")
         if "slope" in function:
             k = int(function[-1])
             # c_k' = (k c_{k+2} - c_{k+1})/2: the series below are valid for every k.
@@ -387,7 +383,7 @@ class SeriesDomain:
         if function in ("atan", "asin"):
             return self._arc(function, z)
         if function not in starts:
-            raise ArithmeticError(f"{function} has no exact series")
+            raise ArithmeticError(f"the function {function} has no rule for exact power series")
         k, step, first = starts[function]
         # The signs alternate in _sum. This is right for sin and cos; for exp, sinh and cosh the opposite sign
         # of the argument removes the alternation.
@@ -395,7 +391,7 @@ class SeriesDomain:
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
     def _sign(self, z: Scalar) -> int:
-        """Return the sign of a series for small h; :class:`Kink` if it vanishes at h = 0."""
+        """Return the sign of a series for small h; raise :class:`Kink` if the series is zero at h = 0."""
         start = z.coefficients[0]
         if self.base.is_zero(start) is not False:
             raise Kink("the field is not smooth at the initial state")
@@ -423,12 +419,12 @@ class SeriesDomain:
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
         """Return a/b, or 0 if b is zero; the valuation of a must be at least the valuation of b."""
-        # The quotient of two series that both vanish at h = 0 has a limit at h = 0.
+        # If both series vanish at h = 0, their quotient may have a limit at h = 0.
         power = self.ring.valuation(b)
         if power > self.order:
             return self.ring.zero
         if self.ring.valuation(a) < power:
-            raise ArithmeticError("a quotient with a pole at h = 0")
+            raise ArithmeticError("a quotient of power series has a pole at h = 0")
         # Both are divided by h^valuation, after which the divisor is a unit of the ring.
         shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
         return next(shifted) / next(shifted)
@@ -448,14 +444,14 @@ class SeriesDomain:
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether all unknowns are unchanged, and None: an exact comparison needs no size."""
+        """Return True if no unknown has changed, and None in place of the size of the change, which an exact
+        comparison does not need."""
         # Each sweep of a contraction by O(h) determines one further coefficient, so order + 1 sweeps suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
 class ExprDomain:
-    """Expressions of one space; ``h`` is a symbol. Blocks are not iterated, but become loops of the emitted
-    code."""
+    """Expressions of one space; ``h`` is a symbol. Implicit blocks become loops of the emitted code."""
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
@@ -492,4 +488,4 @@ class ExprDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise :class:`NotConverged`, because expressions have no values to compare."""
-        raise NotConverged("expressions are not iterated")
+        raise NotConverged("an iteration over expressions has no numbers to compare")

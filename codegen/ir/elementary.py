@@ -1,7 +1,8 @@
 """Elementary functions of one argument that formulas of scenes may call, besides sqrt, sin, cos, exp and log.
 
-Each function is written once in this table, with its derivatives. A Taylor series uses f(a)' = r a', where
-the rate r is a polynomial in f, the other function of a pair, or a power of a polynomial in a.
+Each function is written once in this table, with its derivatives. The Taylor series of f(a(t)) uses f(a)' = r
+a'. The rate r is a polynomial in f, or the other function of a pair such as sine and cosine, or a power of a
+polynomial in a.
 """
 
 from __future__ import annotations
@@ -20,8 +21,8 @@ class Elementary:
     """A function f of one argument x.
 
     ``slope(x, f)`` and ``curvature(x, f)`` are the first and second derivative; f is the value at x, which is
-    already computed. ``at_zero`` is f(0), None if it is not rational. ``raising`` says that Python raises an
-    exception for some real arguments, where C computes a NaN or an infinity.
+    already computed. ``at_zero`` is f(0), or None if f(0) is not rational. ``raising`` is true if Python
+    raises an exception for some real arguments for which C computes a NaN or an infinity.
     """
 
     name: str

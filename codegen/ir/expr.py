@@ -37,7 +37,7 @@ FUNCTIONS = (
     "stumpff1",
     "stumpff2",
     "stumpff3",
-    # c_k for z of either sign: cosh and sinh where z < 0
+    # c_k for positive and negative z: for z < 0 they contain cosh and sinh
     "signed_stumpff0",
     "signed_stumpff1",
     "signed_stumpff2",
@@ -52,7 +52,7 @@ FUNCTIONS = (
     "signed_slope1",
     "signed_slope2",
     "signed_slope3",
-    # a/b, and 0 where b = 0, for removable singularities with the limit 0
+    # a/b, and 0 where b = 0: used for quotients whose limit is 0 where the divisor vanishes
     "quotient",
 )
 
@@ -116,10 +116,10 @@ class Space:
     """
 
     def __init__(self) -> None:
-        # The table keeps every node in memory, so node numbers are never reused.
+        # The table refers to every node, so no node is freed and node numbers are never reused.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
-        """The derivatives of vector functions that are known."""
+        """The derivatives of vector functions that have already been computed."""
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
 
@@ -136,8 +136,8 @@ class Space:
         """Return value as a node of this space."""
         if isinstance(value, Expr):
             if value.space is not self:
-                # Node numbers of two spaces are unrelated: mixing
-                # them would intern different expressions as one.
+                # Two spaces use the same node numbers for different expressions, so a node of another space
+                # would be confused with a node of this space.
                 raise ValueError("expressions of two different spaces cannot be combined")
             return value
         return self.const(value if isinstance(value, Number) else Number.rational(value))
@@ -174,7 +174,7 @@ class Space:
             return self.sub(a, b.args[0])
         if a.op == "neg":
             return self.sub(b, a.args[0])
-        # x + x equals 2 x exactly, and the product 2 x is shared with other sums that contain it.
+        # In floating point x + x equals 2 x exactly, and the node 2 x may already exist.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
         # Floating-point addition is commutative, so a + b and b + a are one node. It is not associative, so
@@ -194,8 +194,8 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # The sign is moved to the outside, because a sum that contains the result becomes a difference at
-            # no cost: -x - b = -(x + b), where x + b may be shared.
+            # By -x - b = -(x + b) the sign is moved outside. The sum x + b may occur elsewhere, and a sum
+            # that contains -(x + b) becomes a difference at no cost.
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -238,7 +238,7 @@ class Space:
         if b.op == "const":
             # The reciprocal is exact, and a product is several times faster than a division.
             return self.mul(self.const(Number.rational(1) / b.payload), a)
-        # As in a field of rational functions, the divisor is assumed to be non-zero.
+        # Expressions are treated as rational functions, so a divisor is assumed to be non-zero.
         if a is b:
             return self.one
         if a.op == "neg":
@@ -290,12 +290,13 @@ class Space:
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return the value of a selection that is known; None if it is not known."""
+    """Return the value of a selection if it is known which formula is selected, otherwise None."""
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
         test, *values = args[0].args
-        # A comparison with 1 and -1 as results is the comparison itself.
+        # The sign of a selection between 1 and -1 is the selected number, so choosing by this sign is
+        # choosing by its argument.
         if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
             return test.space.call(CHOOSE, test, *args[1:])
     if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:
@@ -308,15 +309,15 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 def _joinable(a: Expr, b: Expr) -> bool:
     """Return True if two constants have a common ring, so that their sum and product are constants of it."""
-    # A rational number is an element of every ring. For elements of two different other rings, no common ring
-    # is known.
+    # Rational numbers are elements of every ring. Two different rings, neither of them QQ, have no known
+    # common ring.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
 
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
-    """Yield each node of the expressions once, arguments before users; skip the arguments of nodes for which
-    stop is true."""
+    """Yield each node of the expressions once, arguments before the nodes that use them. The arguments of a
+    node for which ``stop`` is true are not visited."""
     # An explicit stack is used, because the expressions of long steps are nested more deeply than Python's
     # recursion limit allows. The loop is written for speed, because a compilation visits millions of nodes.
     seen: set[Expr] = set()

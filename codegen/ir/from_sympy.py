@@ -31,14 +31,14 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""Arguments at which functions with a limited range are finite. A branch of a Piecewise formula evaluates the
-functions at these arguments where the branch is not selected."""
+"""For each function that may be infinite or undefined, an argument at which it is finite. A branch of a
+Piecewise formula is evaluated with this argument where the branch is not selected."""
 
 
 def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     """Return a sympy expression as a node of space; a :class:`SceneError` names a part that cannot be read.
 
-    Rational numbers stay exact. A float means the shortest decimal that prints it, so 0.1 is 1/10.
+    Rational numbers stay exact. A float is read as the shortest decimal that rounds to it, so 0.1 is 1/10.
     """
     import sympy
 
@@ -115,15 +115,16 @@ class _Reader:
         return self.space.const(Number.rational(*value.as_integer_ratio()))
 
     def guarded(self, x: Expr, safe: int) -> Expr:
-        """Return x, or the number ``safe`` where the branch that contains x is not selected."""
-        # Without this, a root or quotient of a branch that is not selected would be a NaN, or an exception in
-        # Python, and the product of its derivative with zero would be a NaN.
+        """Return an expression that is x where the branch that contains x is selected, and the number
+        ``safe`` elsewhere."""
+        # A branch is evaluated even where it is not selected. There a root or quotient could raise an
+        # exception in Python or be a NaN, and zero times its derivative would be a NaN.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
 
     def _selection(self, name: str, e: sympy.Basic) -> Expr:
-        """Return a formula that is a selection of formulas."""
+        """Return a formula that selects one of several formulas."""
         space = self.space
         match name:
             case "Abs":

@@ -55,7 +55,8 @@ def interpret(
     returns a new value.
     """
     if program.frame == BODY:
-        # The statements are the same in both frames; only the state that they read and return is converted.
+        # In the body frame and in the space frame the statements are executed in the same way; only the
+        # momentum that they read and return is converted.
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         end = interpret(core, problem, domain, start, **options)
@@ -110,7 +111,7 @@ def _fixed_point_first(
 
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
-    """Return Ad*_q mu, the momentum of the body."""
+    """Return Ad*_q mu, the momentum in the body frame."""
     # The result is computed by the operation Ad*_q of step programs, so this function contains no formula of
     # the group.
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
@@ -144,8 +145,8 @@ def _composed(
     """Return the new state after all substeps of the program."""
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
-        # The domain is copied, so that the caller's domain keeps its h. A shallow copy is enough, because
-        # only h differs.
+        # A substep needs a domain with another h. The domain is copied, so that the caller's domain is not
+        # changed.
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
@@ -165,7 +166,7 @@ def _iterate(
     expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
-        # Passes may remove unknowns, so an expected value is used only if its unknown still exists.
+        # Passes may have removed unknowns; the starts for removed unknowns are skipped.
         env[unknown] = expected.get(unknown, env[start])
     size: Scalar = None
     for _ in range(limit):
@@ -173,8 +174,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The test precedes the update, so that on return the body's values were computed from the returned
-        # unknowns.
+        # Convergence is tested before the unknowns are updated: the values of the body were then computed
+        # from the returned unknowns.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -219,7 +220,8 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
-    # ``sharp`` becomes true when the corrections have converged; then one further correction is computed.
+    # ``sharp`` becomes true when the corrections have converged. After that, one further correction is
+    # computed.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)
@@ -236,8 +238,8 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # It is enough that the change is below the increment of the difference quotients, which is about
-            # the square root of the rounding unit: the next correction squares the error.
+            # It is sufficient that the change is below the increment of the difference quotients, about the
+            # square root of the rounding unit, because the next correction squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:

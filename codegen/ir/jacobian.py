@@ -38,7 +38,7 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     matrix = [[space.zero] * len(symbols) for _ in roots]
     for i in range(len(roots)):
         for source, factor in graph.before[-1 - i].items():
-            # All inner vertices are eliminated, so the edges into a result come from variables.
+            # All inner vertices are now eliminated, so every edge into a result begins at a variable.
             matrix[i][columns[source]] = factor
     return tuple(tuple(row) for row in matrix)
 
@@ -59,7 +59,7 @@ class _Graph:
             # A variable has no incoming edges and is never eliminated.
             if node.id in columns:
                 continue
-            # Nodes that depend on no variable never enter the graph, because their derivatives are zero.
+            # A node that depends on no variable has zero derivatives, so it is not a vertex of the graph.
             if any(a.id in self.after for a in node.args):
                 self.inner.append(node.id)
                 self.before[node.id], self.after[node.id] = {}, {}
@@ -67,7 +67,7 @@ class _Graph:
                     self._add(arg.id, node.id, factor)
         for i, root in enumerate(roots):
             self.before[-1 - i] = {}
-            # An edge with the derivative 1 joins each root to the vertex of its result.
+            # An edge with label 1 leads from the node of each root to the vertex of the result.
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
@@ -86,7 +86,8 @@ class _Graph:
             self.before[v][u] = self.after[u][v] = total
 
     def _cost(self, v: int) -> int:
-        """Return the number of paths of two edges whose middle vertex is v."""
+        """Return the number of products that the elimination of v takes: incoming edges times outgoing
+        edges."""
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
@@ -105,8 +106,9 @@ class _Graph:
             if v in gone:
                 continue
             now = self._cost(v)
-            # Entries may be out of date. A vertex whose cost has grown is entered again. A vertex whose cost
-            # has fallen was entered again by the elimination that lowered the cost.
+            # The cost in an entry may be out of date. If the cost of the vertex has grown, the vertex is
+            # entered again. If the cost has fallen, the elimination that lowered it has already entered the
+            # vertex again.
             if now > cost:
                 heapq.heappush(queue, (now, negative))
                 continue
@@ -118,7 +120,8 @@ class _Graph:
                     heapq.heappush(queue, (self._cost(u), -u))
 
     def _take_out(self, v: int) -> list[int]:
-        # The vertex is first removed from both tables, so that the products below do not use edges to it.
+        # The vertex is first removed from both tables, so that the loop below adds no edge that begins or
+        # ends at it.
         ins, outs = self.before.pop(v), self.after.pop(v)
         for u in ins:
             del self.after[u][v]

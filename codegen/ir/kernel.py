@@ -1,10 +1,10 @@
 """Kernels: a step as scalar assignments and loops that solve equations, ready for a printer.
 
-A kernel is single assignment. A :class:`Loop` solves u = g(u) for its unknowns u. The values g(u) are called
-images. The loop repeats its body until the unknowns converge: it replaces the unknowns by their images, or
-corrects them by Newton's method. Statements after the loop may read values of the body, as computed in the
-last sweep. A :class:`Start` computes the first values of the unknowns of all loops, unless solutions of
-earlier steps are known. Apart from loops, a kernel has no branches that depend on data.
+In a kernel each name is assigned once. A :class:`Loop` solves u = g(u) for its unknowns u. The values g(u)
+are called images. The loop repeats its body until the unknowns converge: it replaces the unknowns by their
+images, or corrects them by Newton's method. Statements after the loop may read values of the body, as
+computed in the last sweep. A :class:`Start` computes the first values of the unknowns of all loops, unless
+solutions of earlier steps are known. Apart from loops, a kernel has no branches that depend on data.
 """
 
 from __future__ import annotations
@@ -18,26 +18,27 @@ from codegen.ir.number import Number
 from codegen.ir.program import Substep
 
 LEAD = "lead.h"
-"""The symbol for the duration of the last flow of a step. Its name contains a dot, so it differs from every
-name in a scene."""
+"""The symbol for the duration of the flow that ends a step and is joined with the first flow of the next
+step. Its name contains a dot, so it differs from every name in a scene."""
 
 ELAPSED = "elapsed.h"
-"""The symbol for the total duration of the steps whose flows are deferred."""
+"""The symbol for the total duration of all steps of a run, for which a deferred flow is applied once."""
 
 LONGEST = 256
-"""The largest number of steps for which a flow is deferred. The bound limits the angles of the deferred flow,
-and so their rounding errors."""
+"""The largest number of steps for which one deferred flow is applied. The limit bounds the angles of this
+flow, and so the rounding errors of the angles."""
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
 """The names of the methods that solve implicit blocks."""
 
 SLOWEST = 2.0**-12
-"""The least contraction factor of a sweep that is trusted. Rounding errors make a smaller measured factor
-unreliable, so a smaller factor is replaced by this value.
+"""The least value of the contraction factor of a sweep. Near rounding level a smaller measured factor is
+unreliable, so it is replaced by this value.
 """
 
 UNIT = 2.0**-53
-"""Half the distance from 1 to the next larger double: the largest relative rounding error."""
+"""Half the distance from 1 to the next larger double, which is the largest relative rounding error of a
+double."""
 
 LOST = 2.0**-47
 """A change below this fraction of the largest number in a block of the state is of the size of rounding
@@ -90,7 +91,8 @@ class Newton:
         Computing the inverse of an n x n matrix costs a multiple of n^3. An old inverse is less accurate, so
         a step takes more sweeps.
         """
-        # With n = len(matrix), n/2 steps share the cost of order n^3, so each step pays a cost of order n^2.
+        # With n = len(matrix), an inverse is used in about n/2 steps, so its cost of order n^3 adds a cost of
+        # order n^2 to each step.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -132,7 +134,7 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The largest change at which the measured rate of convergence may end the loop.
+        """The largest change of the unknowns at which the test of the rate of convergence may end the loop.
 
         Values of the body that are read after the loop were computed before the last change. Let L be the
         Lipschitz constant of the images. Simplified Newton contracts by (h L)^2, while the values of the body
@@ -154,9 +156,9 @@ class Start:
     If earlier solutions are known, the unknowns begin at the polynomial through the last solutions,
     extrapolated by one step. With the solutions u1, u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1
     - 3 u2 + u3 and so on. At most ``depth`` solutions are kept. The degree grows while the differences of the
-    solutions decrease. The first change of the loops is the error of the extrapolation. If it exceeds
-    ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next step. These are the
-    unknowns of all loops of the kernel, in order.
+    solutions decrease. The first change of the loops is the error of the extrapolation. If this error exceeds
+    ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next step. The unknowns of
+    all loops of the kernel are extrapolated together.
 
     If the loops do not converge, earlier solutions are dropped; then the step is halved until the loops
     converge. The solution of each step is the start of a longer step (continuation in h), until the whole
@@ -169,13 +171,15 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # A start whose error is half of the change is hardly better than u1, the extrapolation of degree 0.
+    # The extrapolation of degree 0 is u1, and its error is the change of the unknowns. A start with half of
+    # this error is hardly better.
     ROUGH: ClassVar[float] = 0.5
-    # The limit is hardly ever reached. Before the first success each try halves the step, so 100 tries reach
-    # 2^-100 h. After the first success each failure replaces the factor by its square root: nine consecutive
-    # failures end the search.
+    # This limit is hardly ever reached. Until a step converges, each try halves the step, so 100 tries reach
+    # 2^-100 h. After that, each failure replaces the factor between step sizes by its square root, and nine
+    # consecutive failures end the search.
     TRIES: ClassVar[int] = 100
-    # The largest factor is 4, and 4^(1/2^9) < 1 + 2^-8: the ninth failure in a row is the last.
+    # The largest factor is 4. After nine consecutive failures it is at most 4^(1/2^9) < 1 + 2^-8, and the
+    # search ends.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -195,8 +199,8 @@ class Deferred:
 
     A single step calls ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with
     :data:`ELAPSED` = h. A run of several steps calls ``begin`` once, the kernel once for each step, and
-    ``finish`` once. In all steps of the run but the last, LEAD = ``later`` h. ELAPSED is the length of the
-    whole run.
+    ``finish`` once. In the last step of the run LEAD = ``last`` h, in all other steps LEAD = ``later`` h.
+    ELAPSED is the duration of the whole run.
     """
 
     begin: Kernel | None
@@ -236,7 +240,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class Estimate:
-    """The new state minus an embedded solution of lower order, component by component.
+    """An error estimate: the new state minus an embedded solution of lower order, component by component.
 
     After one step from the same state, both solutions differ from the exact flow by O(h^order).
     """
@@ -258,8 +262,8 @@ class Expansion:
     With ``following`` the coefficients are computed in a loop over their order n
     (:class:`codegen.ir.taylor_loop.OrderLoop`). ``coefficients`` has then two groups of outputs: values for
     all orders, and the coefficients 1. The outputs of ``following`` are the left and the right operands of
-    ``sums`` inner sums, and the coefficients n + 1. If ``controlled`` is true, there is a run with step
-    control.
+    the inner sums, whose number is ``sums``, and the coefficients n + 1. If ``controlled`` is true, emitted
+    code has a run with step control.
     """
 
     degree: int
@@ -296,8 +300,8 @@ class Kernel:
     by a variation, and its outputs are the variation of the new state. With ``substeps`` a step repeats this
     kernel for each of its parts, and h and t are the length and the start of the part. ``outlined`` are
     functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
-    momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate`` there is a run with step
-    control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``.
+    momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted code can have a
+    run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``.
     """
 
     name: str
@@ -317,7 +321,7 @@ class Kernel:
 
     @property
     def adaptive(self) -> bool:
-        """True if there is a run that chooses its step sizes."""
+        """True if the emitted code contains a run that chooses its step sizes."""
         return self.estimate is not None or (self.expansion is not None and self.expansion.controlled)
 
     @property
@@ -351,8 +355,8 @@ class Kernel:
                 yield statement.value
                 continue
             yield from (let.value for let in statement.body)
-            # The expressions of a Start are its values. The expressions of a Loop are its starts and images,
-            # and the entries of its Newton matrix if it has one.
+            # The roots of a Start are its values. The roots of a Loop are its starts, its images, and the
+            # entries of its Newton matrix, if any.
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
@@ -372,7 +376,7 @@ class Kernel:
         """Return the ``scalars`` that an expression of the kernel or of a deferred flow reads, in order."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
-            # A parameter that only a deferred flow reads is still an argument of the step.
+            # Deferred flows are included, because their parameters are arguments of the step, too.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
             read |= set(self.expansion.coefficients.used_scalars())

@@ -58,15 +58,16 @@ class FirstOrder:
 
         :class:`NotLinearised` is raised for a root that the rules of this module cannot expand at h = 0.
         """
-        # Without roots there is no space that has the symbol h.
+        # The symbol h is taken from the space of the roots, so without roots the result is empty.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
-        # Expansions are kept between calls, because the roots of several calls may share expressions.
+        # Expansions are stored for later calls, because the roots of several calls may share expressions.
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
-        # The coefficients v_0 and v_1 remain separate until the end, when the result v_0 + v_1 h is formed.
+        # The coefficients v_0 and v_1 are computed separately; the expression v_0 + v_1 h is formed only for
+        # results.
         h, none = space.sym(STEP), (space.zero, space.zero)
         rows = []
         for root in roots:
@@ -103,7 +104,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "pow":
             result = args[0]
             for _ in range(node.payload - 1):
-                # Products are truncated one by one, so no coefficient of h^2 is formed.
+                # Every product is truncated when it is formed, so no coefficient of h^2 is computed.
                 result = _product(space, result, args[0])
             return result
         case _ if node.payload == CHOOSE:
@@ -111,7 +112,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case _ if node.payload in EXPANDED or isinstance(node.payload, PiecewisePolynomial):
             return _called(space, node.payload, args[0])
         case _:
-            raise NotLinearised(f"{node.payload} is not expanded")
+            raise NotLinearised(f"the function {node.payload} has no rule for its expansion in h")
 
 
 def _times(a: Pair, b: Pair) -> Pair:
@@ -172,14 +173,14 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         k = int(function[7:])
         # c_k is expanded at 0 only: its derivatives are rational there, and the angles vanish with h.
         if not low.is_zero:
-            raise NotLinearised("a rotation angle does not vanish at h = 0")
+            raise NotLinearised("the argument of a Stumpff function does not vanish at h = 0")
         # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so the second derivative is twice the last coefficient.
         at, first, second = (space.const(Number.rational((-1) ** j, factorial(k + 2 * j))) for j in range(3))
         second = second + second
     elif function == "sqrt":
         # The derivatives of sqrt(x) are infinite at x = 0.
         if low.is_zero:
-            raise NotLinearised("a root at its branch point")
+            raise NotLinearised("the argument of a square root vanishes at h = 0")
         at = space.call("sqrt", low)
         first = space.const(Number.rational(1, 2)) * (space.one / at)
         second = -(first * (space.const(Number.rational(1, 2)) / low))

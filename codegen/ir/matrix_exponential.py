@@ -1,12 +1,13 @@
 """The exponential of an n x n matrix, and its derivatives, in doubles, in many digits, and over power series.
 
-A derivative is computed with jets. A jet of level l is a matrix A_0 + sum of A_m e_m over the products e_m of
-the symbols e_1, ..., e_l, whose squares are zero. The exponential of A + e E is exp(A) + e L, where L is the
-derivative of exp at A in the direction E. The jet is stored as 2^l matrices, one after the other, each row by
-row. The bits of the index m of a matrix are the symbols in e_m.
+Derivatives are computed with jets. Let e_1, ..., e_l be symbols whose squares are zero. A jet of level l is a
+sum of A_m e_m, where e_m is one of the 2^l products of different symbols and A_m is a matrix. With one symbol
+e, the exponential of the jet A + e E is exp(A) + e L, where L is the derivative of exp at A in the direction
+E. The matrices A_m of a jet are stored one after the other, each row by row. Bit k of the index m is set if
+e_m contains the symbol of this bit.
 
 In doubles the algorithm is scaling and squaring (N. J. Higham, *Functions of Matrices*, SIAM 2008, ch. 10).
-The matrix is halved s times until its norm is small, a Taylor polynomial of degree 4, 8, 12 or 16 is
+The matrix is halved s times, until its norm is small. Then a Taylor polynomial of degree 4, 8, 12 or 16 is
 evaluated by the method of Paterson and Stockmeyer, and the result is squared s times. Emitted code executes
 the same operations in the same order (:mod:`codegen.run.matrix_functions`).
 """
@@ -34,7 +35,8 @@ Pairs = tuple[tuple[tuple[int, int], ...], ...]
 
 @cache
 def pairs(level: int) -> Pairs:
-    """Return, for each part of a product of two jets, the parts of the factors whose products add up to it.
+    """For each matrix of a product of two jets, return the pairs of matrices of the factors whose products
+    are added.
 
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
@@ -47,10 +49,11 @@ def pairs(level: int) -> Pairs:
 def largest_norms(bits: int) -> tuple[float, ...]:
     """Return the largest norm for each degree m: (m! 2^-(bits + 2))^(1/m), rounded to three digits.
 
-    Below it, the remainders of the polynomial and of its derivative are below a quarter of the unit roundoff.
+    For matrices of a smaller norm, the remainders of the Taylor polynomial and of its derivative are below a
+    quarter of the unit roundoff.
 
     >>> largest_norms(53)
-    (0.000161, 0.0319, 0.221, 0.628)
+    (0.000161, 0.0321, 0.221, 0.628)
     """
     return tuple(
         float(f"{math.exp((math.lgamma(m + 1) - (bits + 2) * math.log(2)) / m):.3g}") for m in DEGREES
@@ -120,7 +123,7 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
         k = 4 * group
         if group < groups - 1:
             total = product(n, level, total, b4)
-        # The largest terms are added last.
+        # The largest terms are added last, because this order causes the smallest rounding errors.
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):
@@ -129,7 +132,8 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
 
 
 def _growth(n: int, a: Sequence[float], scale: float) -> float:
-    """Return a bound of the spectral norm of exp(scale a): exp of the largest logarithmic norm.
+    """Return a bound of the spectral norm of exp(scale a): the exponential of a bound of the logarithmic
+    norm.
 
     The logarithmic norm is the largest eigenvalue of the symmetric part, which Gershgorin's circles bound. It
     is zero for a skew matrix.
@@ -148,10 +152,10 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Return total^(2^squarings); NaN if its first matrix has fewer than three correct digits.
+    """Return total^(2^squarings); NaN if the first matrix of this jet has fewer than three correct digits.
 
-    With unit roundoff u, E^2 has the error 2 |E| error(E) + n^2 u |E|^2 in the Frobenius norm. The spectral
-    norm |E| is bounded by ``growth`` and by the Frobenius norm.
+    Let u be the unit roundoff. The computed square E^2 has the error 2 |E| error(E) + n^2 u |E|^2 in the
+    Frobenius norm. The spectral norm |E| is bounded by ``growth`` and by the Frobenius norm.
     """
     size, unit = n * n, 2.0**-53
     error = (n + 8) * unit * n
@@ -172,9 +176,10 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     """
     size = max((abs(x) for x in a[: n * n]), default=0) * n
     if not size < 2**40:
-        raise OverflowError("the exponential of a matrix of this norm")
+        raise OverflowError("the norm of the matrix is too large for its exponential")
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
-    # The squarings lose at most as many digits as the exponentials of A and -A have, and one bit each.
+    # The working precision includes the digits that the squarings lose: at most the digits of the
+    # exponentials of A and -A, and one bit for each squaring.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
     scale = work.mpf(2) ** -halvings

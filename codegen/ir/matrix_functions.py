@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""The exponential of a matrix A of expressions is a polynomial if A^EXPANDED = 0 follows from the zeros of A.
+"""The exponential of a matrix A of expressions is expanded as a polynomial if the positions of the zeros in A
+imply that A^EXPANDED = 0.
 """
 
 
@@ -42,12 +43,12 @@ class MatrixExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The operations of a polynomial of degree 12 without squarings."""
+        """The number of operations for a polynomial of degree 12, without squarings."""
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the second half of the results of the next level."""
+        """Return the rates of the results: the second half of the results of the next level."""
         space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
@@ -55,12 +56,14 @@ class MatrixExponential(VectorFunction):
         return tuple(results[self.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return 1 + A + A^2/2 + ... if the zeros of A show that few terms are not zero."""
+        """Return the sum 1 + A + A^2/2 + ... if the positions of the zeros in A imply that only few terms are
+        non-zero; otherwise None."""
         pattern = power = [int(not x.is_zero) for x in args]
         if not is_nilpotent(self.n, pattern):
             return None
         count = 1
-        # The products of zeros and ones are formed first, so that no long expressions are created in vain.
+        # The powers are first computed for a pattern of zeros and ones, so that no long expressions are
+        # created in vain.
         while any(power):
             count += 1
             if count > EXPANDED:
@@ -86,7 +89,8 @@ class MatrixExponential(VectorFunction):
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the exponential of power series without constant terms."""
-        # A product of more factors than this is zero: each factor has a power of h, or is nilpotent.
+        # A product of more factors than this is zero, because each factor contains a power of h or is
+        # nilpotent.
         longest = (self.n + self.level) * (ring.order + 2)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -109,7 +113,7 @@ class MatrixInverse(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The operations of an elimination."""
+        """The number of operations of an elimination."""
         return {"add": self.n**3, "mul": self.n**3}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
@@ -145,9 +149,10 @@ class MatrixInverse(VectorFunction):
 
 
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
-    """Return whether an n x n matrix is nilpotent whatever the values of the entries that are not zero.
+    """Return True if an n x n matrix with given positions of zeros is nilpotent for all values of its other
+    entries.
 
-    This holds if the graph with an edge from i to j for each such entry has no cycle.
+    This is the case if the graph with an edge from i to j for each other entry (i, j) has no cycle.
 
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)

@@ -14,8 +14,8 @@ def inverse(
 ) -> tuple[Scalar, ...] | None:
     """Return the inverse of a matrix, row by row; None for a singular matrix.
 
-    The pivot of a column is the entry with the largest ``size``; an entry of size 0 is no pivot. Emitted code
-    executes the same operations in the same order, so that doubles agree in every bit.
+    The pivot of a column is the entry with the largest ``size``; an entry of size 0 cannot be a pivot.
+    Emitted code executes the same operations in the same order, so that doubles agree in every bit.
     """
     rows = [list(a[n * i : n * i + n]) for i in range(n)]
     order: list[int] = []

@@ -1,10 +1,10 @@
 """Normal forms: expressions as polynomials in their symbols and irrational parts, reduced by relations.
 
-Formulas that agree only where coordinates satisfy a group's laws differ as expressions. First the arguments
-of roots and the divisors of an expression are brought to normal form. Then the expression is expanded as a
-polynomial, and the leading product of each law is replaced. Many such formulas become equal in this way: |g
-y|^2 becomes |y|^2 where g^T g = 1. The result equals the given expression wherever the laws hold. It is not
-canonical, and need not be shorter.
+Two formulas may have equal values only where the coordinates satisfy the laws of a group, such as g^T g = 1.
+As expressions they differ. First the arguments of roots and the divisors of an expression are brought to
+normal form. Then the expression is expanded as a polynomial, and the leading product of each law is replaced
+by the other terms of the law. Many such formulas then become equal expressions: |g y|^2 becomes |y|^2. The
+result equals the given expression wherever the laws hold. It is not canonical, and need not be shorter.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ ONE = Number.rational(1)
 MOST_TERMS = 400
 """A polynomial with more terms than this number is not expanded further.
 
-The limit bounds the compile time. With 200 or 800 all emitted files stay the same (to verify this, edit the
-number and run ``orderconds regenerate --check``).
+The limit bounds the compile time. The limits 200 and 800 give the same emitted files (to verify this, edit
+the number and run ``orderconds regenerate --check``).
 """
 
 
@@ -44,10 +44,10 @@ class NormalForms:
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
-        # Monomials contain numbers of nodes, which sort and hash faster than nodes. This table gives the
-        # nodes.
+        # Monomials contain node numbers, because these are sorted and hashed faster than nodes. This table
+        # maps numbers to nodes.
         self.atoms: dict[int, Expr] = {}
-        # An expression that is not expanded is entered as a variable.
+        # An expression in ``whole`` is not expanded: it becomes a variable of the polynomials.
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
@@ -65,13 +65,12 @@ class NormalForms:
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
-        """Return an expression equal to root where the relations hold, or root itself if the expansion is too
-        long."""
+        """Return an expression that equals root wherever the relations hold. If the expansion is too long,
+        root itself is returned."""
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # The given expression is a valid result, too, because the caller only compares or emits the
-            # result.
+            # Returning root is correct, because the caller only compares or emits the result.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
@@ -104,8 +103,8 @@ class NormalForms:
                         # short.
                         value = self._reduced(self._times(value, args[0]))
                 case "div":
-                    # 1/d is a variable. As d is in normal form, equal divisors are equal variables, and
-                    # quotients are polynomials.
+                    # The inverse 1/d of a divisor d becomes a variable, so that quotients are polynomials.
+                    # Divisors are in normal form, so equal divisors give one variable.
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
@@ -124,8 +123,8 @@ class NormalForms:
         for monomial in terms:
             for atom, _ in monomial:
                 count[atom] = count.get(atom, 0) + 1
-        # This is Horner's rule in several variables. Among equal counts max returns the first one: the oldest
-        # node.
+        # This is Horner's rule in several variables. If two factors are equally frequent, max returns the
+        # factor with the smaller node number.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
         # A factor that occurs in only one term is not taken out, because this would save no product.
         if best < 0 or count[best] < 2:
@@ -181,11 +180,11 @@ class NormalForms:
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
         """Return a polynomial without the left side of any relation."""
         done: Polynomial = {}
-        # popitem removes the latest entry. The entries are in the order of insertion, which does not depend
-        # on hashes.
+        # ``popitem`` removes the entry that was inserted last, so the order of reduction does not depend on
+        # hashes.
         waiting = dict(polynomial)
-        # Each pass of the loop replaces one leading product. The loop ends, because the class
-        # accepts only relations whose repeated replacement ends.
+        # Each pass of the loop replaces the left side of one relation. The loop ends, because callers must
+        # pass relations whose repeated replacement ends.
         while waiting:
             monomial, c = waiting.popitem()
             powers = dict(monomial)

@@ -1,9 +1,10 @@
-"""Exact numbers of programs: a ring and an element of that ring. Only printers round them to doubles.
+"""Exact numbers in programs: each is an element of a ring. Only printers round the numbers to doubles.
 
 Tableau coefficients stay exact (rational, algebraic) or certified (balls) until they are printed. Programs
-represent them as a :class:`Number`. Two numbers are equal when their rings give equal keys. Balls alone never
-prove equality, but coefficients of a ball tableau with the same name in the file have equal keys. The
-difference of equal numbers is exactly 0 and their quotient exactly 1, and a product by 1 widens no ball.
+represent them as a :class:`Number`. Two numbers are equal when their rings give equal keys. Two overlapping
+balls do not prove that two numbers are equal. Therefore the keys of a ball tableau contain the names of
+coefficients in the tableau's file: coefficients with one name are equal. The difference of equal numbers is
+exactly 0, their quotient is exactly 1, and a product by 1 widens no ball.
 """
 
 from __future__ import annotations
@@ -43,8 +44,8 @@ class Number:
 
     @cached_property
     def key(self) -> tuple[object, ...]:
-        """The key that comparisons use: two numbers are equal if their keys are equal."""
-        # Keys make equality decidable also for balls: coefficients with the same name in a file have equal
+        """A value that identifies this number: two numbers are equal if and only if their keys are equal."""
+        # Keys make equality decidable for balls, too: coefficients with one name in a tableau file have equal
         # keys.
         return tuple(self.ring.key(self.element))
 
@@ -79,7 +80,8 @@ class Number:
         except ZeroDivisionError:
             value = None
         if value is None or not is_normal(value):
-            raise ValueError("a rational number, as 1/2 or 0.25, 0 or between 1e-307 and 1e308 in size")
+            expected = "a rational number such as 1/2 or 0.25, equal to 0 or between 1e-307 and 1e308 in size"
+            raise ValueError(expected)
         return cls.rational(*value.as_integer_ratio())
 
     @cached_property
@@ -106,19 +108,19 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # A rational number is an element of every ring. For elements of two different rings other than QQ, no
-        # common ring is known.
+        # A rational number is converted to the ring of the other number. Two numbers of different rings other
+        # than QQ have no known common ring, which is an error.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
             ring = self.ring
             return ring, self.element, ring.rational(int(other.element.p), int(other.element.q))
         names = f"{self.ring.name} and {other.ring.name}"
-        raise TypeError(f"numbers of two different fields cannot be combined: {names}")
+        raise TypeError(f"numbers of two different fields cannot be combined in one operation: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # This case comes first, because most numbers are rational, and because rational numbers need no keys,
-        # which take time to compute.
+        # Most numbers are rational, and their sum needs no keys. This case comes first, because keys take
+        # time to compute.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
         # The difference of equal balls would be a ball around 0, which no simplification recognises as zero.
@@ -160,14 +162,14 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
-        # The value is first computed to 40 digits, far more than the 17 digits of a double, so only the final
-        # rounding affects the result.
+        # The value is computed to 40 digits and then rounded to a double, which has 17. The first error is
+        # negligible.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:
         """Return the value of a rational number; raise a TypeError for any other number."""
         if not self.is_rational:
-            message = f"{self.text()} is not stored as a rational number"
+            message = f"the number {self.text()} is not stored as a rational number"
             raise TypeError(message)
         return Fraction(int(self.element.p), int(self.element.q))
 

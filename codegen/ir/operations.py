@@ -19,7 +19,7 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# These are one-tuples, so that signatures are sums: G + A is (Group, Alg).
+# Each kind is in a tuple of its own, so that signatures can be written as sums: G + A is (Group, Alg).
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -27,7 +27,8 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 
 
 class Problem(Protocol):
-    """The group, the action, and the field or Hamiltonian of a scene, evaluated over any domain."""
+    """A problem: the group, its action, and the field or Hamiltonian of a scene, all evaluated over any
+    domain."""
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
         """Return the results of an operation of the group or the scene, by the name of its function.
@@ -37,7 +38,7 @@ class Problem(Protocol):
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
-        """Return the state after the exact flow of a part for the time tau."""
+        """Return the state after the exact flow of one part of the splitting for the time tau."""
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
         """Return the product of the functions of ad_x in ``word`` applied to v; with ``dual``, ad*_x replaces
@@ -68,8 +69,8 @@ class Operation(ABC):
     """The number of exponentials or flows that the operation computes."""
 
     noun: ClassVar[str] = ""
-    """The noun for the operation in reports, with ``{s}`` for the plural; '' if the operation costs
-    nothing."""
+    """The name of the operation in reports, where ``{s}`` is replaced by the plural ending; '' if the
+    operation costs nothing."""
 
     @property
     @abstractmethod
@@ -115,7 +116,8 @@ class Zero(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
-        # The zeros are scalars of the domain: with a plain 0, sums would have another type.
+        # The components are zeros of the domain, because a plain 0 would have another type than other
+        # scalars.
         return ((domain.rational(0),) * problem.dimension(),)
 
 
@@ -135,15 +137,15 @@ class Linear(Operation):
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if there is one argument for each coefficient, at least one, and all have the kind of
         the result."""
-        # A combination has at least one argument, because its kind is the kind of its arguments. An empty sum
-        # is a Zero, which stores its kind.
+        # A combination has the kind of its arguments, so it needs at least one. An empty sum is a
+        # :class:`Zero`, which stores its kind.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 
     def applied(self, args: Sequence[str]) -> str:
         """Return the text of the operation applied to arguments."""
-        # The verifier also prints ill-formed programs, in which coefficients and arguments may differ in
-        # number.
+        # The verifier also prints ill-formed programs, which may have more coefficients than arguments, or
+        # fewer.
         terms = zip_longest([f"({c.text()})" for c in self.coefficients], args)
         return " + ".join(f"{c or '?'} {a or '?'}" for c, a in terms)
 
@@ -218,8 +220,28 @@ class Exp(OfGroup):
 
 
 @dataclass(frozen=True)
+class ElementAt(OfGroup):
+    """tau(x) for the coordinate map tau of the scene (:mod:`codegen.groups.coordinate_maps`)."""
+
+    name = "element_at"
+    exponentials = 1
+    takes, gives = A, G
+    noun = "coordinate map{s}"
+
+
+@dataclass(frozen=True)
+class InverseDifferential(OfGroup):
+    """dtau^{-1}_x y for the coordinate map tau of the scene, without truncation."""
+
+    linear_in_last = True
+    name = "inverse_differential"
+    takes, gives = A + A, A
+    noun = "inverse differential{s}"
+
+
+@dataclass(frozen=True)
 class Multiply(OfGroup):
-    """g k; the right factor acts first."""
+    """The group product g k; applied to a point, k acts first."""
 
     name = "mul"
     takes, gives = G + G, G
@@ -228,7 +250,7 @@ class Multiply(OfGroup):
 
 @dataclass(frozen=True)
 class MultiplyExp(OfGroup):
-    """g exp(x), where each row of the matrix is computed separately."""
+    """The group element g exp(x), computed row by row for a matrix g."""
 
     name = "mulexp"
     takes, gives = G + A, G
@@ -246,7 +268,7 @@ class Act(OfGroup):
 
 @dataclass(frozen=True)
 class ActExp(OfGroup):
-    """exp(x).y without forming exp(x)."""
+    """The point exp(x).y, computed without forming exp(x)."""
 
     name = "actexp"
     exponentials = 1
@@ -256,7 +278,7 @@ class ActExp(OfGroup):
 
 @dataclass(frozen=True)
 class Adjoint(OfGroup):
-    """Ad_g x, or Ad*_g mu; if ``inverse`` is true, g^-1 replaces g."""
+    """Ad_g x, or Ad*_g mu if ``dual`` is true; if ``inverse`` is true, g^-1 replaces g."""
 
     dual: bool = False
     inverse: bool = False
@@ -287,7 +309,7 @@ class Adjoint(OfGroup):
 
 @dataclass(frozen=True)
 class Bracket(OfGroup):
-    """[x, y], or ad*_x mu."""
+    """The bracket [x, y], or ad*_x mu if ``dual`` is true."""
 
     dual: bool = False
     linear_in_last = True
@@ -311,7 +333,7 @@ class Bracket(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDexp(Operation):
-    """sum over k <= order of B_k/k! ad_x^k y, or of B_k/k! (ad*_x)^k mu: the truncated dexp^{-1}."""
+    """The truncated dexp^{-1}: the sum over k <= order of B_k/k! ad_x^k y, or of B_k/k! (ad*_x)^k mu."""
 
     order: int
     dual: bool = False
@@ -325,7 +347,7 @@ class InverseDexp(Operation):
 
     @property
     def word(self) -> Word:
-        """The operation as a function of ad."""
+        """The operation, written as a function of ad_x."""
         # A pass joins this function and neighbouring functions of the same ad_x in one word.
         return (Factor("dexpinv", UNIT, self.order),)
 
@@ -379,13 +401,13 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """The operation as a function of ad."""
+        """The operation, written as a function of ad_x."""
         return (Factor("dexp", UNIT),)
 
 
 @dataclass(frozen=True)
 class AdSeries(Operation):
-    """The product of a word's functions of ad_x, or of ad*_x, applied to the last argument."""
+    """A word, which is a product of functions of ad_x or of ad*_x, applied to the last argument."""
 
     word: Word
     dual: bool = False
@@ -408,8 +430,8 @@ class AdSeries(Operation):
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if an assignment of these kinds is well-formed; the empty word is not allowed."""
-        # An empty word is the identity. The pass that simplifies a word to the empty one removes the
-        # assignment.
+        # An empty word is the identity, which needs no assignment: the pass that simplifies words removes
+        # such assignments.
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:

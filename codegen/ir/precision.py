@@ -16,7 +16,8 @@ from codegen.ir.number import Number
 from orderconds.errors import InputError, UnknownName
 
 SUBNORMAL = {24: -149, 53: -1074}
-"""The exponent of the least positive number of a format, by the bits of its significand."""
+"""The binary exponent of the least positive number of a format; the key is the number of bits of its
+significand."""
 
 
 @dataclass(frozen=True)
@@ -54,11 +55,12 @@ class Precision:
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format, rounded once; InputError if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # The condition is negated, because comparisons with a NaN are false; a NaN is thus also refused.
+        # The comparison with a NaN is false, so the negated condition refuses a NaN, too.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
-                f"the constant {text} does not fit a {self.c_type}", expected=f"at most {self.largest:.3g}"
+                f"the constant {text} is too large for the type {self.c_type}",
+                expected=f"at most {self.largest:.3g}",
             )
         return rounded
 
@@ -80,7 +82,7 @@ def _double(value: Number | Fraction | float) -> float:
     try:
         return float(value)
     except OverflowError:
-        # ``round`` then reports a constant that does not fit, with its exact value in the message.
+        # A constant that is too large is reported by ``round``, with its exact value in the message.
         return math.inf
 
 
@@ -93,9 +95,9 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
-    # Rounding to a double first would round twice, and the second rounding may decide ties wrongly.
+    # The value is not rounded to a double first, because after two roundings a tie may be decided wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The bit lengths give two candidates for the exponent; this comparison decides.
+    # The bit lengths give two candidates for the exponent; this comparison decides between these two.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
     exponent = max(exponent, SUBNORMAL[bits])

@@ -1,4 +1,4 @@
-"""Step programs: one step of a method on a scene, in Lie group terms, before any coordinates.
+"""Step programs: one step of a method on a scene, as operations of a Lie group, without coordinates.
 
 A value has one of five kinds (:class:`codegen.ir.values.Kind`). Each variable is assigned once. Equations
 that depend on one another form a :class:`Solve` block u = g(u). A block has unknowns u, a body that computes
@@ -44,13 +44,12 @@ class Assign:
     @property
     def terms(self) -> tuple[tuple[Coefficient, Var], ...]:
         """The terms of a linear combination; () for any other operation."""
-        # The result is empty for other operations, so that callers may loop over terms without testing the
-        # operation.
+        # For other operations the result is empty, so callers may loop over the terms of any assignment.
         if not isinstance(self.operation, Linear):
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # This test is for passes that move the coefficient of c x out of a linear map: L(c x) = c L(x).
+    # Passes that move the coefficient of c x out of a linear map, L(c x) = c L(x), use this test.
     @property
     def is_multiple(self) -> bool:
         """True if the operation is a combination of one term: one coefficient times one value."""
@@ -83,8 +82,8 @@ class Solve:
     starts: tuple[Var, ...]
     body: tuple[Assign, ...]
     images: tuple[Var, ...]
-    # Residuals are scaled like the unknowns, so that a stopping rule can compare them without knowing the
-    # equations.
+    # Residuals must have the scale of the unknowns, because the stopping rule compares residuals with
+    # unknowns.
     residuals: tuple[Var, ...] = ()
 
 
@@ -146,7 +145,8 @@ class Program:
         # The lines have the order of execution, and the body of a block is indented.
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  for h = ({step.fraction.text()}) h:" for step in self.substeps]
-        # The frame changes the meaning of all statements, so the text begins with the frame.
+        # In the body frame, mu in the statements means Ad*_q mu. This changes all statements, so the text
+        # states it first.
         lines += ["  with Ad*(q, mu) for mu:"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
@@ -226,7 +226,7 @@ class Builder:
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable; an empty sum is ``zero``."""
         var = self.fresh(target, kind)
-        # Terms with coefficient zero are omitted, because passes regard a stage as dependent on each argument
+        # Terms with coefficient zero are omitted, because passes assume that a stage depends on all arguments
         # of its sums.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)

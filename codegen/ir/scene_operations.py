@@ -20,7 +20,8 @@ class OfScene(OfGroup):
     @property
     def function(self) -> str:
         """The name of the function of the scene."""
-        # The operation has different signatures with and without time, so emitted code needs two names.
+        # The function has one more argument if it depends on time, so emitted code needs a second name for
+        # it.
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
@@ -31,7 +32,7 @@ class OfScene(OfGroup):
 
 @dataclass(frozen=True)
 class Field(OfScene):
-    """f(y), or f(y, t)."""
+    """The vector field f(y), or f(y, t)."""
 
     name = "field"
     evaluates_scene = True
@@ -44,7 +45,7 @@ class Field(OfScene):
 
 @dataclass(frozen=True)
 class HamiltonianDerivatives(OfScene):
-    """xi = D_2 H and n = -(D_1 H).q^-1 at (q, mu), or at (q, mu, t)."""
+    """The derivatives of the Hamiltonian, xi = D_2 H and n = -(D_1 H).q^-1, at (q, mu), or at (q, mu, t)."""
 
     name = "hamilton"
     evaluates_scene = True
@@ -84,7 +85,7 @@ class BodyForce(OfScene):
 class Legendre(OfGroup):
     """The momentum P as a function of the velocity W, both in the body frame."""
 
-    # This operation does not count as an evaluation, because it multiplies a vector by a constant matrix.
+    # This operation only multiplies a vector by a constant matrix, so it does not count as an evaluation.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -101,7 +102,8 @@ class Energy(OfGroup):
 
 @dataclass(frozen=True)
 class Differential(OfGroup):
-    """R*_y dH: its pairing with e is d/deps H(exp(eps e).y) at eps = 0."""
+    """The differential R*_y dH of the energy at y: its pairing with e is d/deps H(exp(eps e).y) at eps =
+    0."""
 
     name = "differential"
     evaluates_scene = True
@@ -111,9 +113,11 @@ class Differential(OfGroup):
 
 @dataclass(frozen=True)
 class Secant(OfGroup):
-    """The covector nearest to g whose pairing with x is H1 - H0; the arguments are g, x, H0, H1."""
+    """A discrete gradient: the covector nearest to g whose pairing with x is H1 - H0; the arguments are g, x,
+    H0, H1."""
 
-    # The formula is one operation, because it contains a quotient that is 0/0 at x = 0 and is then set to 0.
+    # The formula contains a quotient that is 0/0 at x = 0 and must be set to 0 there, so the whole formula is
+    # one operation.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"

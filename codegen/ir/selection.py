@@ -1,9 +1,9 @@
 """Functions that select one of several formulas by a comparison, in every domain.
 
-``choose(x, a, b)`` is a for x > 0 and b for x <= 0; for a NaN it is a NaN. Every comparison and every
+``choose(x, a, b)`` is a for x > 0, b for x <= 0, and NaN if x is NaN. Every comparison and every
 condition of a formula is a combination of this function. ``fabs`` is the absolute value, and a
-:class:`codegen.ir.table.PiecewisePolynomial` selects a polynomial. The formulas are not smooth where a
-selection changes; a domain of power series refuses these points.
+:class:`codegen.ir.table.PiecewisePolynomial` selects a polynomial. At points where a selection changes, the
+formulas are not smooth, and a domain of power series raises an error.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 CHOOSE, ABSOLUTE = "choose", "fabs"
 
 SELECTING = (CHOOSE, ABSOLUTE)
-"""The functions of this module, besides tables."""
+"""The functions of this module, without the tables."""
 
 
 class Kink(ArithmeticError):
@@ -26,7 +26,7 @@ class Kink(ArithmeticError):
 
 
 def selects(function: str) -> bool:
-    """Whether a function selects one of several formulas."""
+    """Return True if a function selects one of several formulas."""
     return function in SELECTING or isinstance(function, PiecewisePolynomial)
 
 
@@ -47,5 +47,5 @@ def sign_of_number(x: Scalar) -> int | None:
     """Return the sign of a real number; None for a NaN or a complex number."""
     try:
         return 1 if x > 0 else -1 if x < 0 else 0 if x == 0 else None
-    except TypeError:  # a root of a negative number in mpmath
+    except TypeError:  # in mpmath, the root of a negative number is complex
         return None

@@ -1,8 +1,9 @@
 """The selections in formulas: where a field is not smooth, and the smooth field on one side.
 
-A selection is a node of :mod:`codegen.ir.selection`. Its *side* is 1 or 0 for ``choose`` and ``fabs``
-(whether the argument is positive), and the number of an interval for a table. With the sides of all
-selections given, the formulas are smooth, and they continue beyond the region in which the sides are valid.
+A selection is a node of :mod:`codegen.ir.selection`. A *side* of a selection is one of the formulas that it
+can select. For ``choose`` and ``fabs`` the side is 1 if the argument is positive, else 0. For a table the
+side is the index of an interval. If the sides of all selections are fixed, the formulas are smooth, and can
+be evaluated beyond the region in which the selections have these sides.
 """
 
 from __future__ import annotations
@@ -26,9 +27,8 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 
 
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
-    """Return the formulas on given sides of all selections, and the margins of these sides.
-
-    The sides are valid where all margins are positive.
+    """Return the formulas for given sides of all selections, and expressions called margins. The selections
+    have these sides where all margins are positive.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -51,7 +51,7 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return the value of a selection on one side, and the margins of this side."""
+    """Return the formula of a selection for one side, and the margins of this side."""
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
         knots = function.knots
@@ -67,7 +67,7 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
 
 
 def features(roots: Sequence[Expr]) -> str:
-    """Return the selections in expressions in words; an empty text if there are none.
+    """Return a text that lists the selections in expressions; an empty text if there are none.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space()
@@ -95,7 +95,7 @@ SHOWN = 3
 
 
 def _argument(node: Expr) -> str:
-    """Return the text of an argument up to its sign, which does not matter where it vanishes."""
+    """Return the text of an argument, without a minus sign: x = 0 and -x = 0 are the same condition."""
     x = node.args[0]
     if x.op == "neg":
         (x,) = x.args

@@ -1,7 +1,8 @@
-"""Piecewise polynomials of one variable, the functions that tables of numbers define in formulas.
+"""Piecewise polynomials of one variable: a table of numbers in a formula defines such a function.
 
-A piecewise polynomial is a name of a function together with its data, so that expressions and domains treat
-it as they treat ``sin``. The name is a digest of the data: equal tables have equal names.
+A piecewise polynomial is a name of a function, such as ``sin``, to which the data are added, so that
+expressions and domains need no other node for it. The name is a digest of the data: equal tables have equal
+names.
 """
 
 from __future__ import annotations
@@ -22,10 +23,10 @@ PREFIX = "table_"
 
 
 class PiecewisePolynomial(str):
-    """The function that is sum_j rows[k][j] (x - bases[k])^j between knots[k - 1] and knots[k].
+    """A piecewise polynomial; between knots[k - 1] and knots[k] it is sum_j rows[k][j] (x - bases[k])^j.
 
-    ``knots`` increase; there is one more row than knots. A knot belongs to the interval above it. The text of
-    the object is its name in emitted code.
+    ``knots`` increase; there is one more row than knots. The value at a knot is the value of the polynomial
+    above the knot. The text of the object is its name in emitted code.
 
     >>> zero, one = Fraction(0), Fraction(1)
     >>> ramp = PiecewisePolynomial((zero,), (zero, zero), ((zero,), (zero, one)))
@@ -45,8 +46,8 @@ class PiecewisePolynomial(str):
         bases: tuple[Fraction, ...],
         rows: tuple[tuple[Fraction, ...], ...],
     ) -> PiecewisePolynomial:
-        """Return the function; rows are filled up with zeros to one length of at least two."""
-        # Two columns suffice that the value at NaN is NaN: c_0 + c_1 NaN.
+        """Return the function; all rows are extended by zeros to the same length, which is at least two."""
+        # Each row has at least two columns, so that the value at NaN is NaN: c_0 + c_1 NaN.
         width = max(2, *map(len, rows))
         rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
         content = ";".join(",".join(map(str, row)) for row in (knots, bases, *rows))
@@ -59,7 +60,7 @@ class PiecewisePolynomial(str):
 
     @property
     def degree(self) -> int:
-        """The highest power of the rows that is not zero in every row."""
+        """The degree: the highest power that has a non-zero coefficient in some row."""
         return max((j for row in self.rows for j, c in enumerate(row) if c), default=0)
 
     def derivative(self) -> PiecewisePolynomial:

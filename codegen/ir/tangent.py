@@ -43,12 +43,12 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 together[key] = function.tangent(node.args, rates)
             known[node.id] = together[key][index]
             continue
-        # Derivatives are formed only after this test, because a function without a derivative is allowed if
-        # all its arguments are constant.
+        # Derivatives are formed only after this test: a function without a derivative may occur in an
+        # expression that is constant.
         slopes = partials(node)
         total = node.space.zero
-        # All seeds belong to one direction. The chain rule therefore needs one product for each argument that
-        # is not constant, even if many symbols have a seed.
+        # All seeds together are one direction, so the chain rule takes only one product for each argument
+        # that is not constant.
         for k, rate in moving:
             total = total + slopes[k] * rate
         # Terms may cancel. A zero is not entered in the table, so that nodes that contain this node treat it

@@ -38,12 +38,13 @@ ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
 """The symbols of n, 1/n, 1/(n + 1), and of coefficient n of the time, in the code of order n."""
 
 PROBED = 3
-"""The number of orders that are computed in order to find the series that are constant in time."""
+"""The number of Taylor coefficients that are computed before the loop. A series is treated as constant in
+time if these coefficients, except coefficient 0, are all None."""
 
 
 @dataclass(frozen=True)
 class OrderLoop:
-    """The code of order 0 and of every other order n.
+    """The code that computes order 0, and the code that computes every other order n.
 
     ``first`` are the values of ``names``, which later orders read. ``start`` are the coefficients 1 of the
     coordinates, ``following`` the coefficients n + 1; they read the coefficients n, called ``coordinates``,
@@ -71,8 +72,8 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
         x = work.of(slope)
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
-    # The list grows in the loop, because an operand that no derivative contains, such as the cosine for a
-    # sine, may need further sums.
+    # The list grows in the loop: a sine in a derivative needs the series of the cosine, which needs further
+    # sums.
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
@@ -101,7 +102,8 @@ def _known(x: Expr | None) -> Expr:
 
 @dataclass
 class _Loop:
-    """Coefficient n of series; ``pairs`` are the operands of inner sums, ``first`` the values of order 0."""
+    """Computes coefficient n of each series; ``pairs`` are the operands of inner sums, ``first`` the values
+    of order 0."""
 
     recurrence: Recurrence
     space: Space
@@ -138,7 +140,8 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return a value of order 0 as a symbol of the code of order n; a number is returned unchanged."""
+        """Return the symbol for a value of order 0, by which the code of order n reads it; a number is
+        returned unchanged."""
         if x.op == "const":
             return x
         if x.id not in self.positions:

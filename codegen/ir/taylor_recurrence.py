@@ -1,7 +1,7 @@
 """Taylor coefficients of the solution of y' = F(y, t): the series of the expressions of F.
 
-Quotients, roots and products of one expression are joined to constant powers, and numeric factors are moved
-out of products, because each product of two series costs a convolution.
+Each product of two series costs a convolution. Therefore products, quotients and roots of one expression are
+written as a power of it, and numeric factors are moved out of products.
 """
 
 from __future__ import annotations
@@ -45,7 +45,8 @@ TIME = "t"
 
 @dataclass
 class _Builder:
-    """The series of expressions; ``values`` are the values of the symbols that are constant in time."""
+    """The series of all expressions of one recurrence; ``values`` are the values of the symbols that are
+    constant in time."""
 
     domain: Domain
     series: dict[str, Series]
@@ -80,8 +81,8 @@ class _Builder:
         return node.args
 
     def monomial(self, root: Expr) -> tuple[Number, Expr, Fraction]:
-        """Return (c, x, e) such that the node equals c x^e. Either e is not a positive integer, or x is the
-        node itself."""
+        """Return (c, x, e) such that the node equals c x^e, for a number c, an expression x and a rational
+        exponent e."""
         for node in walk([root], lambda n: n.id in self.monomials):
             if node.id not in self.monomials:
                 self.monomials[node.id] = self._monomial(node)

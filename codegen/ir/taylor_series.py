@@ -262,7 +262,7 @@ class Circular(Series):
 
 
 class Angle(Series):
-    """The angle of the point (x, y), from r = x^2 + y^2 and angle' = (x/r) y' - (y/r) x'."""
+    """The angle of the point (x, y), computed by angle' = (x/r) y' - (y/r) x' with r = x^2 + y^2."""
 
     def __init__(self, domain: Domain, y: Series, x: Series) -> None:
         super().__init__(domain)
@@ -280,7 +280,7 @@ class Angle(Series):
 
 
 class Chosen(Series):
-    """The series of a or b, chosen by the sign of another series at the beginning of the step."""
+    """The series of a or of b: the sign of another series at the beginning of the step decides which."""
 
     def __init__(self, domain: Domain, test: Series, a: Series, b: Series) -> None:
         super().__init__(domain)
@@ -296,7 +296,7 @@ class Chosen(Series):
 
 
 class Start(Series):
-    """The constant f(a_0), for a function f of the value of a at the beginning of the step."""
+    """The constant series f(a_0), where a_0 is the value of a at the beginning of the step."""
 
     def __init__(self, domain: Domain, a: Series, function: Callable[[Scalar], Scalar]) -> None:
         super().__init__(domain)

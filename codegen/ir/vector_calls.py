@@ -63,7 +63,7 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
 
 def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
     """Return the derivative of the result with this index with respect to one argument."""
-    # All results of a call share their derivatives.
+    # The derivatives of all results of a call are computed together.
     key = function.name, tuple(a.id for a in node.args), argument
     known = node.space.derivatives
     if key not in known:

@@ -38,7 +38,7 @@ class VectorFunction(ABC):
     @property
     @abstractmethod
     def operations(self) -> dict[str, int]:
-        """The typical number of additions and multiplications of a call."""
+        """A typical number of additions and multiplications in a call."""
 
     @abstractmethod
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
@@ -51,7 +51,7 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return the results without a call; None if they would be long."""
+        """Return the results as expressions without a call; None if these expressions would be long."""
 
     @abstractmethod
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:

@@ -19,13 +19,14 @@ from codegen.kernel.equations import WEIGHT, Block
 INLINE = 10
 """Largest number of operations in one assignment: longer expressions get names for their parts.
 
-The number changes the text, but not the operations. For vcg:triple_jump on heavy_top 5, 10 and 20 give 265,
-199 and 187 assignments: ``len(list(compile_method("heavy_top", "vcg:triple_jump").kernel.lets()))``."""
+The limit changes the text, but not the operations. For vcg:triple_jump on heavy_top, the limits 5, 10 and 20
+give 265, 199 and 187 assignments, counted by ``len(list(compile_method("heavy_top",
+"vcg:triple_jump").kernel.lets()))``."""
 
 
 @dataclass
 class Assignments:
-    """Orders expressions into assignments and loops; names shared and long expressions."""
+    """Converts expressions into ordered assignments and loops; shared and long expressions get names."""
 
     blocks: Sequence[Block]
     roots: Sequence[Expr]
@@ -48,8 +49,8 @@ class Assignments:
             # If the kernel remembers solutions, one statement before all loops starts all of them.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # The matrix to leading order in h comes before the body, because it is computed outside the
-            # sweeps and must not read body values.
+            # The matrix to leading order in h comes before the body. It is computed once, before the sweeps,
+            # so it must not read body values.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             # Skip corrected values that nothing reads later: they would cost assignments in every sweep.
@@ -58,10 +59,10 @@ class Assignments:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # An exact matrix comes after the body, because it depends on the unknowns and reads body values.
+            # An exact matrix depends on the unknowns and reads body values, so it comes after the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # After the body, Newton's method corrects the unknowns once more. The values of the body belong
-            # to the unknowns before this correction.
+            # In the last sweep, Newton's method corrects the unknowns after the body. The body values of this
+            # sweep were computed from the unknowns before the correction.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -82,7 +83,7 @@ class Assignments:
     def _prepare(self) -> None:
         """Find for each node the number of its uses, and the last block whose unknowns it depends on."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
-        # The entries of the matrix count as readers: a body value that a matrix shares gets a name.
+        # Entries of Newton's matrix count as readers, so a body value that a matrix reads gets a name.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
@@ -91,7 +92,8 @@ class Assignments:
         self.size: dict[int, int] = {}
         for root in roots:
             self.uses[root.id] = self.uses.get(root.id, 0) + 1
-        # Arguments come before users, so the levels of all arguments are known.
+        # The nodes are in an order in which arguments come before users, so the levels of all arguments are
+        # known.
         for node in walk(roots):
             for arg in node.args:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
@@ -103,16 +105,16 @@ class Assignments:
 
     def _start(self) -> Start:
         """Return the statement that sets all starting values; assign shared subexpressions before it."""
-        # The start is skipped if earlier solutions are known, so no other statement may read names defined in
-        # it.
+        # The start is skipped if solutions of earlier steps are known, so no other statement may read a name
+        # that the start defines.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
-        # All loops start together, before the first of them runs.
+        # The starting values of all loops are computed together, before the first loop.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a block starts from the unknowns of another")
         for node in walk(values):
-            # The value is shared with the rest of the step, so it is assigned before the start: every step
-            # computes it there.
+            # Later statements of the step read this value, too. The start can be skipped, so the value is
+            # assigned before it.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
@@ -134,11 +136,10 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if computing all later values that depend on block k costs less than half a sweep of
-        block k."""
+        """Return True if the values of block k that are read after the loop should be computed again."""
         rest = [*self._later(k), *self.roots]
-        # Recomputed values belong to the corrected unknowns. They replace an additional sweep, at less than
-        # half of its cost.
+        # Values computed again use the final unknowns, as after one more sweep. This is done if it costs less
+        # than half of a sweep.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
@@ -148,9 +149,8 @@ class Assignments:
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
     def _forget(self, k: int) -> None:
-        """Forget the names of body values of block k: later statements compute them again."""
-        # After the entry of a value is deleted, ``_place`` computes the value again, from the corrected
-        # unknowns.
+        """Delete the names of body values of block k, so that later statements compute these values again."""
+        # If a value has no entry, ``_place`` computes it again, from the corrected unknowns.
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
             if self.level[node.id] == k and node.args:
@@ -158,11 +158,13 @@ class Assignments:
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
         """Return ``root`` with every named subexpression replaced by its symbol; append new assignments."""
-        # The traversal is iterative, because expressions are deeper than Python's recursion limit.
+        # The traversal uses no recursion, because expressions may be nested more deeply than Python's
+        # recursion limit allows.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:
                 continue
-            # Loop-invariant code motion: only nodes that depend on the unknowns of this loop stay inside.
+            # Loop-invariant code motion: only nodes that depend on the unknowns of this loop are computed
+            # inside the loop.
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
             # The node is built without simplification, so that its value is rounded like the shared

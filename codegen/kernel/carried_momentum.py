@@ -1,16 +1,15 @@
 """The frame of the momentum, space or body, in a kernel and in the run that calls the kernel.
 
-A program computes in one of the two frames, and emitted code takes and returns momenta in one of them. If the
-program computes in the body and the emitted code uses space, a run transforms the momentum once at its
-beginning and once at its end (:class:`codegen.ir.kernel.Carried`). A ``whole`` kernel transforms the momentum
-in each step instead.
+The program computes with the momentum in one of the two frames; the arguments and results of emitted code
+contain the momentum in one of the two frames. If the program uses the body frame and the emitted code the
+space frame, a run transforms the momentum once at its beginning and once at its end
+(:class:`codegen.ir.kernel.Carried`). A ``whole`` kernel transforms the momentum in each step instead.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from codegen.groups.actions import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
 from codegen.ir.interpret import inward, outward
@@ -33,7 +32,7 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """True if the step program and the emitted code represent momenta in the same frame."""
-        # If both use space, or both the body, the momentum needs no transformation.
+        # If both use the same frame, the momentum needs no transformation.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
@@ -48,14 +47,15 @@ class Frames:
             return state
         q, mu = state[: self._size], state[self._size :]
         if self.scene.body_group is not None:
-            # The state contains the momentum of the body, and the program computes in space: apply
+            # The state contains the momentum in the body frame, the program uses the space frame: apply
             # Ad*_{q^-1}.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
         # If the kernel is not ``whole``, the run has transformed the momentum before the first step.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Return the kernel's new state, computed from the program's; ``start`` is ``begin`` of ``state``."""
+        """Return the kernel's new state, computed from the new state of the program; ``start`` is the
+        program's initial state, which ``begin`` computed from ``state``."""
         # The second state belongs to the embedded solution; it is empty for a method without an embedded
         # solution.
         if self._alike or not new:
@@ -75,7 +75,7 @@ class Frames:
         group, symbols = self.scene.body_group, self.scene.symbols
         if group is None:
             return tuple(Field(b.name, b.symbols, _meaning(b.kind, self.scene)) for b in self.scene.state)
-        meaning = f"left-trivialised momentum, that of the body, in the dual algebra of {group.name}"
+        meaning = f"left-trivialised momentum (body frame) in the dual algebra of {group.name}"
         return (
             Field("q", symbols[: group.size], f"element of {group.name}{group.layout}"),
             Field("mu", symbols[group.size :], meaning),
@@ -85,7 +85,8 @@ class Frames:
         """Return how a run transforms the momentum at its beginning and end; None if a run does not transform
         it.
         """
-        # A run transforms nothing if the state contains momenta of the body, or if each step transforms them.
+        # A run transforms nothing if the state contains momenta in the body frame, or if each step transforms
+        # the momenta.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)
@@ -100,6 +101,6 @@ def _meaning(kind: Kind, scene: Problem) -> str:
     group, action = scene.group, scene.action
     if kind is Kind.DUAL:
         return f"right-trivialised momentum in the dual algebra of {group.name}"
-    if kind is Kind.POINT and not isinstance(action, LeftMultiplication):
+    if kind is Kind.POINT and not action.on_itself:
         return f"point that {group.name} acts on by {action.name}"
     return f"element of {group.name}{group.layout}"

@@ -1,11 +1,11 @@
 """Shorten the critical path after each function call.
 
-A processor executes several products at a time, but a step of flows is one chain of dependent operations. The
-chain leads from an angle through its sine and cosine, the rotated attitude and the kicked momentum to the
-next angle. The values c of the sine and the cosine are known late in this chain. An expression that is linear
-in such values, k (m - g (d + c_1 v + c_2 w)), is rewritten as k (m - g d) - c_1 (k g v) - c_2 (k g w). Three
-operations then follow c instead of six. The rewriting is exact, but adds a few products, so only the longest
-chain is rewritten.
+A processor executes several products at a time, but a step that consists of flows is one chain of dependent
+operations: an angle, its sine and cosine c_1 and c_2, the rotated attitude, the new momentum, the next angle.
+The sine and cosine take long to compute. An expression that is linear in them, such as k (m - g (d + c_1 v +
+c_2 w)), is rewritten as k (m - g d) - c_1 (k g v) - c_2 (k g w). The products in parentheses can be computed
+before c_1 and c_2 are known. Then only three operations, not six, must wait for c_1 and c_2. The rewriting is
+exact, but adds a few products, so only the longest chain is rewritten.
 """
 
 from __future__ import annotations
@@ -19,24 +19,26 @@ from codegen.ir.kernel import Kernel, Let
 TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1, "div": 4, "call": 6}
 """Latency of operations, in units of an addition.
 
-On x86 processors additions and products of doubles take about four cycles, a division about 14. A function
-has the latency of its polynomial. ``benchmarks/emitted.py`` times the resulting steps. The values
-matter little: with a division of 2 or 8, none of five explicit methods of the gallery changes. With a call of
-3 or 12, only splitting:blanes_moan_rkn4 on fast_heavy_top changes, and keeps its number of operations."""
+On x86 processors an addition or a product of doubles takes about four cycles, a division about 14. The
+latency of a function is the latency of the polynomial that approximates it. ``benchmarks/emitted.py`` times
+the resulting steps. The exact values matter little. If the latency of a division is set to 2 or 8, the code
+of five explicit methods of the gallery does not change. If the latency of a call is set to 3 or 12, only
+splitting:blanes_moan_rkn4 on fast_heavy_top changes, with the same number of operations."""
 
 ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""Besides the longest chain, chains are rewritten that are shorter by at most this number of additions.
+"""Chains are rewritten if they are shorter than the longest chain by at most this number of additions.
 
-A chain of nearly the longest length would otherwise become the critical path. The value hardly
-matters: with 0, 2 or 4 all emitted files stay the same; without a limit the splittings of fast_heavy_top
-change. To repeat this, edit the value and type ``orderconds regenerate --check``.
+A chain of nearly the longest length would otherwise become the critical path. The exact value hardly matters:
+the values 0, 2 and 4 give the same emitted files; without a limit the splittings of fast_heavy_top change. To
+repeat this comparison, edit the value and run ``orderconds regenerate --check``.
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products: for each late value, a sign, the fixed factors, and the other factors.
+"""A sum of products with late values: for each late value, its sign, its fixed factors, and its other
+factors.
 
 The key None belongs to the product without a late value."""
 
@@ -53,17 +55,17 @@ def chain(kernel: Kernel) -> int:
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     """Return assignments sorted by the time at which they are ready, in units of the latency of a function.
 
-    A processor looks some hundred instructions ahead, so operations that can run in parallel with the longest
-    chain must be near it in the text. A finer order would separate operations that read the same values and
-    would need more registers than there are.
+    A processor reorders only the next few hundred instructions, so operations that can run in parallel with
+    the longest chain must be near it in the code. Sorting by the exact times would separate operations that
+    read the same values, and these values would not fit into the registers.
     """
     ready: dict[int, int] = {}
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
         ready[let.value.space.sym(let.name).id] = times[-1]
-    # Equal times keep the old order. No value is ready before the values that it reads, so definitions stay
-    # before uses.
+    # The sort keeps the old order of equal times. No value is ready before the values that it reads, so each
+    # name is still defined before it is used.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
@@ -88,7 +90,8 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
 
 @dataclass
 class _Chains:
-    """Expressions, with the time at which each value is ready and the longest chain that follows it."""
+    """Expressions, with two times for each node: when its value is ready, and how long the longest chain
+    after it takes."""
 
     roots: tuple[Expr, ...]
     invariant: frozenset[str]
@@ -102,7 +105,8 @@ class _Chains:
     sums: dict[tuple[int, int, int], Sum] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # Arguments come before users: a forward pass finds the times, a backward pass the chains that follow.
+        # The nodes are ordered, arguments before users. A forward pass computes when each node is ready, a
+        # backward pass the longest chain after each node.
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
@@ -115,8 +119,8 @@ class _Chains:
         self.longest = max(self.ready[r.id] for r in self.roots)
 
     def _measure(self, node: Expr) -> None:
-        # The level is the number of slow operations in sequence; in a sum the values of the highest level are
-        # late.
+        # The level of a node is the largest number of slow operations in one chain up to the node. In a sum,
+        # the values of the highest level are the late ones.
         self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
         self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
         # A value is fixed if it is constant in a run: a compiler moves products of such values out of the
@@ -159,7 +163,7 @@ class _Chains:
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # A node that is not linear in the late values ends the linear expression.
+                # A node that is not linear in the late values is not expanded further.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
@@ -196,7 +200,7 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # The node is not linear in other late values, so it is a late value itself.
+        # The node is not linear in earlier late values, so it is treated as a late value itself.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
@@ -238,7 +242,7 @@ class _Chains:
         return node
 
     def _known(self, node: Expr) -> Expr:
-        """Measure a new node and its new arguments, and return it."""
+        """Compute the times of a new node and of its new arguments, and return the node."""
         if node.id in self.ready:
             return node
         for part in walk([node], lambda n: n.id in self.ready):

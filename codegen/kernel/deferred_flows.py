@@ -1,8 +1,9 @@
 """Flows deferred across steps: the leading flow of a step, and flows that commute with all other flows.
 
-If a step of a splitting ends with the flow that the next step begins with, these two flows are joined. The
-leading flow is then applied once before the first step. A part that commutes with every other part is applied
-once for all steps. Both changes are exact; :class:`codegen.ir.kernel.Deferred` states the identities.
+If a step of a splitting method ends with the flow of a part, and the next step begins with a flow of the same
+part, these two flows are joined into one. Only the first step of a run then needs a separate leading flow. If
+the flow of a part commutes with all other flows, it is applied once for all steps. Both changes are exact;
+:class:`codegen.ir.kernel.Deferred` states the identities.
 """
 
 from __future__ import annotations
@@ -26,9 +27,10 @@ from codegen.scene.problem import Problem
 class Parted:
     """A program split into three; ``begin`` or ``finish`` is None if it would contain no flows.
 
-    ``core`` reads the duration :data:`LEAD`, ``finish`` the duration :data:`ELAPSED`. ``last`` is the
-    duration, in units of h, of the flow that ends the last step of a run. ``later`` is the duration of the
-    flow that joins two steps.
+    ``begin`` is applied before the first step, ``core`` in each step and ``finish`` after the last step.
+    ``core`` reads a variable :data:`LEAD`, the duration of its joined flow, and ``finish`` a variable
+    :data:`ELAPSED`, the time of all steps. In units of h, ``last`` is the duration of the joined flow in the
+    last step of a run, and ``later`` its duration in every other step.
     """
 
     begin: Program | None
@@ -43,23 +45,22 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
-    # Whether flows commute is tested at sample points, because the formula of a bracket that is zero need not
-    # simplify to zero.
+    # The flows are compared numerically at sample points. The formula of a vanishing Lie bracket need not
+    # simplify to zero, so a symbolic test could fail.
     commute = commuting(scene)
-    # A flow with another duration than h, or with a stage time, cannot be moved, because its result depends
-    # on its place in the step.
+    # Only flows of duration h without a stage time are applied once for all steps.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
-    # A free part commutes with all other parts, so removing the free part does not change the order of the
-    # other parts.
+    # The flow of a free part commutes with all other flows, so it can be removed from the step and applied
+    # later.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # If all flows of a step were free, no flow would remain for the core of the step.
+    # If all flows of a step are free, no flow remains for the core, so the program is not split.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # All joined flows have the same pair of durations, because ``_joined`` returns only flows with the same
+    # The durations of the first joined flow hold for all of them: ``_joined`` returns only flows with equal
     # durations.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
@@ -67,7 +68,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
     # The free flows of all steps are joined: exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
-    # The new programs are verified like the result of a pass.
+    # The new programs are checked by ``verify``, as every program that a pass returns.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -87,9 +88,8 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 
 def _is_h(letter: Letter) -> bool:
-    """Return True if a flow has duration h, as each part of a consistent splitting does, proved or not."""
-    # The comparison rounds the duration to a double. A ball around one cannot prove that the duration is one,
-    # but the ball is rounded to one.
+    """Return True if the duration of a flow is h, up to the rounding of its coefficient to a double."""
+    # A coefficient known only as a ball around 1 cannot be proven to be 1, but it is rounded to 1.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
@@ -97,16 +97,17 @@ Timed = tuple[Letter, Var | None]
 """A flow, and the variable that replaces its duration; None if the flow keeps its duration in the program."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""The index of a first flow, the index of a last flow, the duration of the last flow, and the duration of
-both flows joined.
+"""Two flows that are joined across steps: the index of the leading flow, the index of the final flow, the
+duration of the final flow, and the sum of both durations.
 """
 
 
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return the flows at the end of a step that join a flow of the same part in the next step."""
-    # The end of a step is the beginning of the next step: flows at the times t + h and t can be joined.
+    """Return the pairs of a leading and a final flow of one part that are joined across steps."""
+    # The time t + h of a step is the time t of the next step, so a flow at t + h can be joined with a flow at
+    # t.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
     pairs: list[JoinedFlows] = []
@@ -117,14 +118,15 @@ def _joined(
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    # All deferred flows share one leading duration, so only pairs with the same durations are kept.
+    # All joined flows share the one variable for their duration, so only pairs with the durations of the
+    # first pair are kept.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
-    """Return the largest n such that the first n letters have different parts that commute pairwise."""
+    """Return the largest n such that the first n flows belong to different parts and commute pairwise."""
     n = 0
-    # The first n flows commute, so each of them can be moved to the very beginning of the step.
+    # Because these n flows commute, each of them can be moved to the beginning of the step.
     while n < len(letters) and all(
         x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
     ):
@@ -138,7 +140,8 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
-    """Return the program of some flows; a flow with a variable lasts for the value of the variable."""
+    """Return the program of some flows; if a variable is given with a flow, the variable is the flow's
+    duration."""
     # All stage times are copied; the kernel assigns only those that its outputs read.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]

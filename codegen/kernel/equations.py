@@ -2,8 +2,8 @@
 
 The image of an unknown u is the right-hand side g(u) of its equation u = g(u). Newton's matrix 1 - g' is
 differentiated from the expressions of the images. After the loop, later statements read the unknowns in place
-of the images. Other values that are read later are recomputed from the unknowns if this costs less than half
-a sweep.
+of the images. Other values of the body that are read later are computed again from the final unknowns if this
+costs less than half a sweep.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ from codegen.kernel import newton
 from codegen.passes.rewrite import uses
 
 MANY = 12
-"""Above this number of unknowns, step-constant subexpressions of Newton's matrix are not expanded.
+"""Above this number of unknowns, subexpressions of Newton's matrix that are constant during a step are not
+expanded.
 
 With few unknowns, unexpanded values occupy registers that the sweeps need. With many unknowns, expanded
 values make the text longer. Near the limit the choice matters little: vcf:cf4 on dipole, with 12 unknowns,
@@ -31,7 +32,8 @@ has the same operations in both forms, and 439 assignments without expansion or 
 evaluate ``len(list(compile_method("dipole", "vcf:cf4").kernel.lets()))``."""
 
 LONGEST_MATRIX = 1500
-"""The most operations of an exact matrix of Newton's method; a longer one is replaced by the first order.
+"""The largest number of operations of an exact matrix of Newton's method; a longer matrix is replaced by the
+matrix to first order in h.
 
 Ordinary matrices are far below this safeguard: the matrix of vcg:triple_jump on heavy_top has 555 operations,
 as its emitted header states. A limit of 6000 gives the same kernels."""
@@ -68,9 +70,9 @@ def compared(
     """Return the block with residuals in place of images, and with a first-order matrix of Newton's method.
 
     The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
-    has no residuals or they have no such derivative. A body value that is read later is corrected: its
-    first-order derivative times the last change of the unknowns is added, if that takes less than half of the
-    operations of the value.
+    has no residuals or they have no such derivative. The last change of the unknowns also changes body values
+    that are read later. The change is added to such a value to first order, if the correction takes less than
+    half of the operations of the value.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -84,7 +86,8 @@ def compared(
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
         rows = linear.jacobian(residuals)
-    # A residual may have a pole or branch point at h = 0: the caller then uses the exact matrix.
+    # A residual may have a pole or branch point at h = 0. None is returned, and the caller uses the exact
+    # matrix.
     except NotLinearised:
         return None
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
@@ -108,7 +111,8 @@ def compared(
         if 2 * _operations(moved) < _operations(env[var]):
             kept += [(s.payload, x) for s, x in zip(symbols, env[var], strict=True)]
             env[var] = tuple(moved)
-    # Newton's step for r(u) = 0 is -r'^{-1} r; the matrix includes the sign, so the loop adds the change.
+    # Newton's method for r(u) = 0 changes u by -r'^{-1} r. The matrix is -r', so the loop adds the solution
+    # of a linear system with right-hand side r.
     matrix = tuple(tuple(-normal(x) for x in row) for row in rows)
     inverted = len(matrix) <= newton.SMALL
     return replace(
@@ -122,20 +126,22 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return the sums outside a block: among the values of all variables except ``inside``."""
+    """Return the expressions that are sums, among the values of all variables except the variables ``inside``
+    a block."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
     """Return the variables that a program reads after a block."""
-    # Variables that later statements or the outputs read are read after this block.
+    # A variable is read after the block if a later statement or an output of the program reads it.
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 
 
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
-    """Return the values that depend neither on unknowns nor on h: they are constant in an expansion in h."""
+    """Return the values that depend neither on unknowns nor on h, and so are constant in an expansion in
+    h."""
     # A value that contains neither h nor an unknown is its own expansion in h.
     moving = {*unknowns, "h"}
     depends: dict[int, bool] = {}
@@ -164,14 +170,14 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Return the number of operations of a matrix that do not also occur in the images."""
+    """Return the number of operations of a matrix, without the operations that the images contain, too."""
     # The images are computed anyway, so subexpressions that the matrix shares with the images cost nothing.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 
 
 class Solved:
-    """Replaces the images of a solved block by its unknowns, to which they are then equal."""
+    """Replaces the images of a solved block by its unknowns; at the solution u = g(u) both are equal."""
 
     def __init__(self, block: Block) -> None:
         self.space: Space = block.images[0].space
@@ -182,7 +188,7 @@ class Solved:
                 self.known[image.id] = self.space.sym(name)
 
     def value(self, value: Any) -> Any:
-        """Return the value of a variable with images replaced by unknowns."""
+        """Return the value of a variable, with each image replaced by the unknown that equals it."""
         return tuple(map(self._one, value)) if isinstance(value, tuple) else self._one(value)
 
     def _one(self, root: Expr) -> Expr:

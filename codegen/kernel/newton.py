@@ -19,8 +19,8 @@ from codegen.ir.jacobian import jacobian
 SMALL = 3
 """Up to this size the inverse of a matrix is expanded by cofactors.
 
-A 3 x 3 inverse has 9 cofactors of 3 operations each. A 4 x 4 inverse would have 16 of 14 operations, more
-than elimination takes."""
+A 3 x 3 inverse has 9 cofactors of 3 operations each. A 4 x 4 inverse would have 16 cofactors of 14 operations
+each, more operations than Gaussian elimination."""
 
 Rows = tuple[tuple[Expr, ...], ...]
 
@@ -60,10 +60,10 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
 
 class _AtZero(ExprDomain):
-    """Expressions in which calls of functions at zero are constants."""
+    """Expressions in which a function call with argument zero is replaced by its value, a constant."""
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return a constant if the argument is zero, otherwise a call."""
+        """Return the call of a function: a constant if the argument is zero, otherwise a call node."""
         # The closed forms of Stumpff functions are 0/0 at zero: use the first coefficients of their series.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]
@@ -78,7 +78,7 @@ def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     # The roots are evaluated at h = 0, because a mere substitution would not simplify expressions that become
     # constant.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
-    # The names are sorted, so that node numbers do not depend on hashes.
+    # The names are sorted, so that the numbers of new nodes do not depend on the order of a set.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
     return evaluate(roots, _AtZero(space), values)
 
@@ -88,8 +88,8 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # Cofactors need no pivots, and therefore no branches that depend on data. An inaccurate inverse only
-    # slows the iteration down.
+    # Cofactors need no pivoting, and so no branches that depend on data. Without pivoting the inverse may be
+    # less accurate, which slows the iteration down but does not change its limit.
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor
@@ -102,7 +102,8 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     n, space = len(rows), rows[0][0].space
     if n == 1:
         return space.one
-    # For n = 3, cyclic indices include the sign of a cofactor; for n = 2 the sign is explicit.
+    # For n = 3, cyclic row and column indices give each cofactor the right sign; for n = 2 the sign is set
+    # explicitly.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

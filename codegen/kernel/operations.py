@@ -18,10 +18,10 @@ from codegen.kernel.schedule import (
 )
 
 STEP = "step"
-"""The key under which operations outside loops are counted."""
+"""The key of the operations of each step outside loops."""
 
 START = "start"
-"""The key under which starting values are counted."""
+"""The key of the additional operations of a first step, which computes starting values."""
 
 
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
@@ -31,8 +31,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     Further keys count one sweep of each block, and the entries of the block's Newton matrix without the
     inversion. Changes of sign, comparisons, extrapolation and the stopping rule are not counted.
     """
-    # The operations of an outlined function count at each call, so that totals can be compared with steps
-    # without outlined functions.
+    # The operations of an outlined function are counted at each call, because steps with and without outlined
+    # functions must be comparable.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -46,8 +46,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
-                    # The product of a stored inverse and the residual takes n^2 products and n (n - 1)
-                    # additions.
+                    # The inverse of the matrix is stored; multiplying it by the residual takes n^2 products
+                    # and n (n - 1) additions.
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
                     total[matrix_of(label)] = count(statement.newton, statement.matrix)
                 total[label] = sweep
@@ -91,7 +91,7 @@ def matrix_of(label: str) -> str:
 
 
 def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
-    """Format counts as text: a line for the step, and a line for the sweep of each block.
+    """Format operation counts as text: one line for the step, and one line for a sweep of each block.
 
     >>> sentences({"step": {"add": 2, "stumpff_12": 1}, "stage 1": {"mul": 3}})
     ['2 add, 1 stumpff_12 a step', '3 mul a sweep of stage 1']
@@ -116,9 +116,9 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # mu + (after - before): two additions for each component.
+        # Only the increment is transformed: mu + (after - before) takes two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # A run transforms the momentum forth and back at its beginning, and back once more at its end.
+        # At its beginning a run computes m and outward(q, m), at its end outward(q', m') (see class Carried).
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} where a run begins, {last} where it ends")
@@ -153,7 +153,7 @@ def _counted(
 
 
 def _operations_in_text(root: Expr) -> dict[str, int]:
-    """Count the operations in the text of one expression, where a shared node is repeated for each reader."""
+    """Count the operations in the text of one expression; the text repeats a shared node for each reader."""
     counts: dict[int, dict[str, int]] = {}
     for node in walk([root]):
         match node.op:

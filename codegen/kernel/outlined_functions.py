@@ -1,4 +1,5 @@
-"""Outlined functions: calls of one function replace a tree of operations that a step repeats.
+"""Outlined functions: a tree of operations that a step repeats becomes one function, which the step calls
+several times.
 
 The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. An input
 or coefficient that is the same constant in every call is no argument. A function computes only those results
@@ -28,7 +29,7 @@ class _Inputs:
         self.symbols: list[Expr] = []
 
     def take(self, words: Sequence[str]) -> Values:
-        """Return the next inputs, named after the function and these words."""
+        """Return the next inputs of the function; their names are the function's name and these words."""
         first = len(self.symbols)
         # A constant argument is replaced by its value, so that the value can be combined with other
         # constants.
@@ -38,7 +39,8 @@ class _Inputs:
 
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Format the coefficient of a term: its symbol, or its value."""
-        # The header shows the name of the argument without the name of its function.
+        # The header of emitted code shows the name of the argument without the prefix, which is the
+        # function's name.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
@@ -54,14 +56,14 @@ def function(
     """Return the function for a tree, and its arguments: positions of inputs of the tree, then parameters.
 
     The parameters are the scene's parameters that operations of the tree read at run time. ``read`` are the
-    indices of the results that the function computes. ``fixed`` has, for each input
+    indices of the results that the function computes. ``fixed`` contains, for each input
     (:meth:`codegen.kernel.repeated_trees.Trees.inputs`), the constant that is the same in every call, or
     None.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The tree is executed again with symbols as inputs, because the expressions of the step are already
-    # simplified for their operands.
+    # The tree is executed again with symbols as inputs, because the step's own expressions were simplified
+    # for particular operands and are not general.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -70,7 +72,7 @@ def function(
         values.append(own[0] if v.kind is Kind.REAL else own)
     coefficients = [c for i in tree.members for c in distinct(trees.executions[i].assign)]
     numbers = inputs.take([f"c{k + 1}" for k in range(len(coefficients))])
-    # h is an argument only if a coefficient has a power of h.
+    # h is an argument only if a coefficient of a sum contains a power of h.
     (step,) = inputs.take(["h"]) if any(c.power for c in coefficients) else (domain.h,)
     results: list[Value] = []
     texts: list[str] = []
@@ -96,10 +98,10 @@ def function(
             results += own
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
-    # The last results are the results of the root. Only they are read outside the tree.
+    # The last assignment of the tree is its root. Only the results of the root are read outside the tree.
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
     outputs = tuple(ends[k] for k in read)
-    # An argument that only unused results read is dropped.
+    # An argument is dropped if only results that the function does not return depend on it.
     taken = inputs.read(outputs)
     own_inputs = [inputs.symbols[p].payload for p in taken]
     parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
@@ -116,7 +118,7 @@ def _words(kinds: Sequence[Kind]) -> list[str]:
 
 
 def calls(kernel: Kernel) -> dict[str, int]:
-    """Return the number of places where a kernel calls each of its functions, in order."""
+    """For each function of a kernel, return the number of its calls, in the order of the functions."""
     places = {function.name: dict[tuple[int, ...], None]() for function in kernel.outlined}
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
@@ -128,7 +130,7 @@ def calls(kernel: Kernel) -> dict[str, int]:
 
 
 class WithFunctions:
-    """A domain in which a kernel's functions can be called."""
+    """A domain that can also evaluate calls of a kernel's outlined functions."""
 
     def __init__(self, domain: Value, functions: Sequence[Function]) -> None:
         self.domain, self.functions = domain, {function.name: function for function in functions}
@@ -144,7 +146,7 @@ class WithFunctions:
         function = self.functions[name]
         values = dict(zip(function.inputs, args, strict=True))
         for let in function.body:
-            # The body of a function is evaluated in the same domain, because a function may call other
+            # The body of a function is evaluated in this domain, too, because it may call other outlined
             # functions.
             (values[let.name],) = evaluate([let.value], self, values)
         (value,) = evaluate([function.outputs[int(k)]], self, values)
@@ -155,7 +157,7 @@ def _sum(
     coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
 ) -> Values:
     """Return a sum with symbols for its coefficients; terms with equal coefficients are added first."""
-    # c x + c y = c (x + y): one product fewer for each component.
+    # By c x + c y = c (x + y), terms with one coefficient need one product fewer for each component.
     groups: dict[Coefficient, Values] = {}
     for c, x in zip(coefficients, args, strict=True):
         groups[c] = tuple(a + b for a, b in zip(groups[c], x, strict=True)) if c in groups else x

@@ -1,11 +1,11 @@
 """Outlining: computations that a step repeats become one function with several calls.
 
 Operations of a program are joined into trees (:mod:`codegen.kernel.repeated_trees`). Trees of one shape
-differ only in their operands and in the coefficients of their sums. Both become arguments of one function
-(:mod:`codegen.kernel.outlined_functions`). The function computes only the results that are read, and has only
-the arguments on which these results depend. Separate calls cannot share common subexpressions, such as the
-sine and cosine of one angle, and compute them again. Smaller code is worth this cost only for long steps, so
-only long steps are outlined.
+differ only in their operands and in the coefficients of their sums. Operands and coefficients become the
+arguments of one function (:mod:`codegen.kernel.outlined_functions`). The function computes only the results
+that are read, and has only the arguments on which these results depend. Separate calls cannot share common
+subexpressions, such as the sine and cosine of one angle, and compute them again. Smaller code is worth this
+cost only for long steps, so only long steps are outlined.
 
 The rewriting is exact. To verify it, the old and the new expressions are evaluated at one point.
 """
@@ -27,15 +27,17 @@ from codegen.kernel.repeated_trees import Key, Tree, Trees
 from codegen.scene.problem import Problem
 
 LONG, LONG_EXPLICIT = 700, 500
-"""Steps with fewer assignments are not outlined; the limits are for implicit steps and for explicit steps.
+"""Two limits, for implicit and for explicit steps: a step with fewer assignments than its limit is not
+outlined.
 
 An explicit step has no loop, so its code fills the instruction cache sooner: with outlining cg:cg5 on the
 dipole has 545 lines, not 2345, and takes a third less time. If either limit is doubled, the kernels of nine
-methods of the gallery do not change. To choose the numbers again, set both to 0 and compare ``orderconds
-bench dipole`` for methods near these lengths."""
+methods of the gallery do not change. To choose the limits again, set both to 0 and run ``orderconds bench
+dipole`` for methods whose steps have lengths near the limits."""
 
 WORTH = 0.85
-"""The outlined step is used if it has at most this fraction of the assignments.
+"""The outlined step is used if its number of assignments is at most this fraction of the number without
+outlining.
 
 Calls cost time, too, so the step must become much shorter. The exact limit hardly matters: the fraction is
 between 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4``
@@ -46,13 +48,15 @@ AGREE = 1e-9
 """Largest relative difference of values that are equal up to rounding.
 
 Outlining hardly changes the operations, so the difference is at most 1.4e-17 for the methods named at
-:data:`WORTH`. A wrong argument or result changes the leading digits. Any limit far from both is suitable."""
+:data:`WORTH`. A wrong argument or result would change the leading digits. Any limit well between these two
+sizes is suitable."""
 
 ATTEMPTS, DIGITS = 8, 60
-"""The number of points for the verification in doubles, and in DIGITS digits if doubles overflow."""
+"""The number of points that the verification tries in doubles, and then, if doubles overflow, in numbers of
+DIGITS digits."""
 
 Shape = tuple[Key, tuple[int, ...]]
-"""The key of the trees of one function, and the results that are read."""
+"""A function is identified by the key of its trees and by the indices of the results that are read."""
 
 
 @dataclass
@@ -72,8 +76,8 @@ class Outline:
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
-        # The levels are computed first, because a call must come before, or be in, the loop to which its
-        # operands belong.
+        # The level of a value is the last block on which the value depends. The levels are computed first,
+        # because the loop of a call is chosen by the levels of its operands and results.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -81,11 +85,12 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # Calls are counted in the rewritten roots, because simplification may remove some of the calls
-            # that were chosen.
+            # Calls are counted in the rewritten expressions, because simplification may have removed some of
+            # the chosen calls.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
-                # All results of a call share their arguments; counting result 0 counts each call once.
+                # Each result of a call is a node of its own. Only nodes of result 0 are counted, so that each
+                # call counts once.
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
             # If simplification leaves a function with a single call, the function is dropped in the next
@@ -152,7 +157,8 @@ class Outline:
             trees = [trees[t] for t in sorted(left)]
 
     def _read(self, roots: Sequence[Expr], trees: Sequence[Tree]) -> dict[int, set[int]]:
-        """Return, for each tree, the indices of the results that are read if all trees are called."""
+        """For each tree, return the indices of the results that are still read after all trees are replaced
+        by calls."""
         ends: dict[int, tuple[int, int]] = {}
         for t, tree in enumerate(trees):
             for k, x in enumerate(self.trees.results(tree)):
@@ -173,7 +179,7 @@ class Outline:
                     t, k = ends[node.id]
                     read.setdefault(t, set()).add(k)
                 seen.add(node.id)
-            # The call of a tree reads the tree's operands, which may be results of other trees.
+            # A call reads the operands of its tree, and these may be results of other trees.
             fresh = sorted(set(read) - entered)
             entered |= set(fresh)
             waiting = [x for t in fresh for x in self.trees.inputs(trees[t])]
@@ -183,11 +189,12 @@ class Outline:
         """Return True if all results of a tree that are read depend on the same blocks as the inputs of the
         tree.
 
-        The results must also be newer than the inputs: an older node is the result of another operation.
+        The results must also have been created after the inputs: a node that is older than an input is shared
+        with another operation.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # A result that depends on fewer blocks than the inputs would wait, inside a loop, for values it does
-        # not need.
+        # A result that depends on fewer blocks than the inputs should be computed outside the loop, but the
+        # call is inside.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
         # Later nodes have larger numbers, so a node with a smaller number than an input was not computed from
         # this input.
@@ -196,12 +203,13 @@ class Outline:
 
     def _verify(self, before: Sequence[Expr], after: Sequence[Expr]) -> None:
         """Raise :class:`codegen.ir.verify.IllFormed` if the calls give different values."""
-        # Sorted names and fixed sines give the same point in every run.
+        # The values are sines of fixed arguments and the names are sorted, so every verification uses the
+        # same points.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
-            # If evaluation fails at one point, by the root of a negative number or by overflow, nothing is
-            # proved. Each further attempt therefore has a shorter step.
+            # If the evaluation at a point fails, for example by the root of a negative number, this point
+            # proves nothing. Further points have smaller step sizes, at which a failure is less likely.
             values |= {x: 0.5**attempt for x in names if x == "h"}
             domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
             if attempt > ATTEMPTS:
@@ -217,9 +225,9 @@ class Outline:
                 continue
             scale = max(1.0, *map(abs, old))
             if not all(abs(a - b) <= AGREE * scale for a, b in zip(old, new, strict=True)):
-                raise IllFormed(f"outlining changed the meaning of {self.program.name}")
+                raise IllFormed(f"outlining changed the results of {self.program.name}")
             return
         raise MethodError(
-            f"the step of {self.program.name} is finite at no point that was tried",
+            f"the step of {self.program.name} gave infinite or undefined numbers at every test point",
             expected="coefficients and parameters of moderate size",
         )

@@ -1,8 +1,9 @@
 """Repeated trees: groups of assignments that occur several times, for one outlined function each.
 
-A value with a single reader can be computed together with that reader. The pair of operations that saves most
-lines is joined first. Trees with the same key apply the same operations to other operands, with other
-coefficients in the sums.
+A value that only one operation reads can be computed in one function with this operation: the two form a
+tree. Pairs of trees that occur often are joined to larger trees, first the pairs that save most lines. Trees
+with equal keys have the same operations, but may have different operands and different coefficients in their
+sums.
 """
 
 from __future__ import annotations
@@ -19,21 +20,20 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are not outlined, because they cost next to nothing, or because they are flows, which are
-scheduled together.
+"""Operations that are never outlined: operations of almost no cost, and flows, which are scheduled together.
 """
 
 NODES = 3
 """The average number of operations on a line of emitted code, over the gallery.
 
-It converts operations to lines. With 2 or 5 in place of 3, all emitted files stay the same (to repeat this,
-edit the value and type ``orderconds regenerate --check``). Among longer steps, cg:cg5 on dipole has 6611,
-6155 and 6467 operations with 2, 3 and 5, and 471, 454 and 394 assignments."""
+It converts operations to lines. The values 2, 3 and 5 give the same emitted files (to repeat this comparison,
+edit the value and run ``orderconds regenerate --check``). They matter for longer steps: on dipole, cg:cg5 has
+6611, 6155 and 6467 operations and 471, 454 and 394 assignments for the values 2, 3 and 5."""
 
 Values = tuple[Expr, ...]
 
 Key = Hashable
-"""A value that is equal for trees of one shape."""
+"""A description of a tree: trees that can be calls of one function have equal keys."""
 
 PairKey = tuple[Key, Key, Key]
 """The keys of two trees, and the key of the tree that results from joining them."""
@@ -57,7 +57,8 @@ class Execution:
 
 @dataclass
 class Tree:
-    """Assignments computed together, in order; the last depends on the results of the others."""
+    """Assignments that are computed together, in order; the last assignment depends on the results of all
+    others."""
 
     members: list[int]
 
@@ -90,8 +91,8 @@ class Trees:
     ) -> None:
         """Record an assignment in the block with number ``place``; -1 means outside blocks.
 
-        ``joined`` is false if the results do not come from the operation alone or depend on more than the
-        operation's arguments. Such an assignment is not joined with others.
+        ``joined`` is false if the results were not computed by the operation alone, or depend on more than
+        its arguments. Such an assignment is not joined with others.
         """
         assign, args = self._from_the_whole(assign, args)
         self.executions.append(
@@ -105,11 +106,12 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """Return a multiple c (d v) as (c d) v, which does not read the inner multiple d v."""
+        """Return a multiple c (d v) as (c d) v, so that it does not read the value d v."""
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Stage sums build h xi/2 from h xi; as a second reader of h xi they would prevent joining h xi.
+        # Stages compute h xi/2 from h xi. Then h xi would have two readers, and could not be joined with
+        # either.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -118,14 +120,15 @@ class Trees:
         return assign, args
 
     def joined(self) -> list[Tree]:
-        """Return the assignments, joined into trees as long as that saves lines."""
+        """Return the assignments as trees; trees are joined as long as joining saves lines."""
         self._find_users()
         # Each assignment starts as a tree of its own; ``owner`` maps each member to its tree.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
         while True:
             pairs: dict[PairKey, list[tuple[int, int]]] = {}
-            # The keys are computed once per round, because each key requires a walk through a whole tree.
+            # The keys are computed once per round and stored, because computing a key takes a walk through
+            # the whole tree.
             keys = {i: self.key(t) for i, t in trees.items()}
             count: dict[Key, int] = {}
             for key in keys.values():
@@ -136,7 +139,8 @@ class Trees:
                 # the function.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # The key of the joined tree is included: equal parts may be connected in different ways.
+                    # A kind of pair includes the key of the joined tree, because two equal trees may be
+                    # connected in different ways.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
             # The choice is greedy: the kind of pair that saves the most lines is joined first, wherever it
@@ -166,14 +170,14 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # If a shape also occurs elsewhere, its own function remains, and the joined function repeats its
-        # lines.
+        # If a tree of the pair also occurs outside such pairs, its own function remains, and the joined
+        # function repeats the lines of this function.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # After joining, each place contains one call less, which saves about three lines of text.
+        # Joining replaces two calls by one at each occurrence, which saves about three lines of text.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
-        """Estimate the number of lines of the operation that ends a tree."""
+        """Estimate the number of lines of the last operation of a tree."""
         # The estimate depends on the name of the operation only, because the number of lines hardly depends
         # on the operands, and walking through the operands is slow.
         name = self.executions[i].assign.operation.name
@@ -247,25 +251,27 @@ class Trees:
     def useful(self, tree: Tree) -> bool:
         """Return True if a tree has enough operations to be worth a call."""
         results = self.results(tree)
-        # Operations are counted between operands and results, because the caller computes the operands.
+        # Only operations between the operands and the results are counted, because the caller computes the
+        # operands.
         stop = {x.id for x in self.inputs(tree)}
         nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
         # A call with its arguments takes about four lines, so a shorter function would save nothing.
         return nodes > 4 * NODES
 
     def results(self, tree: Tree) -> Values:
-        """Return the numbers that a tree computes."""
+        """Return the scalar results of a tree."""
         return tuple(x for value in self.executions[tree.root].results for x in value)
 
     def inputs(self, tree: Tree) -> list[Expr]:
-        """Return all input numbers of a tree: values of variables, then coefficients of its sums."""
+        """Return all scalar inputs of a tree: first the components of its input variables, then the
+        coefficients of its sums."""
         given, _ = self.wiring(tree)
         values: dict[Var, Values] = {}
         for i in tree.members:
             execution = self.executions[i]
             values |= {v: x for v, x in zip(execution.assign.args, execution.args, strict=True) if v in given}
         flat = [x for v in given for x in values[v]]
-        # The coefficients have the order of :func:`distinct`, in which the function expects them.
+        # The coefficients are in the order of :func:`distinct`, as the parameters of the function are.
         scales = [c for i in tree.members for c in distinct(self.executions[i].assign)]
         flat += [self.domain.number(c.value) for c in scales]
         return [*flat, self.domain.h] if any(c.power for c in scales) else flat
@@ -280,7 +286,8 @@ class Trees:
 
 
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
-    """Return equal numbers for equal coefficients, 0 for a coefficient of one, each with its power of h."""
+    """For each coefficient of a sum, return a number and the power of h: equal coefficients have equal
+    numbers, and the coefficient one has the number 0."""
     seen: dict[Coefficient, int] = {}
     # A coefficient of one changes the shape, because it needs no product. Terms with equal coefficients are
     # added before one product, so equality is part of the shape.

@@ -1,4 +1,5 @@
-"""Printable statements of a kernel: Stumpff functions of one argument share a call, powers become products.
+"""Printable statements of a kernel: one call computes all Stumpff functions of an argument, and powers become
+products.
 
 There are five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
 results), :class:`Invocation` (a call of an outlined function), :class:`Beginning` and :class:`Iteration`.
@@ -97,10 +98,11 @@ class Beginning:
 
 @dataclass(frozen=True)
 class Iteration:
-    """A loop (see :class:`codegen.ir.kernel.Loop`); ``kept`` are body names read after it.
+    """A loop (see :class:`codegen.ir.kernel.Loop`); ``kept`` are the names of the body that later statements
+    read.
 
-    ``matrix`` is Newton's matrix, by rows, and ``newton`` the statements that only the matrix needs. Both are
-    empty without Newton's method.
+    ``matrix`` contains the rows of Newton's matrix, and ``newton`` the statements that only the matrix needs.
+    Both are empty if the loop does not use Newton's method.
     """
 
     loop: Loop
@@ -131,7 +133,7 @@ class Arrangement:
         called = {s.function for s in self._simple() if isinstance(s, SharedCall)}
         outlined = {function.name for function, _ in self.outlined}
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
-        # Outlined functions are part of the kernel; the target needs no snippet for them.
+        # Outlined functions are defined in the kernel itself, so the target needs no snippet for them.
         called |= {name for name in names if name.partition(".")[0] not in outlined}
         for _, inner in self.outlined:
             called |= set(inner.functions())
@@ -164,7 +166,8 @@ class Arrangement:
 
 def arrange(kernel: Kernel) -> Arrangement:
     """Return the printable statements of a kernel, in the kernel's order and with the same roundings."""
-    # The step and all its loops share one counter of names, because a target may have a single scope.
+    # The step and all its loops share one counter of names, because in some target languages a loop has no
+    # scope of its own.
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
     )
@@ -183,7 +186,7 @@ def arrange(kernel: Kernel) -> Arrangement:
             body, values = scope.nested(statement.body, statement.values)
             statements.append(Beginning(statement, body, values))
             continue
-        # Starts are computed before the loop, in the scope around it.
+        # Starting values are computed before the loop, in the scope that contains the loop.
         starts = tuple(scope.rewrite(e) for e in statement.starts)
         statements += scope.take()
         # Body values that are read after the loop need variables outside of the loop.
@@ -192,7 +195,8 @@ def arrange(kernel: Kernel) -> Arrangement:
         statements.append(_iteration(statement, loops, starts, scope, later))
     rewritten = tuple(scope.rewrite(e) for e in ends)
     statements += scope.take()
-    # Outputs and errors are rewritten as one list in one scope; the list is split below.
+    # Outputs and error estimates are rewritten as one list, so that they share calls; the list is split
+    # below.
     states = len(kernel.outputs)
     repeated = max(1, len(kernel.substeps))
     # A function shares calls of library functions only between its own statements, and never with its
@@ -241,7 +245,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 def _taken(kernel: Kernel) -> dict[str, int]:
     """Return the counter of fresh names; its keys are all names of the kernel."""
-    # Every name of the kernel counts as used, so that fresh names differ from all names of the kernel.
+    # All names of the kernel are in the counter, so that no fresh name is equal to one of them.
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -252,7 +256,8 @@ def _taken(kernel: Kernel) -> dict[str, int]:
 
 def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
     after = kernel.body[position + 1 :]
-    # The later statements form a kernel, whose expressions are exactly the expressions that are read later.
+    # The later statements are put into a kernel, because ``Kernel.expressions`` returns all expressions that
+    # it reads.
     rest = Kernel(kernel.name, (), (), after, kernel.outputs, estimate=kernel.estimate)
     return frozenset(n.payload for n in walk(rest.expressions()) if n.op == "sym")
 
@@ -273,33 +278,35 @@ class _Scope:
     def nested(
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
-        """Return the statements and values of a nested block; statements after the block cannot read them."""
-        # The scope is separate, because these statements may be skipped at run time: no later statement may
-        # use their names.
+        """Return the rewritten assignments and values of a nested block; later statements cannot read their
+        names."""
+        # The block has its own scope: it may be skipped at run time, so no later statement may use a name
+        # from it.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
         return (*body, *inner.take()), rewritten
 
     def inside(self, expressions: list[Expr]) -> _Scope:
-        """Return the scope of a loop body, which can read all names from before the loop."""
-        # The tables are copied, because names from the loop body are not known outside the loop.
+        """Return the scope of a loop body; the body can read all names that are defined before the loop."""
+        # The tables of names are copied, because names of the loop body must not be read outside the loop.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
         return inner
 
     def expect(self, expressions: list[Expr]) -> None:
-        """Record, for each argument, which Stumpff functions these expressions need."""
+        """Record which Stumpff functions these expressions need, separately for each argument."""
         needed: dict[int, list[int]] = {}
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # The indices k are sorted, because they form the snippet's name: stumpff_12, whichever c_k is read
-        # first.
+        # The indices k form the name of the snippet. They are sorted, so that c_1 and c_2 always give
+        # stumpff_12.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
-        """Return the statements of an assignment; a shared call that computes its value replaces it."""
+        """Return the statements of an assignment. If a shared call already computes the value, the call
+        replaces the assignment."""
         value = self.rewrite(let.value)
         before = self.take()
         # The shared call has already given this result a name. A second name would only be a copy of the
@@ -323,8 +330,8 @@ class _Scope:
         for node in walk([root], lambda n: n.id in self.known):
             if node.id in self.known:
                 continue
-            # Nodes are rebuilt with the same operations in the same order, so that emitted code rounds like
-            # the kernel.
+            # Nodes are rebuilt with the same operations in the same order, so that rewriting does not change
+            # rounding errors.
             args = [self.known[a.id] for a in node.args]
             match node.op:
                 case "pow":
@@ -342,13 +349,13 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The key is the argument before rewriting, as in ``expect``.
+        # The table is indexed by the argument before rewriting, as in ``expect``.
         orders = self.orders[node.args[0].id]
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
-            # All recorded c_k of this argument are known from now on, so they are never computed again.
+            # The call computes all recorded c_k of this argument, so they are never computed again.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 
@@ -371,7 +378,7 @@ class _Scope:
 
     def _power(self, base: Expr, n: int) -> Expr:
         space = base.space
-        # A power is written as a product that repeats the base of the power, so the base must be a name.
+        # A power is written as a product, in which the base occurs several times, so the base must be a name.
         base = self._named(base)
         # Targets write powers of up to three factors as x * x * x.
         if n <= 3:

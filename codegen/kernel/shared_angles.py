@@ -1,9 +1,9 @@
 """Shared angles: arguments that are equal as polynomials become one expression.
 
-Variational methods need the exponentials of h xi, h xi/2 and -h xi/2 in one stage. The Stumpff functions in
-an exponential have a sum of squares z as argument. The z of h xi/2, the z of -h xi/2 and a quarter of the z
-of h xi are equal numbers, but different expressions, so their Stumpff functions would be computed three
-times. As polynomials in symbols and earlier calls the three are equal.
+Variational methods need the exponentials of h xi, h xi/2 and -h xi/2 in one stage. Each contains Stumpff
+functions of a sum of squares z. The z of h xi/2, the z of -h xi/2 and a quarter of the z of h xi are equal
+numbers, but different expressions, so without this module their Stumpff functions would be computed three
+times. As polynomials in symbols and earlier calls these expressions are equal.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ LONGEST = 64
 
 Equal angles occur between unknowns of implicit stages; on the gallery their arguments have 12 to 42 nodes.
 Arguments of explicit stages have hundreds or thousands of nodes. Limits of 64, 128 and 256 give the same
-kernels for nine methods of the gallery. With 32, the kernel of one of these methods changes: vcf:cf4 on
-dipole, from 301 to 286 operations a step."""
+kernels for nine methods of the gallery. With the limit 32 the kernel of one of these methods changes: a step
+of vcf:cf4 on dipole has 286 and not 301 operations."""
 
 
 class SharedArguments(ExprDomain):
@@ -40,8 +40,10 @@ class SharedArguments(ExprDomain):
         return super().call(function, *args)
 
     def _first(self, argument: Expr) -> Expr:
-        """Return an earlier argument that equals this one as a polynomial, or this argument."""
-        # Results are stored by node number: equal nodes are one node, and expanding a polynomial is slow.
+        """Return an earlier argument that equals this argument as a polynomial; if there is none, return this
+        argument."""
+        # Results are stored by node number, because expanding a polynomial is slow and one argument may occur
+        # many times.
         if argument.id not in self.shared:
             self.shared[argument.id] = self._compared(argument)
         return self.shared[argument.id]

@@ -1,7 +1,7 @@
 """Kernels of Taylor polynomials: the coefficients, unrolled or as a loop over the order, and the projection.
 
-Unrolled code of degree P takes about P^2 operations for each product of the field. It is fastest as long as
-it fits into the instruction cache, so longer code becomes a loop.
+Unrolled code for degree P contains about P^2 operations for each product in the formulas of the field.
+Unrolled code is faster than a loop if it fits into the instruction cache. Otherwise a loop is used.
 """
 
 from __future__ import annotations
@@ -21,15 +21,17 @@ from codegen.scene.evolution import Evolution
 from codegen.scene.problem import TIME, Problem
 
 UNROLLED = 5000
-"""The largest estimate of the operations of unrolled code, products times P^2.
+"""The code is unrolled if the estimated number of its operations, the number of products times P^2, is at
+most this number.
 
 The instruction cache of most processors holds 32 KB, about 4000 operations. On heavy_top, with 18 products, a
-step of taylor(16) takes 0.53 us unrolled and 0.64 us in a loop. With 24 products, for all coordinates of the
-matrix, it takes 1.5 us unrolled and 0.82 us in a loop."""
+step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. If all coordinates of the matrix
+are computed, with 24 products, the step takes 1.5 us with unrolled code and 0.82 us with a loop."""
 
 
 def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | None:
-    """Return the kernel that computes the coefficients in a loop, None if unrolled code is short enough."""
+    """Return the kernel that computes the coefficients in a loop; None if unrolled code is short enough to be
+    used."""
     if problem.body_group is not None:
         return None
     assert problem.evolution is not None
@@ -43,7 +45,7 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
 
 
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
-    """Return a kernel with a run that chooses its steps from the coefficients."""
+    """Return the kernel with an additional run, which chooses its step sizes from the Taylor coefficients."""
     if kernel.expansion is not None:
         return replace(kernel, expansion=replace(kernel.expansion, controlled=True))
     assert problem.evolution is not None
@@ -94,7 +96,7 @@ def _enter(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
 def _leave(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel | None:
     domain = SharedArguments()
     old = tuple(domain.space.sym(s) for f in kernel.state for s in f.symbols)
-    names = tuple(f"{s}.moved" for s in work.inner.symbols)  # names of users contain no dot
+    names = tuple(f"{s}.moved" for s in work.inner.symbols)  # names that a user chooses contain no dot
     new = tuple(map(domain.space.sym, names))
     ends = work.leave(domain, new, old, frame)
     if ends == new:
@@ -104,8 +106,8 @@ def _leave(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
 
 
 def _names(kernel: Kernel) -> Callable[[str], str]:
-    """Return a function that returns a new name at each call: no name of the kernel, and no earlier
-    result.
+    """Return a function that returns a new name at each call. The name differs from the names of the kernel
+    and from all earlier results.
     """
     taken = {s for f in kernel.state for s in f.symbols} | set(kernel.scalars)
 

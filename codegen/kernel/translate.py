@@ -48,8 +48,8 @@ from codegen.passes.series_sums import SeriesSums
 from codegen.scene.problem import TIME, Problem
 
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
-"""How the critical path is shortened: not at all; by multiplying step sizes and constants first; by ordering
-the assignments; by all methods of :mod:`codegen.kernel.critical_path`.
+"""Four ways to treat the critical path: leave it unchanged; multiply step sizes and constants first; order
+the assignments; apply all methods of :mod:`codegen.kernel.critical_path`.
 """
 
 
@@ -93,8 +93,8 @@ class _Translation:
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains = variations, chains
-        # In this domain two kinds of expressions are shared: equal nodes, and angles that are equal as
-        # polynomials.
+        # In this domain equal expressions are one node, and angles that are equal as polynomials become one
+        # expression.
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
@@ -119,8 +119,7 @@ class _Translation:
     def remember(self, var: Var) -> None:
         """Name the expressions of a variable after the variable."""
         for k, x in enumerate(flatten(var.kind, self.env[var])):
-            # The first name is kept: an expression is named after the variable for which it was computed
-            # first.
+            # If several variables have the same expression, it is named after the first of these variables.
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(self, assign: Assign) -> None:
@@ -128,7 +127,7 @@ class _Translation:
         scene, domain = self.scene, self.domain
         args = tuple(self.env[a] for a in assign.args)
         try:
-            # A sum of functions of ad costs less in nested form, so that form is tried first.
+            # A sum of functions of ad_x costs less in nested form, so the nested form is tried first.
             nested = self.sums.value(domain, assign, self.env)
             results = (nested,) if nested is not None else assign.operation.evaluate(scene, domain, args)
         except ArithmeticError as error:
@@ -139,14 +138,15 @@ class _Translation:
                 hint="add closed forms to the group, or use the group for exact series only",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # The arguments are passed by name and not expanded, because expanded arguments would no longer be
+            # The arguments are treated as symbols. If they were expanded, their terms would no longer be
             # shared.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
         # An outlined function accepts numbers only, so an operation that samples run-time inputs cannot be
         # part of it.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
-        # A block is appended after its body, so the count of earlier blocks is the index of this block.
+        # A block is appended after its body, so the index of this block is the number of blocks that are
+        # already in the list.
         place = len(self.blocks) if self.inside else -1
         self.outline.trees.note(assign, args, results, place, joined=nested is None and not reads)
         for target, value in zip(assign.targets, results, strict=True):
@@ -168,7 +168,8 @@ class _Translation:
 
     def solve(self, statement: Solve) -> None:
         """Execute a block of equations."""
-        # Assignments of the body belong to the loop, also for outlining.
+        # Assignments of the body are recorded as part of the loop, because outlining must not join them with
+        # other assignments.
         self.inside = True
         entered = self.enter(statement)
         self.inside = False
@@ -214,7 +215,7 @@ class _Translation:
         """Return the new state, and the embedded method's new state, after all statements."""
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # Both states end in the same frame, so that their difference estimates the error.
+        # Both states are transformed to the same frame, because their difference is the error estimate.
         for embedded in (False, True):
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
@@ -255,7 +256,7 @@ class _Translation:
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
         # The solutions are subtracted as expressions, so that their common terms cancel exactly.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
-        # Errors are ordered together with the outputs, so that they share assignments.
+        # Error estimates and outputs are ordered together, so that they share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
         # The parts of a splitting have the durations of deferred flows as inputs.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
@@ -272,7 +273,7 @@ class _Translation:
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
         """Return the body, outputs and functions of the kernel; outline functions if that shortens it."""
-        # If an outlined schedule is tried, it may use the names of the first schedule again.
+        # A schedule with outlined functions may replace this first schedule, so it may use the same names.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
@@ -322,7 +323,7 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # Corrected values that no root reads are dropped, because the functions that they call would count as
+    # Corrected values that no root reads are removed. Otherwise the functions that they call would count as
     # used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
@@ -369,15 +370,15 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
     """
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
-    # The equations are linear, so the iteration can start from zero.
+    # The equations are linear, so the iteration converges from any initial value, and zero is used.
     starts = (space.zero,) * len(own)
     return Block(f"{VARIED}{block.label}", tuple(own), starts, tangents(block.images, seeds))
 
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
     """Return the kernel with those samples of run-time inputs that it reads."""
-    # Passes may have removed every reader of a sample, and the caller should supply only samples that are
-    # read.
+    # Passes may have removed every reader of a sample. Such a sample is removed, so that emitted code does
+    # not evaluate the inputs in vain.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     samples = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))

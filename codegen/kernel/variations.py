@@ -21,13 +21,15 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Variations:
-    """The parts of a varying state: (group, symbols), with None for numbers that no group moves."""
+    """The parts of a state that varies, as pairs (group, symbols); the group is None for numbers that vary
+    component by component."""
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
 
     @classmethod
     def of(cls, scene: Problem) -> Variations:
-        """Return the variations of a problem; SceneError if elements of a group have no rates."""
+        """Return the variations of a problem; SceneError if tangent vectors of its group cannot be
+        represented in the Lie algebra."""
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
             # A point that is itself a group element, moved by left multiplication, varies as a group element.
@@ -35,7 +37,8 @@ class Variations:
             bundle = scene.group.offers(CotangentBundle) if moved else None
             if bundle is not None:
                 base = bundle.base
-                # T*G is G x g*: the element varies in the algebra, the momentum component by component.
+                # In the right trivialisation T*G is G x g*: the group element varies by an element of the
+                # algebra, the momentum component by component.
                 parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
             elif block.kind is Kind.GROUP or moved:
                 parts.append((scene.group, block.symbols))
@@ -73,13 +76,13 @@ class Variations:
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # The rates are converted back to the algebra at the new element: ``rate`` inverts ``velocity`` on
-            # tangent vectors.
+            # The rates of the new element are converted to the algebra: ``rate`` is the inverse of
+            # ``velocity`` on tangent vectors.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 
     def text(self) -> str:
-        """Describe the components of a variation."""
+        """Return a text on the components of a variation: their indices and meaning."""
 
         words = []
         first = 0
@@ -94,7 +97,8 @@ class Variations:
 
 
 def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation | None:
-    """Return a group with its tangent vectors as elements of its algebra; None for plain numbers."""
+    """Return the group, after a test that its tangent vectors can be represented in its algebra; None for
+    plain numbers."""
     if group is None:
         return None
     trivialised = group.offers(RightTrivialisation)

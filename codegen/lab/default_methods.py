@@ -12,8 +12,8 @@ from dataclasses import replace
 
 from codegen.certify import certified_order
 from codegen.errors import MethodError
-from codegen.lower import families_for
-from codegen.method import Method, method_of, parse
+from codegen.lower import families_for, method_for
+from codegen.method import Method, parse
 from codegen.scene.problem import Problem
 from orderconds.tableau import Tableau
 
@@ -97,8 +97,7 @@ def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) ->
     :func:`codegen.method.parse`.
     """
     defaults = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
-    families = families_for(scene)
-    return tuple(method_of(name, families) for name in (names or defaults))
+    return tuple(method_for(scene, name) for name in (names or defaults))
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:

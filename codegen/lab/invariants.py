@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 
-from codegen.groups import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
@@ -102,7 +101,8 @@ def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:
     for block in scene.state:
         values = state[start : start + len(block.symbols)]
         start += len(values)
-        acting = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
-        if block.kind is Kind.GROUP or acting:
+        if block.kind is Kind.GROUP:
             laws += [x for _, x in scene.group.laws(domain, values)]
+        elif block.kind is Kind.POINT:
+            laws += [x for _, x in scene.action.laws(domain, scene.group, values)]
     return tuple(laws)

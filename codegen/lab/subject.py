@@ -18,8 +18,8 @@ from codegen.lab.page.series_style import ADAPTIVE, Styles
 from codegen.lab.peers import GROUPS, find, installed
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
-from codegen.lower import families_for
-from codegen.method import Method, parse
+from codegen.lower import method_for
+from codegen.method import Method
 from codegen.printers import DEFAULT
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
@@ -198,9 +198,8 @@ def subject(
     ``effort.peers`` are used that are installed. Unknown names raise the errors of
     :func:`codegen.method.parse` and ``peers.find``.
     """
-    families = families_for(scene)
-    chosen = tuple(parse(m, families) for m in methods)
-    controlled = tuple(replace(parse(m, families), adaptive=True) for m in adaptive)
+    chosen = tuple(method_for(scene, m) for m in methods)
+    controlled = tuple(replace(method_for(scene, m), adaptive=True) for m in adaptive)
     for method in controlled:
         method.embedded()  # raises MethodError if the tableau has no embedded row
     if not methods and not adaptive:

@@ -18,8 +18,9 @@ from codegen.lower.registry import names as names
 from codegen.lower.registry import register as register
 from codegen.lower.registry import unregister as unregister
 from codegen.lower.substeps import substeps
-from codegen.method import Method
+from codegen.method import Method, family_in, method_of
 from codegen.scene.problem import Problem
+from orderconds.tableau import Tableau
 
 __all__ = [
     "Lowering",
@@ -28,6 +29,7 @@ __all__ = [
     "lower",
     "lower_composed",
     "lowering",
+    "method_for",
     "names",
     "problem_for",
     "register",
@@ -39,15 +41,32 @@ def problem_for(scene: Problem, method: Method) -> Problem:
     """Return the scene in the form that the method's family requires; raise :class:`MethodError` if the
     family does not accept the scene."""
     own = lowering(method.family)
+    _check(scene, own)
+    # The family accepts the scene, so any further error concerns the method and not the scene.
+    return own.problem(scene, method)
+
+
+def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") -> Method:
+    """Return the method that an argument denotes on a scene (:func:`codegen.method.method_of`).
+
+    If the argument names a family that does not accept the scene, the :class:`MethodError` gives the reason.
+    """
+    named = family if isinstance(given, Tableau) or family else family_in(given)
+    known = named.partition("(")[0]
+    if known in names():
+        _check(scene, lowering(known))
+    return method_of(given, families_for(scene), family)
+
+
+def _check(scene: Problem, own: Lowering) -> None:
+    """Raise :class:`MethodError` with the objection of a family to a scene, if the family has one."""
     objection = own.objection(scene)
     if objection is not None:
         raise MethodError(
-            f"{method.family} on {scene.name}{objection.reason}",
+            f"{own.family} on {scene.name}{objection.reason}",
             expected=objection.expected,
             hint=objection.hint or f"use one of {', '.join(families_for(scene))}",
         )
-    # The family accepts the scene, so any further error concerns the method and not the scene.
-    return own.problem(scene, method)
 
 
 def lower(scene: Problem, method: Method) -> Program:
@@ -57,13 +76,12 @@ def lower(scene: Problem, method: Method) -> Program:
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
     """Return the verified program of a step that repeats a shorter step; None for any other step."""
-    # Only in some families is the step of a composed tableau the composition of the shorter steps. VRKMK
-    # expands dexp^{-1} over the whole step, and the product of exponentials of the substeps is a different
-    # method.
+    # In some families the step of a composed tableau is not the composition of shorter steps. For example,
+    # VRKMK uses one exponential for the whole step, and a composition has one for each substep.
     if not lowering(method.family).repeats_substeps:
         return None
-    # Compositions are recognised by their coefficients, because a tableau that is a composition need not be
-    # declared as a composition.
+    # Compositions are recognised by their coefficients, because the file of a tableau need not state that it
+    # is a composition.
     repetition = substeps(method)
     if repetition is None:
         return None

@@ -1,5 +1,5 @@
-"""Runge-Kutta methods in the coordinates of the state; the distance of numerical solutions from the manifold
-is about as large as their error.
+"""Runge-Kutta methods in the coordinates of the state. Their solutions leave the manifold: the distance from
+it is about as large as the error of the solution.
 """
 
 from __future__ import annotations
@@ -27,5 +27,6 @@ class Ambient(Lowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
-        # On R^n exp(u).y = y + u and all brackets vanish: RKMK without brackets is the Runge-Kutta method.
+        # On R^n exp(u).y = y + u and all brackets vanish, so the RKMK method without brackets is the
+        # Runge-Kutta method.
         return with_cutoff(problem, method, 0)

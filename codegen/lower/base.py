@@ -48,25 +48,30 @@ class Lowering(ABC):
     """The name of the family in :mod:`orderconds.families` and in names of methods such as
     ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
-    """True if the state of the programs is (q, mu) of a Hamiltonian scene, and not the point y of a vector
-    field."""
+    """True if programs have the state (q, mu) of a Hamiltonian scene; false if they have the point y of a
+    vector field."""
     preference: ClassVar[int] = 0
-    """If a method's name contains no family, the family with the highest number is preferred."""
+    """If the name of a method contains no family, families with a larger number are preferred."""
     repeats_substeps: ClassVar[bool] = False
     """True if the step of a composed tableau is, in this family, the composition of shorter steps.
 
     This is false for a family that expands dexp^{-1} over the whole step.
     """
 
+    reads_coordinates: ClassVar[bool] = False
+    """Whether the methods parametrise the group by the coordinate map of the scene
+    (:mod:`codegen.groups.coordinate_maps`). Other families use the exponential map."""
+
     in_coordinates: ClassVar[bool] = False
     """True if the methods integrate the coordinates of the state. Such methods accept every classical form of
     a scene (:mod:`codegen.scene.classical_forms`)."""
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if the states of a step stay on the manifold of the scene up to rounding.
+        """Return True if the states that a step computes are on the manifold of the scene, up to rounding
+        errors.
 
-        A step by group elements stays on the manifold. If the group is abelian, the manifold has the
-        coordinates of a vector space, so every method stays on the manifold.
+        A step that moves the point by group elements stays on the manifold. If the group is abelian, the
+        manifold has coordinates in a vector space, and every method stays on it.
         """
         from orderconds.families import family_class
 
@@ -122,9 +127,10 @@ class Lowering(ABC):
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of a method, computed from :meth:`conditions`; the order may be undecided."""
+        """Return the order of a method, computed from :meth:`conditions`. The result may be that the order is
+        undecided."""
         from orderconds.checking import check
 
-        # The tableau is checked in one family, so the list of results has one entry.
+        # The tableau is checked in only one family, so the list of results has a single entry.
         (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return order

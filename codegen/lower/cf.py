@@ -45,8 +45,8 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         # k.
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
-            # Builder makes names unique by appending numbers, so all exponents of a stage may be requested
-            # with one name.
+            # All exponents of a stage are requested with one name, because Builder makes names unique by
+            # appended numbers.
             x = stages.combination(f"x{name}", Kind.ALG, row, k)
             # Each row gives one exponential. The first exponential is applied first, so it is the rightmost
             # factor of the product.
@@ -61,8 +61,8 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # The time of a stage is the time of the stage from which it starts, plus h times the sum of the
-            # coefficients in its exponents.
+            # A stage starts from an earlier stage or from y0. Its time is the time of this start, plus h
+            # times the sum of the coefficients in its exponents.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
@@ -73,7 +73,7 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     stage_points: list[Var] = []
 
     def update() -> dict[str, Var]:
-        # The embedded solution needs further exponentials, because it is not a linear function of the stages.
+        # The embedded solution needs its own exponentials, because it is not a linear function of the stages.
         more = {} if lower is None else {EMBEDDED: product(lower, "", stage_points)}
         return {"y": product(tableau.update, "", stage_points)} | more
 

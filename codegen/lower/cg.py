@@ -22,7 +22,7 @@ class CrouchGrossman(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
         embedded = method.embedded()
-        # Only the update of the embedded tableau is used, because its stages are the stages of the method.
+        # The embedded tableau has the same stages as the method, so only its update is used.
         lower = None if embedded is None else _exponentials(embedded).update
         # exp(h a_is k_s) ... exp(h a_i1 k_1): a commutator-free method whose exponentials have one term each.
         return products(problem, method, _exponentials(method), lower)

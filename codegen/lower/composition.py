@@ -12,12 +12,13 @@ HALF = Number.rational(1, 2)
 
 
 class CompositionLowering(FlowLowering):
-    """Symmetric compositions of Strang's step, and compositions of Phi and Phi*."""
+    """Symmetric compositions of Strang's step, and compositions of a basic step Phi with its adjoint Phi*."""
 
     family = "composition"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the word and the label of its conditions."""
+        """Return the word, which is the sequence of flows of a step, and the label of its order
+        conditions."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)

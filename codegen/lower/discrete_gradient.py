@@ -55,7 +55,7 @@ class DiscreteGradient(FieldLowering):
         return _program(problem, method)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return False: no such method preserves both the energy and the symplectic form."""
+        """Return False: discrete gradient methods preserve the energy, but not the symplectic form."""
         return False
 
 
@@ -75,13 +75,13 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         slopes = [
-            # There is no factor h, because the quadrature approximates the mean of gamma over the step and
-            # not the integral.
+            # The quadrature approximates the mean of gamma over the step, not its integral, so there is no
+            # factor h.
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
-        # The bivector is evaluated at the midpoint and not at y, because the order is then two if sum b_i c_i
-        # = 1/2.
+        # The bivector is evaluated at the midpoint. If sum b_i c_i = 1/2, the order is then two; with the
+        # bivector at y it would be one.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # The energies are evaluated inside the block of equations, because H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
@@ -93,8 +93,8 @@ def _program(scene: Problem, method: Method) -> Program:
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # The update uses the image f, which is nearer to the solution than the unknown xi: errors of the
-        # energy add up over many steps.
+        # The update uses the image f and not the unknown xi, because f is nearer to the solution. Errors of
+        # the energy add up over many steps.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
@@ -113,6 +113,6 @@ def _check_bivector(scene: Problem, method: Method) -> None:
         # The formula of the bivector divides by |gamma|^2, so it is valid only where gamma = 0 implies f = 0.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             raise MethodError(
-                f"{method.label} on {scene.name}, whose energy is the same in all directions of the group",
+                f"{method.label} on {scene.name}, whose energy has differential zero where f is not zero",
                 expected="an energy whose differential along the group vanishes only where f vanishes",
             )

@@ -13,10 +13,10 @@ class FieldLowering(Lowering):
     T*G."""
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene as a field; the field of a Hamiltonian is the sum of the fields of its parts if
-        that sum is shorter."""
+        """Return the scene as a vector field. The field of a Hamiltonian is written as the sum of the fields
+        of its parts if this formula is shorter."""
         if "field" not in scene.derived:
-            # The field by parts is formed first, because its formulas contain q and mu, which as_field joins
-            # to one point.
+            # The parts are used before ``as_field`` is called, because the formulas of parts contain q and mu
+            # separately, and ``as_field`` joins these to one point.
             scene.derived["field"] = with_field_by_parts(scene).as_field()
         return scene.derived["field"]

@@ -1,4 +1,5 @@
-"""Lowerings that compose exact flows: a step is a word in the flows of a Hamiltonian's parts, on T*G.
+"""Lowerings that compose exact flows: a step on T*G is a word, a sequence of flows of the parts of a
+Hamiltonian.
 
 If the Hamiltonian depends on time, the flow of one summand also advances the time; this summand itself does
 not depend on time. The time is constant during all other flows.
@@ -29,7 +30,8 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 Word = list[tuple[Summand, Number]]
-"""Summands and the durations of their flows as multiples of h; the first flow acts first."""
+"""The flows of a step: pairs of a summand and the duration of its flow in units of h. The first flow of the
+sequence acts first."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +50,8 @@ class Parts:
 
 @dataclass(frozen=True)
 class Reading:
-    """A method on a scene: the word, the summand whose flow advances time, and the family of conditions."""
+    """A method on a scene: the word, the summand whose flow advances time, and the family of its order
+    conditions."""
 
     word: tuple[tuple[Summand, Number], ...]
     carrier: Summand | None
@@ -106,7 +109,8 @@ class FlowLowering(Lowering):
         """
 
     def read(self, scene: Problem, method: Method) -> Reading:
-        """Return the word, the carrier and the conditions of a method on a Hamiltonian scene with parts.
+        """Return the word of a method on a Hamiltonian scene with parts, its carrier (the summand whose flow
+        advances time), and its order conditions.
 
         :class:`codegen.errors.MethodError` is raised for a part without exact flow, a tableau for another
         number of parts, and parts that all depend on time.
@@ -157,13 +161,14 @@ def parts_of(scene: Problem, where: str) -> Parts:
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
     """Return the word of a composition of Phi, the product of the flows of all summands, and its adjoint
     Phi*."""
-    # Phi*_{beta_1} acts first: in each pair beta precedes alpha.
+    # Phi*_{beta_1} acts first: in each pair (beta_i, alpha_i) the flow for beta_i precedes the flow for
+    # alpha_i.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
     return pairs(kicks_first(parts.summands), both), "composition"
 
 
 def unread(parts: Parts, method: Method) -> MethodError:
-    """Return the error for a tableau whose format the family does not read."""
+    """Return the error for a tableau whose format the family cannot use."""
     return MethodError(
         f"{method.family} with the {method.tableau.family} tableau {method.tableau.name}",
         where=parts.where,

@@ -16,8 +16,8 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""Bracket programs that have been computed, by ring and text of the coefficients. Lowering and certificate
-use the same bracket program."""
+"""Bracket programs that were already computed, by the ring and the text of the coefficients. The lowering and
+the certificate use the same bracket program."""
 
 
 def bracket_program(method: Method) -> BracketProgram:
@@ -51,7 +51,7 @@ def bracket_program(method: Method) -> BracketProgram:
             # terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
-    # The bracket program is found by a search, so it is stored for the certificate, which needs it again.
+    # The search for a bracket program takes time, so the program is stored for the certificate.
     ring = method.ring
     # The key contains the exact coefficients as text, because elements of a ring may be unhashable.
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))

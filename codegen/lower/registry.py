@@ -55,17 +55,22 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
     family that already has a lowering of another class.
     """
     if not lowering.family:
-        raise MethodError(f"{lowering.__name__} names no family", expected='family = "NAME" in the class')
+        raise MethodError(
+            f"the class {lowering.__name__} does not set the attribute family",
+            expected='family = "NAME" in the class',
+        )
     # A second class for a family is refused, because the meaning of a method must not depend on the order of
     # registration.
     known = _lowerings().get(lowering.family)
     if known is not None and type(known) is not lowering:
         raise MethodError(
-            f"a second lowering of family {lowering.family}", where=lowering.__name__, expected="one lowering"
+            f"the family {lowering.family} already has a lowering of another class",
+            where=lowering.__name__,
+            expected="one lowering",
         )
     if family is not None:
         families.register(family)
-    # One instance for each family is enough, because lowerings have no state.
+    # Lowerings have no state, so one instance for each family is sufficient.
     _registered[lowering.family] = lowering()
     return lowering
 
@@ -75,7 +80,10 @@ def unregister(family: str) -> None:
     family."""
     # Built-in families cannot be removed, because the tableaux of the library refer to them.
     if any(lowering.family == family for lowering in _built_in()):
-        raise MethodError(f"family {family} is built in", expected="a family that was registered")
+        raise MethodError(
+            f"the built-in family {family} cannot be removed",
+            expected="a family that was added by register()",
+        )
     _registered.pop(family, None)
 
 

@@ -17,8 +17,8 @@ class RungeKuttaLowering(FieldLowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene: on manifolds other than R^n a step leaves
-        the manifold."""
+        """Return the reason why the family does not accept a scene. Only scenes on R^n are accepted, because
+        a step on another manifold would leave it."""
         group = scene.as_field().group
         # On R^n actions are translations: exp(u).y = y + u, and all brackets vanish.
         if group.abelian:
@@ -28,5 +28,5 @@ class RungeKuttaLowering(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
-        # On R^n all brackets vanish, so a program without brackets has the full order.
+        # On R^n all brackets vanish, so a program without brackets has the order of the tableau.
         return with_cutoff(problem, method, 0)

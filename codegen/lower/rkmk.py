@@ -3,14 +3,20 @@ dexp^{-1}_(r).
 
 Equation (3.14) of Marthinsen's thesis: u_i = h sum_j a_ij v_j, v_i = dexp^{-1}_{(r),u_i} f(exp(u_i).y0),
 y1 = exp(h sum_i b_i v_i).y0. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta method.
+
+On a scene with another coordinate map tau, tau replaces exp, and the exact inverse differential of tau
+replaces the truncated dexp^{-1}. The cut-off r then has no meaning and is not read: the Runge-Kutta method
+integrates u' = dtau^{-1}_u f(tau(u).y0) in a vector space, so its order is the order of the tableau.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from codegen.ir.program import EMBEDDED, Program
+from codegen.ir.operations import ElementAt, Exp, InverseDifferential, Operation
+from codegen.ir.program import EMBEDDED, Builder, Program
 from codegen.ir.values import Kind, Var
 from codegen.lower import minimal_brackets
 from codegen.lower.field import FieldLowering
@@ -29,29 +35,39 @@ class MuntheKaas(FieldLowering):
     tableau."""
 
     family = "rkmk"
+    reads_coordinates = True
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program; without a cut-off see :mod:`codegen.lower.minimal_brackets`."""
-        # Without a cut-off the series of dexp^{-1} is infinite, so a search determines a finite set of
-        # brackets.
+        if problem.coordinates is not None:
+            return in_coordinates(problem, method)
+        # Without a cut-off, a search determines which brackets of the infinite series of dexp^{-1} are
+        # needed.
         if method.cutoff is None:
             return minimal_brackets.lower(problem, method)
         return with_cutoff(problem, method, method.cutoff)
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions; without a cut-off they come from the series of the compiled program
-        itself."""
+        """Return the order conditions; without a cut-off they are computed from the series of the compiled
+        program.
+
+        With an exact inverse differential they are the conditions of RKMK without truncation.
+        """
+        if scene is not None and scene.coordinates is not None:
+            from orderconds import families
+
+            return families.get(self.family)
         if method.cutoff is not None:
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The certificate reads the compiled program, so certificate and program cannot differ.
+        # The conditions are computed from the program that is compiled, so both have the same brackets.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order. Without a cut-off no failing conditions are listed, because they have no
-        names."""
-        if method.cutoff is not None:
+        """Return the order. For a method without a cut-off, failing conditions are not listed, because these
+        conditions have no names."""
+        if method.cutoff is not None or (scene is not None and scene.coordinates is not None):
             return super().order(method, scene)
         from orderconds.checking import family_order
 
@@ -60,6 +76,32 @@ class MuntheKaas(FieldLowering):
 
 def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     """Return the program of an RKMK method whose dexp^{-1} has ``cutoff`` brackets."""
+
+    def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
+        # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - ...; without brackets the order of the method is at
+        # most two.
+        return build.dexpinv(target, u, k, cutoff)
+
+    return _program(problem, method, Exp(), inverse)
+
+
+def in_coordinates(problem: Problem, method: Method) -> Program:
+    """Return the program of an RKMK method in the coordinates of the scene."""
+
+    def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
+        return build.add(InverseDifferential(), target, u, k)
+
+    return _program(problem, method, ElementAt(), inverse)
+
+
+def _program(
+    problem: Problem,
+    method: Method,
+    element: Operation,
+    inverse: Callable[[Builder, str, Var, Var], Var],
+) -> Program:
+    """Return the program with ``element`` for the map to the group; ``inverse`` appends its inverse
+    differential."""
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -69,22 +111,21 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # u is in the algebra, which is a vector space: the stages are a Runge-Kutta step for u' =
-            # dexp^{-1}_u f(exp(u).y0).
+            # The stages are a Runge-Kutta step for u' = dexp^{-1}_u f(exp(u).y0), an equation in the Lie
+            # algebra, which is a vector space.
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
-            point = build.act(f"Y{i + 1}", build.exp(f"g{i + 1}", u), y)
+            point = build.act(f"Y{i + 1}", build.add(element, f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
-            # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - ...; without brackets the order of the method is
-            # at most two.
-            result.append(build.dexpinv(f"w{i + 1}", u, k, cutoff))
+            result.append(inverse(build, f"w{i + 1}", u, k))
         return result
 
     def updated(weights: tuple[Element, ...]) -> Var:
         u = stages.combination("u", Kind.ALG, weights, v)
-        return build.act("y1", build.exp("g", u), y)
+        return build.act("y1", build.add(element, "g", u), y)
 
     def update() -> dict[str, Var]:
-        # The embedded weights combine the same v_i, so they cost one exponential and no evaluation.
+        # The embedded solution combines the v_i of the method with other weights, so it costs one exponential
+        # and no evaluation of the field.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more

@@ -6,8 +6,8 @@ Ad*_{exp X_j} n_j,
     M_i = dexp*_{-Y}(mu0 + h sum_j b_j nu_j) - h sum_j (b_j a_ji/b_i) dexp*_{X_j} n_j,
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
-The method has no brackets, equals VRKMK(0) and has order two at most (in section 2.5 f includes the factor
-h). With one stage, a_11 = theta and b_1 = 1, all factors are exponentials of multiples of xi, and the terms
+The method has no brackets, equals VRKMK(0) and has order two at most. (In section 2.5 the factor h is part of
+f.) With one stage, a_11 = theta and b_1 = 1, all factors are exponentials of multiples of xi, and the terms
 in n merge:
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
@@ -36,12 +36,12 @@ class SymplecticIntegrator(VariationalLowering):
         return _program(problem, method)
 
 
-# dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)} contains the transport by exp(-Y). The term in dexp*_{-Y} is the same for
-# all stages, and so is each dexp*_{X_j} n_j. Stages differ only in the factors b_j a_ji/b_i, so a sweep
-# evaluates dexp* s + 1 times.
-# One stage: all exponents are multiples of x = h xi, so they commute; with several stages they do not. By b
-# dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x} the two terms in n become one.
-# Starts: the derivatives at the beginning of the step are accurate to O(h) in each stage.
+# dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)} contains the transport by exp(-Y). The term in dexp*_{-Y} and the vectors
+# dexp*_{X_j} n_j are common to all stages. Stages differ only in the factors b_j a_ji/b_i, so a sweep
+# evaluates dexp* s + 1 times. One stage: all exponents are multiples of x = h xi, so they commute; with
+# several stages they do not. By b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}
+# the two terms in n become one. Starts: the derivatives at the beginning of the step are accurate to O(h) in
+# each stage.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -68,14 +68,14 @@ def _program(scene: Problem, method: Method) -> Program:
         return momenta
 
     def one() -> list[Var]:
-        """Append the momentum of the theta-method, for any b_1."""
+        """Append the momentum of the theta-method; the weight b_1 need not be 1."""
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # The update transports n by the same exponent: Ad*_{exp(-b x)} Ad*_{exp(a x)} = Ad*_{exp(-(b - a)
-        # x)}.
+        # In the update, n is multiplied by one exponential: Ad*_{exp(-b x)} Ad*_{exp(a x)} = Ad*_{exp(-(b -
+        # a) x)}.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

@@ -1,10 +1,10 @@
-"""Splittings: words of exact flows of a Hamiltonian's parts, on T*G.
+"""Splittings: a step on T*G is a sequence of exact flows of the parts of a Hamiltonian.
 
-If a tableau has as many parts as the scene, its coefficients are the durations of the flows of these parts. A
-tableau for two parts A, B also applies to a scene with more parts: it is written as a composition with
-coefficients beta_1, alpha_1, ... of Phi and its adjoint Phi*. Phi is the product of the flows of all
-summands, and Phi* has the same flows in the opposite order. The composition keeps the order of the splitting
-for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
+If a tableau has as many parts as the scene, its coefficients, multiplied by h, are the durations of the flows
+of these parts. A tableau for two parts A, B also applies to a scene with more parts: it is written as a
+composition with coefficients beta_1, alpha_1, ... of Phi and its adjoint Phi*. Phi is the product of the
+flows of all summands, and Phi* has the same flows in the opposite order. The composition keeps the order of
+the splitting for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
 from __future__ import annotations
@@ -44,8 +44,8 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # A part whose flow is a composition of summands has no exact flow of its own, so its summands count
-        # as parts.
+        # If the flow of a part is only a composition of flows of summands, it is not exact, and the summands
+        # count as parts.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
@@ -65,18 +65,19 @@ class SplittingLowering(FlowLowering):
 def _in_order(
     own: Parts, tableau: Splitting, steps: Sequence[tuple[int, Number]], summands: Sequence[Summand]
 ) -> tuple[Word, str]:
-    """Return the word of a tableau in as many parts as there are summands, and the label of its conditions.
+    """Return the word of a tableau that has one part for each summand, and the label of its order conditions.
 
     Parts are matched by name if tableau and scene use the same names, else by their order. The part V of a
     Runge-Kutta-Nystroem tableau is the kick.
     """
     chosen = summands
     names = [part.name for part in own.parts]
-    # Parts are matched by name if possible, because the order of parts in a scene is arbitrary.
+    # The order of parts in a scene is arbitrary, so names are preferred to the order.
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None:
-        # The kick comes first if V is part 0 of the tableau, else last: False sorts before True.
+        # The summands are sorted so that the kick has the position of V in the tableau, first or last (False
+        # sorts before True).
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
@@ -84,8 +85,8 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # Runge-Kutta-Nystroem splittings satisfy fewer conditions, which suffice only if the triple bracket
-        # vanishes.
+        # Runge-Kutta-Nystroem splittings satisfy fewer order conditions. These suffice only if [V, [V, [V,
+        # T]]] = 0.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
@@ -99,7 +100,7 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
     nested = T
     # If T is quadratic in mu, each bracket with V lowers the degree by one, and three brackets give zero.
     for _ in range(3):
-        # The sign of a bracket is not important, because the test only asks whether the bracket is zero.
+        # The sign convention of the bracket does not matter, because the test compares with zero only.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)
     return orbit_of(scene).vanish([nested])
 
@@ -107,14 +108,15 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
     """Return (beta_i, alpha_i) of a splitting in two parts; a final flow of duration zero is added if
     necessary."""
-    # Let A and B be the flows of the two parts, and the word A_{x1} B_{x2} A_{x3} ... With Phi = A B and Phi*
-    # = B A in turn, x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. These equations are
-    # solved from the left.
+    # Let A and B be the flows of the two parts, and A_{x1} B_{x2} A_{x3} ... the word. Each of Phi and Phi*
+    # is a product of A and B, in opposite order. The composition of Phi*_{beta_1}, Phi_{alpha_1},
+    # Phi*_{beta_2}, ... gives the same word if x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and
+    # so on. These equations are solved from the left.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
-        # Two consecutive flows of one part are joined, because the recursion requires flows of the two parts
-        # in turn.
+        # Two consecutive flows of one part are joined, because the recursion requires that the two parts
+        # alternate.
         if joined and joined[-1][0] == k:
             joined[-1] = (k, joined[-1][1] + x)
         else:
@@ -127,7 +129,8 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
         durations.append(zero)
     composed, carried = [], durations[0]
     for inner, outer in zip(durations[1::2], durations[2::2], strict=True):
-        # inner = beta_i + alpha_i and outer = alpha_i + beta_{i+1}: two durations determine each pair.
+        # ``carried`` is beta_i. Since inner = beta_i + alpha_i and outer = alpha_i + beta_{i+1}, these
+        # durations determine alpha_i and beta_{i+1}.
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha

@@ -43,10 +43,12 @@ class Stages:
         return self.builder.lin(target, kind, terms)
 
     def at(self, c: Element | None) -> tuple[Var, ...]:
-        """Return (t + c h,) for a scene that depends on time, else (); c = None means c = 0."""
+        """Return the time argument (t + c h,) for a scene that depends on time, else (); c = None means c =
+        0."""
         if self.time is None:
             return ()
-        # A stage at the beginning of the step reads t itself, so that equal evaluations are equal operations.
+        # A stage at the beginning of the step reads t itself and not a copy of t. Otherwise equal evaluations
+        # would have different arguments.
         if c is None or self.number(c).is_zero:
             return (self.time,)
         return (self.builder.advance("t_stage", self.time, self.times_h(c)),)
@@ -66,17 +68,16 @@ class Stages:
         """Return the verified program: the starts, one block with the equations, and the update. The
         functions append statements and return variables; ``update`` returns the outputs by the name of the
         replaced input."""
-        # The order of appending is the order of the program: starts, body of the block, update.
+        # The statements are appended in the order of the program: starts, body of the block, update.
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # Explicit tableaux also give one block with all stages. A lowering appends equations and no
-        # algorithm: the passes find the order in which the stages can be solved from the arguments of the
-        # equations.
+        # The stages of explicit tableaux are put into one block, too. A lowering only states the equations;
+        # passes find the order in which the stages can be solved.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
         # The update comes after the block, because it reads values of the block's body at the solution.
         outputs = update()
-        # The time comes last, so that the state's inputs have the same positions with and without time.
+        # The time is the last input, so that the state has the same position with and without time.
         inputs = self.inputs + (() if self.time is None else (self.time,))
         body: tuple[Statement, ...] = (*before, block, *self.builder.take())
         return verify(Program(self.method.label, inputs, body, tuple(outputs.items())))

@@ -1,11 +1,12 @@
-"""Compositions: a step that repeats one shorter step is compiled as the shorter step and a table of substeps.
+"""Compositions: if a step repeats one shorter step, only the shorter step is compiled, with a table of
+substeps.
 
 Suppose that the stages of a tableau fall into groups with a_ij = b_j for j in an earlier group than i, and
 a_ij = 0 for j in a later group. Then the method is the composition of the methods of the groups with steps
 gamma_k h, where gamma_k is the sum of the b_j of group k (Lemma 3.5.4 of Bogfjellmo and Marthinsen). For
-Crouch-Grossman methods the same follows from the products of exponentials. If all groups have the same
+Crouch-Grossman methods this follows from the products of exponentials. If all groups have the same
 coefficients after division by gamma_k, they are the same method with different step sizes, and one program is
-enough. The repeated method may also consist of several neighbouring groups.
+enough. The repeated method may be the method of several neighbouring groups together.
 
 Only implicit methods are split, because explicit stages of neighbouring substeps share computations.
 """
@@ -35,13 +36,14 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     >>> substeps(parse("vcg:gauss2", ("vcg",))) is None
     True
     """
-    # The embedded solution combines stages of the whole step, but stages of earlier substeps are not stored.
+    # The embedded solution needs all stages of the step, but the stages of earlier substeps are not stored.
+    # Therefore tableaux with an embedded method are not split.
     if method.adaptive:
         return None
     tableau = method.tableau
     repetition: tuple[RungeKutta, tuple[Number, ...]] | None
     if isinstance(tableau.method, Composition):
-        # A composition tableau gives step lengths only; its base method is the midpoint rule.
+        # A composition tableau contains step lengths only; it is applied to the midpoint rule.
         half = tableau.ring.rational(1, 2)
         repetition = (
             RungeKutta(((half,),), (tableau.ring.one,)),
@@ -54,8 +56,8 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     # A single substep is the step itself, so nothing is repeated.
     if repetition is None or len(repetition[1]) < 2:
         return None
-    # Proof, file and embedded row belong to the whole tableau, and would be wrong for the tableau of one
-    # group.
+    # The proof, the file and the embedded row of the whole tableau are removed, because they do not apply to
+    # the tableau of one group.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )
@@ -77,13 +79,14 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # also for balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # The cuts are all k at which the tableau separates into two tableaux, for the stages before k and from k
-    # on. Each group consists of neighbouring parts between cuts.
+    # A cut is a number k for which the tableau separates into two: one of the stages before k, and one of the
+    # other stages. The stages between two neighbouring cuts form a part, and neighbouring parts form a group.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # A group consists of at least one part and at most half of the parts. Small groups are tried first,
     # because they give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # ``wide`` divides the number of parts, so the end of the last group is the last cut.
+        # ``wide`` is the number of parts in a group. It divides the number of all parts, so the last group
+        # ends at the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # gamma_k, the length of the substep: a method with weights b advances by h sum b_j.
@@ -105,7 +108,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
 
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
-    """Return True if the stages from k on start from the result of the update by the stages before k."""
+    """Return True if the stages from k on form a second step, which starts from the result of the stages
+    before k."""
     s = len(b)
     # Lemma 3.5.4: later stages depend on the finished update of earlier stages, and earlier stages do not
     # depend on later stages.

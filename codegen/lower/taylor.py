@@ -18,7 +18,7 @@ from codegen.scene.orbit_projection import reaches_orbit
 from codegen.scene.problem import Problem
 
 LEAST = 2
-"""The least degree for step control, which compares the last two Taylor coefficients of degree one or
+"""The least degree for step control, which compares the last two Taylor coefficients, both of degree one or
 more."""
 
 if TYPE_CHECKING:
@@ -41,8 +41,8 @@ class Taylor(Lowering):
         return scene.group.abelian or reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why a scene is not accepted: it has run-time inputs. None is returned for other
-        scenes."""
+        """Return the reason why the family does not accept a scene: the scene has run-time inputs. The result
+        is None for any other scene."""
         if not scene.inputs:
             return None
         return Objection(

@@ -16,6 +16,12 @@ from codegen.scene.problem import Problem
 from orderconds.errors import ZeroWeight
 from orderconds.tableau import RungeKutta
 
+HAMILTONIAN = (
+    "a Hamiltonian scene, because a variational method computes momenta in T*G, which a field on a "
+    "manifold does not have"
+)
+"""The scene that a variational family expects."""
+
 
 class VariationalLowering(Lowering):
     """A family that discretises Hamilton's principle on a group, for scenes with a state (q, mu) and a
@@ -27,7 +33,7 @@ class VariationalLowering(Lowering):
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
-        return None if scene.is_hamiltonian else Objection("", "a Hamiltonian scene")
+        return None if scene.is_hamiltonian else Objection("", HAMILTONIAN)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene itself."""
@@ -46,16 +52,17 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))
     A = [[stages.number(x) for x in row] for row in tableau.A]
-    # The equations for M_i result from a division of h b_i l(Q_i, xi_i) by b_i, so no b_i may be zero.
+    # The terms h b_i l(Q_i, xi_i) of the discrete Lagrangian give equations for b_i M_i, which are divided by
+    # b_i, so no b_i may be zero.
     return stages, tableau, A, nonzero(method, [stages.number(x) for x in tableau.b])
 
 
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
-    """Return the weights b_i; the equations of the step divide by them. ZeroWeight is raised for the first
-    weight that may be zero."""
+    """Return the weights b_i, by which the equations of the step are divided. ZeroWeight is raised for the
+    first weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # A small weight is allowed. A ball that contains zero is not allowed, because the quotient by it is
-        # not defined.
+        # A weight may be small, but a ball that contains zero is refused, because division by it is not
+        # defined.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(
@@ -71,8 +78,8 @@ def brackets(method: Method) -> int:
     """Return the cut-off of dexp^{-1}. MethodError is raised for a method without a cut-off, because a
     program can contain only finitely many brackets."""
     if method.cutoff is None:
-        # The program also expands the dual and the derivative of dexp^{-1}, for which there is no search for
-        # the fewest brackets.
+        # The search for the fewest brackets is implemented for dexp^{-1} only, and the program also needs the
+        # dual and the derivative of dexp^{-1}.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} without a cut-off", expected=f"a number of brackets, as {family}(2):{name}"
@@ -125,7 +132,8 @@ class ExpandedStep(ABC):
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
         # -Y gets a variable of its own, because it is an argument of the operation dexp*_{-Y}.
         self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
-        # n_j is a covector at Q_j. Ad* transports it to q0, where covectors of all stages can be added.
+        # The force n_j is a covector at Q_j. Ad*_{E_j}, with Q_j = E_j q0, transports it to q0, where the
+        # forces of all stages can be added.
         self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]
         terms = [(ONE, self.mu)] + [(self.stages.times_h(self.b[j]), self.nu[j]) for j in range(self.s)]
         self.mubar = build.lin("mubar", Kind.DUAL, terms)
@@ -138,7 +146,7 @@ class ExpandedStep(ABC):
     def update(self) -> dict[str, Var]:
         """Append q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
         g = self.build.exp("g", self.Y)
-        # The same g acts on q and mu: the step is the action of exp(Y) on (q0, mubar) in T*G.
+        # The element g = exp(Y) acts on q0 and on mubar: the step is the action of g on T*G.
         q = self.build.mul("q1", g, self.q)
         return {"q": q, "mu": self.build.adjoint("mu1", g, self.mubar, inverse=True)}
 

@@ -1,4 +1,5 @@
-"""Variational commutator-free methods on T*G: VCG with several stages in one exponential.
+"""Variational commutator-free methods on T*G: as variational Crouch-Grossman methods (VCG), but an exponent
+may combine several stages.
 
 The discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), b_i = sum_J beta_J^i, with the products of a
 commutator-free method: X_iJ = h sum_j alpha_iJ^j xi_j, E_i^J = exp(X_iJ) E_i^{J-1}, Q_i = E_i q0; Y_J = h
@@ -10,8 +11,8 @@ sum_j b_j nu_j, its Hamilton equations are
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
 As for VCG, the exponential of each factor is merged into dexp* (dexp*_x Ad*_{exp(-x)} = dexp*_{-x}). The
-terms are separate, so that the passes can cancel equal terms. A stage that starts from another stage has the
-exponentials of that stage before its own; the passes find shared prefixes.
+program has a separate term for each coefficient, so that passes can cancel equal terms. A stage that starts
+from another stage has the exponentials of that stage before its own; the passes find shared prefixes.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ Rows = tuple[tuple[Number, ...], ...]
 
 @dataclass(frozen=True)
 class _Product:
-    """A product of exponentials: minus the exponent of each factor, and the products of 0, 1, ... factors."""
+    """A product of exponentials: the exponent of each factor with a minus sign, and the products of the first
+    0, 1, ... factors."""
 
     rows: Rows
     minus: tuple[Var, ...]
@@ -48,7 +50,7 @@ class _Product:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
-        # The empty product is included: e^0 = 1 transports the momentum of the first factor.
+        # The empty product e^0 = 1 is included, because the term of the first factor contains Ad*_{(e^0)^-1}.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
             # Both signs of the exponent are formed: the plus sign for exp, the minus sign for dexp*_{-x}.
@@ -97,10 +99,11 @@ def _program(scene: Problem, method: Method) -> Program:
                 # The factor is beta_J^i/b_i. The factors add up to one over J, so M_i = mu0 + O(h).
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
-                # mubar is not formed first: its terms must be separate, so that they can cancel terms of the
-                # stages.
+                # The terms of mubar are appended one by one and not as a sum, so that they can cancel terms
+                # of the stages.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
-        # The Lagrangian also depends on xi_i through the points Q_j, which gives the terms with a minus sign.
+        # The discrete Lagrangian depends on xi_i through the points Q_j, too. This gives the terms with a
+        # minus sign.
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
@@ -110,7 +113,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
-        # All stages begin at y0, even if they share factors, because value numbering finds equal prefixes.
+        # The product of each stage begins at y0, even if stages have factors in common: value numbering finds
+        # equal products.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []

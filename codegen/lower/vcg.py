@@ -33,14 +33,13 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
-# Products: all partial products are kept, because the product before factor i transports the momentum of
-# factor i. A zero coefficient gives exp(0) = 1, which a pass removes, so all lists of products have s + 1
-# entries.
-# Momenta: by dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i, the exponential of xi_i is merged into
-# dexp*. The terms of mu0 and of all nu_j are separate. In a composition the term of nu_j for a later stage j
-# cancels the term with a_ji exactly, so stage i does not depend on stage j. The quotient a_ji/b_i is formed
-# first: if a_ji equals b_i, the quotient is exactly one, also for balls.
-# Ad*_{E_j} transports the force from Q_j to q0, where the equations are written.
+# Products: all partial products are stored, because the product before factor i transports the momentum of
+# factor i. Each list of products has s + 1 entries: a coefficient zero gives exp(0) = 1, which a pass
+# removes. Momenta: by dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i, the exponential of xi_i is
+# merged into dexp*. The terms of mu0 and of all nu_j are separate. In a composition the term of nu_j for a
+# later stage j cancels the term with a_ji exactly, so stage i does not depend on stage j. The quotient
+# a_ji/b_i is formed first: if a_ji equals b_i, the quotient is exactly one, also for balls. Ad*_{E_j}
+# transports the force from Q_j to q0, where the equations are written.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -62,7 +61,7 @@ def _program(scene: Problem, method: Method) -> Program:
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:
-            # e[i] is e^{i-1} of the equations: lists count from zero.
+            # Indices of lists begin at 0, so e[i] is e^{i-1} in the equations of this module.
             moved = build.adjoint(f"m{i + 1}", e[i], m, inverse=True)
             return build.dual_dexp(f"p{i + 1}", minus, moved)
 
@@ -70,7 +69,7 @@ def _program(scene: Problem, method: Method) -> Program:
         for j in range(s):
             terms.append((stages.times_h(b[j]), carried(nu[j])))
             a = A[j][i]
-            if a.is_zero:  # stage j does not depend on xi_i
+            if a.is_zero:  # if a_ji = 0, stage j does not depend on xi_i
                 continue
             x = build.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])
             moved = build.adjoint(f"m{i + 1}", E[j][i], nu[j], inverse=True)

@@ -10,9 +10,9 @@ dexp^{-1}_{(r),x} xi with respect to x, the equations are
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 The v_i and m_i are the unknowns: all other values follow from them with one evaluation of the scene for each
-stage. Where a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown and
-m_i is not. The passes remove values that no equation reads. The sum m_i is expanded in mu0, n_j and m_j,
-because its terms cancel on an abelian group.
+stage. If a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown, and
+m_i is none. Passes remove unused values. The sum m_i is written in terms of mu0, n_j and m_j, because on an
+abelian group some of these terms cancel.
 """
 
 from __future__ import annotations
@@ -55,8 +55,7 @@ class _Step(ExpandedStep):
 
     def images(self) -> list[Var]:
         """Return new values of v_i, m_i and Lambda, computed from the old values."""
-        # X_i is computed from the unknowns v_j. Y below is computed from the new values of v_j, which are one
-        # sweep further.
+        # X_i is computed from the old values v_j, the unknowns. Y below is computed from their new values.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)
@@ -74,8 +73,8 @@ class _Step(ExpandedStep):
         # on later stages only.
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # If m_i depends on later stages only, values that are already computed determine m_i. It is then
-            # no unknown, and fewer unknowns converge in fewer sweeps.
+            # If m_i depends on later stages only, it is computed from values that are already known and is no
+            # unknown. An iteration with fewer unknowns needs fewer sweeps.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]
@@ -84,7 +83,7 @@ class _Step(ExpandedStep):
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
             Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
-            # The cut-off is the same as in M_i: the step is symplectic only if both come from one discrete
+            # v_i has the same cut-off as M_i: the step is symplectic only if both follow from one discrete
             # Lagrangian.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
             # dexp^{-1}_{(r),X} depends on X unless r = 0, and its derivative with respect to X acts as a
@@ -100,7 +99,7 @@ class _Step(ExpandedStep):
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Append m_i as a sum in mu0, n_j and m_j, so that terms that are equal without brackets cancel."""
+        """Append m_i as a sum in mu0, n_j and m_j. On an abelian group some of its terms cancel."""
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
@@ -117,7 +116,7 @@ class _Step(ExpandedStep):
         """Return the starts xi, b_i mu and mu, all evaluated at the beginning of the step."""
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
-        # m_i is b_i times a momentum, so it starts at b_i mu0.
+        # m_i is b_i times a momentum, so its first value is b_i mu0.
         weighted = [
             build.lin(f"m0_{i + 1}", Kind.DUAL, [(Coefficient(self.b[i]), self.mu)]) for i in range(self.s)
         ]

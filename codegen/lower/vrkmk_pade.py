@@ -1,9 +1,10 @@
-"""VRKMK with the inverse of a truncated dexp in place of dexp^{-1}: section 3.4.1 of Marthinsen's thesis.
+"""Variational Runge-Kutta-Munthe-Kaas methods with the inverse of a truncated dexp in place of a truncated
+dexp^{-1}: section 3.4.1 of Marthinsen's thesis.
 
 The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h
-sum_j a_ij v_j; so no multipliers are needed. With R*_(r)(x, v) the dual of the derivative of dexp_{(r),x} v
-with respect to x, (xi_i, n_i) = f(exp(X_i) q0, M_i), Y = h sum_j b_j v_j and Lambda = dexp*_{-Y}(mu0 + h
-sum_j b_j Ad*_{exp X_j} n_j),
+sum_j a_ij v_j; so no Lagrange multipliers are needed. With R*_(r)(x, v) the dual of the derivative of
+dexp_{(r),x} v with respect to x, (xi_i, n_i) = f(exp(X_i) q0, M_i), Y = h sum_j b_j v_j and Lambda =
+dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
 
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
@@ -29,7 +30,7 @@ Terms = list[tuple[Coefficient, Var]]
 
 
 class VariationalMuntheKaasPade(VariationalLowering):
-    """VRKMK with the inverse of a truncated dexp."""
+    """Variational Runge-Kutta-Munthe-Kaas methods with the inverse of a truncated dexp."""
 
     family = "vrkmk_pade"
 
@@ -68,8 +69,8 @@ class _Step(ExpandedStep):
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
-        # dexp_(r), its dual and its derivative use the same iterated brackets: r brackets each, computed
-        # once.
+        # The iterated brackets of v_i and of M_i, r of each, are computed once. dexp_(r), its dual and its
+        # derivative read them.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
         # dexp_{(r),X} v = xi is solved for the first term, v = xi - sum_{k>=1} ad_X^k v/(k+1)!, which is a
         # contraction for small h.
@@ -80,7 +81,7 @@ class _Step(ExpandedStep):
         return velocity
 
     def _powers(self, x: Var, first: Var) -> list[Var]:
-        """Append ad_x^k first, or its dual, for k = 0..r."""
+        """Append ad_x^k ``first``, or (ad*_x)^k ``first``, for k = 0, ..., r."""
         powers = [first]
         for k in range(self.r):
             # ad_x^k v is formed from ad_x^{k-1} v: one bracket for each power.

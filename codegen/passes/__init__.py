@@ -39,8 +39,8 @@ from codegen.scene.problem import Problem
 
 ZERO = "coefficients are zero, or terms cancel"
 SHARED = "equal values are computed once"
-UNUSED = "no result depends on them"
-FACTORED = "a linear map is applied to a sum, not to each term"
+UNUSED = "no result depends on these operations"
+FACTORED = "a linear map is applied once to a sum and not to each term"
 
 
 def optimise(
@@ -56,7 +56,7 @@ def optimise(
 
 
 class Optimiser:
-    """Runs the passes on one program and compares each result with a reference.
+    """Runs the passes on one program and compares the result of each pass with a reference.
 
     ``composed``, if given, is the same step as a composition of shorter steps
     (:mod:`codegen.lower.substeps`). The whole composition is compared with ``program`` and then replaces it.
@@ -71,7 +71,8 @@ class Optimiser:
         if composed is not None:
             whole: Program = composed
             self._run(Pass("substeps", "the step repeats a shorter step", lambda _: whole))
-            # The passes now rewrite one substep, so the reference is this substep as a step of its own.
+            # From now on the passes rewrite one substep, so the reference is this substep, computed as a
+            # step.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -86,12 +87,13 @@ class Optimiser:
         The new program may need more operations: the caller counts the operations of both programs.
         """
         plain, reports = self.program, list(self.reports)
-        # The reference stays valid, because the interpreter converts the momentum to the body frame and back.
+        # The interpreter converts the momentum to the body frame and back, so results can still be compared
+        # with the reference.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # The optimiser continues with the program in the space frame, because the program in the body frame
-        # may need more operations.
+        # The optimiser keeps the program in the space frame, because the program in the body frame may need
+        # more operations.
         self.program, self.reports = plain, reports
         return outcome
 
@@ -104,7 +106,7 @@ class Optimiser:
         # deviations could accumulate.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
-            raise IllFormed(f"the pass {each.name} changed the meaning of {old.name}: {account}")
+            raise IllFormed(f"the pass {each.name} changed the results of {old.name}: {account}")
         self.reports.append(PassReport(each.name, each.because, old, new))
         self.program = new
 
@@ -124,27 +126,28 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass follows value numbering, which gives stages with equal rows the same image variable.
+        # This pass follows value numbering: only then have stages with equal coefficients the same image
+        # variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # When two stages become one, several terms of a sum may refer to the same value, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
         # After flows have been joined, the stage times of the replaced flows may be unused.
         Pass("unused values", UNUSED, dead.run),
-        # This pass follows the pass for zeros, because terms that cancel would keep a composition in one
-        # large block.
+        # This pass follows the pass for zeros: terms that cancel would otherwise connect stages that are
+        # independent.
         Pass("blocks", "stages are solved one after the other", blocks.run),
         # The next pass counts the readers of each map; an unused reader would keep the map inside its sum.
         Pass("unused values", UNUSED, dead.run),
-        # If only one sum reads L(x) and L(y), L(x + y) always saves one application of L. The next pass
-        # factors maps that several sums read.
+        # This pass replaces L(x) + L(y) by L(x + y), if no other sum reads L(x) or L(y): one application of L
+        # is saved. The next pass is for maps that several sums read.
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
         # Factoring produces sums of a single term, which this pass removes.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass follows value numbering, which merges equal exponentials. Before equal exponentials are
-        # merged, the number of readers of exp(x) is not known.
+        # This pass needs the number of readers of exp(x), which is known only after value numbering has
+        # merged equal exponentials.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
         # Factoring can make values independent of a block's unknowns; this pass moves them out of the block.
@@ -159,17 +162,18 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
     return [
         Pass("body frame", "the equations are written in the body frame", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # Here equal momenta become one variable. This must happen before the Legendre transform, because the
-        # transform would replace only one of several variables with the same momentum.
+        # Value numbering merges variables with equal momenta. It must precede the Legendre transform, which
+        # would otherwise replace only one of these variables.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
-        # The Legendre transform introduces inverses of maps. An inverse that is applied directly to the
-        # result of its map is removed.
+        # The Legendre transform introduces inverses of maps; a map that is applied directly before its
+        # inverse is removed with it.
         Pass("inverse maps", inverse, opposites.run),
-        # This pass follows the Legendre transform. Before the transform the force of a stage depends on the
-        # momentum of the stage, and this dependence is part of a cycle, which prevents tearing.
+        # This pass follows the Legendre transform. Before it, the force of a stage depends on the unknown
+        # momentum of the stage, and this cycle prevents tearing.
         Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
-        # Where tearing removed an unknown, a map may now act directly on the result of its inverse.
+        # After tearing has removed an unknown, a map may be applied directly after its inverse; such pairs
+        # are removed.
         Pass("inverse maps", inverse, opposites.run),
         Pass("unused values", UNUSED, dead.run),
         Pass("shared values", SHARED, value_numbering.run),
@@ -182,7 +186,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # This pass follows the pass for functions of ad. Only after that pass is it known in which frame the
         # momenta need fewer operations.
         Pass("residuals", "momenta are compared", lambda p: legendre.residuals(p, scene)),
-        # The residuals contain new inverse maps, so the passes for maps run again.
+        # The residuals contain new inverses of maps, so the passes for maps are repeated.
         Pass("inverse maps", inverse, opposites.run),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         Pass("shared values", SHARED, value_numbering.run),

@@ -30,8 +30,8 @@ def run(program: Program, abelian: bool) -> Program:
             # The linear map acts on the last argument; the other arguments determine the map.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # The result is an explicit zero and not an empty sum, because the pass for zeros recognises only
-            # the explicit zero.
+            # The pass for zeros recognises only the operation Zero, so the result is a Zero and not an empty
+            # sum.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

@@ -36,8 +36,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # replaced by its image.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
-    # The nodes of the graph are positions in the body and not variables, because the order of integers does
-    # not depend on hashes.
+    # The nodes of the graph are positions in the body. The order of these integers is the same in every run,
+    # unlike the order of a set of variables.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
     # Assignments without an edge to other assignments of the block are components, too.
@@ -54,8 +54,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # Inside a component the old order of assignments remains valid: an assignment depends on later
     # assignments only by unknowns.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
-    # Several orders may be possible. The order of the program is chosen, so that small changes of a program
-    # cause small changes of emitted text.
+    # Several orders of the components may be possible. The order closest to the old program is chosen, so
+    # that a small change of a program causes a small change of emitted text.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
     result: list[Statement] = []
     for component in order:
@@ -77,7 +77,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
         # The new blocks have no residuals: :mod:`codegen.passes.legendre` adds residuals after the last
         # split.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
-    # At the solution an unknown equals its image, and that image may now be computed without a block.
+    # At the solution an unknown equals its image, and the image is no longer in a block if its component has
+    # no cycle.
     names.update(image)
     return result
 
@@ -91,15 +92,16 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # In a closed chain v = w, w = v any common value is a solution. The start is used, because it is
-        # known.
+        # If the images form a closed chain, v = w and w = v, any common value is a solution. The start is
+        # chosen.
         result[unknown] = start[unknown] if var in seen else var
     return result
 
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # Unknowns of the component itself are not replaced by their images: that would close a cycle.
+        # Unknowns of the component itself are not replaced by their images, because this would create a
+        # cycle.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

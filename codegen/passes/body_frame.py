@@ -1,5 +1,5 @@
-"""The body frame: values are written in the body frame at the start of the step, the field in the body frame
-of the stage.
+"""The body frame: all values are expressed in the body frame at the start of the step, and the field is
+evaluated in the body frame of the stage.
 
 The pass is exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the
 algebra to Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a
@@ -51,7 +51,7 @@ EQUIVARIANT = (
 
 
 class NotFramed(Exception):
-    """Raised for a program that this pass does not change."""
+    """Raised for an operation that this pass cannot rewrite; the program is then not changed."""
 
 
 def run(program: Program, scene: Problem) -> Program:
@@ -80,8 +80,7 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # The position of the stage at the beginning of the step is q itself. Its factor E is the identity,
-        # for which no map is emitted.
+        # The position q at the beginning of the step has the factor E = 1, for which no map is emitted.
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:
@@ -89,8 +88,8 @@ class _Framing:
                 self._visit(statement)
                 body += self.build.take()
                 continue
-            # If a position is an unknown, its factor E is not known, and the frame of the stage would itself
-            # be unknown.
+            # If a position is an unknown, its factor E and the frame of its stage are unknown, and the pass
+            # is not applied.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
             # Starts are evaluated before the block, so they are renamed before the body of the block adds
@@ -105,12 +104,14 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # Embedded methods are not supported, because their second solution would need a second new frame.
+        # A program with an embedded solution has two new positions, and so two new frames. Such programs are
+        # not rewritten.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
-        # The next step transforms its momentum by the new q' = q E~, and Ad*_{q'} = Ad*_{E~} Ad*_q.
+        # The new momentum must be in the frame of the new position q' = q E~, because Ad*_{q'} = Ad*_{E~}
+        # Ad*_q.
         m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
         body += self.build.take()
@@ -118,7 +119,7 @@ class _Framing:
         return replace(program, body=tuple(body), outputs=named, frame=BODY)
 
     def _now(self, variables: tuple[Var, ...]) -> tuple[Var, ...]:
-        # Only the field and products may read a position Q, because other operations on Q are not
+        # Only the field and group products may read a position Q, because other operations on Q are not
         # equivariant.
         if any(v in self.relative for v in variables):
             raise NotFramed
@@ -130,13 +131,15 @@ class _Framing:
             self._field(assign)
         elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
-            # This case is not supported, because a product (E q)(E' q) does not have the form E'' q.
+            # A product of two positions, (E q)(E' q), does not have the form E'' q. Such programs are not
+            # rewritten.
             if left in self.relative:
                 raise NotFramed
-            # left (E q) = (left E) q, and conjugation by q preserves products.
+            # With the other factor ``left``: left (E q) = (left E) q. Conjugation by q preserves the product
+            # left E.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
-            # In the body frame E q is q E~: the factor changes sides.
+            # In the body frame E q is written as q E~, with the factor on the right side.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
             # An equivariant operation maps transformed arguments to the transformed result: rename them.
@@ -155,7 +158,8 @@ class _Framing:
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])
-        # For Q = q E~, Ad*_Q = Ad*_E~ Ad*_q; the momenta of the program already include the factor Ad*_q.
+        # For Q = q E~ the field needs Ad*_Q mu = Ad*_E~ (Ad*_q mu), and the momenta of the program are
+        # already Ad*_q mu.
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)

@@ -26,7 +26,8 @@ def run(program: Program) -> Program:
                 live.update(statement.args)
                 kept.append(statement)
             continue
-        # The order is reversed, because the whole list is reversed at the end.
+        # The statements of a block are appended in reverse order, because the whole list is reversed at the
+        # end.
         kept += reversed(_trim(statement, live))
     return replace(program, body=tuple(reversed(kept)))
 
@@ -41,7 +42,7 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # zip is not strict, because a block has one residual for each unknown, or no residuals.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
-    # This is a list in program order and not a set, because the order of a set would change from run to run.
+    # A list in program order is used, because the order of a set could change from run to run.
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
     # The image of a live unknown is live, and so is every value from which the image is computed.

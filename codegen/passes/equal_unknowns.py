@@ -43,8 +43,8 @@ def run(program: Program) -> Program:
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
     """Return (unknown, start, image) for the first unknown of each image, and a dictionary from every other
     unknown to the first unknown with the same image."""
-    # The first unknown keeps its start. The starts of the other unknowns are not needed, because the
-    # iteration finds the same solution from them.
+    # Only the start of the first unknown is used; from the other starts the iteration would find the same
+    # solution.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}

@@ -19,50 +19,50 @@ from codegen.scene.problem import Problem
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 """Step sizes to try, the largest first, because a wrong rewriting has the largest effect in a long step.
 
-Other decreasing powers of two would also be suitable. If the field is so fast that the first step would move
-the state too far, all steps are shortened."""
+Other decreasing powers of two would be suitable, too. If the first step would move the state too far, all
+steps are shortened by one factor."""
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
-"""Steps of size 2^-k, for k in TINY_STEPS, are computed in DIGITS decimal digits if doubles overflow or do
-not converge.
+"""If a step in doubles overflows or does not converge, steps of size 2^-k, for k in TINY_STEPS, are computed
+with DIGITS decimal digits.
 
-Even with a coefficient of 1e300 in the scene, the last of these steps is short enough."""
+The last of these steps is short enough even for a scene with a coefficient of 1e300."""
 
 REACH = 0.5
 """The largest value of h times the largest component of the field: longer steps would amplify rounding
 errors.
 
-The value need not be exact, because :data:`AGREE` is 2^15 times as large as the rounding errors that
-occur."""
+The value need not be exact, because :data:`AGREE` is 2^15 times as large as the rounding errors observed."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
 """The errors that interpreting a program may raise; ValueError is raised by a root of a negative number."""
 
 SWEEPS = 24
-"""The largest number of sweeps over a block: a step that needs more sweeps is too long for a comparison up to
-rounding.
+"""The largest number of sweeps over a block. A step that needs more sweeps is too long for an accurate
+comparison.
 
 A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24 sweeps. For slower blocks the next, shorter step
 is tried."""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""If results in doubles differ, the step is repeated with this number of sweeps and this number of digits."""
+"""The largest number of sweeps, and the number of digits, with which a step is repeated if results in doubles
+differ."""
 
 NOT_A_NUMBER = "differs by nan"
-"""A message with this end means that a result is not finite: the step is too long for a comparison."""
+"""The end of the message for a result that is not finite. Such a step is too long for a comparison."""
 
 APART = 16
 """The smallest ratio of consecutive step sizes at which programs are compared.
 
-The iteration for rewritten equations may converge only in smaller steps; a comparison in one step in which
-they converge is enough."""
+The iteration for rewritten equations may converge only in shorter steps. A comparison in one such step is
+sufficient."""
 
 LARGEST = 2.0**512
 """Results above this number are not compared: a step with such a result is too long."""
 
 CLOSE = 2.0**-200
-"""Results in DIGITS digits count as equal up to this relative difference, which is above the rounding of ball
-coefficients.
+"""Results with DIGITS digits count as equal up to this relative difference, which is larger than the errors
+from rounding the coefficients of ball tableaux.
 """
 
 AGREE = 2.0**-36
@@ -110,7 +110,8 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """Results of steps from one state; the results of shorter steps are computed on demand."""
+    """The results of steps of decreasing size from one state; each result is computed when it is first
+    needed."""
 
     def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
@@ -127,11 +128,11 @@ class _Point:
 class Reference:
     """The reference for comparisons: the results of a program after one step from points of a scene.
 
-    One point is the initial state, which may be special (an equilibrium, a symmetric position). The other is
-    a nearby point without any symmetry. The step is the longest step that moves the state by at most
-    :data:`REACH` along the field, and for which the results are finite and the blocks converge. A compared
-    program starts from the solutions of the reference; if its equations differ, it iterates away from these
-    solutions.
+    Two points are used: the initial state, which may be special (an equilibrium, a symmetric position), and a
+    nearby point without symmetry. The step is the longest step that moves the state by at most :data:`REACH`
+    along the field, and for which the results are finite and the blocks converge. The iterations of the
+    compared program start from the solutions of the reference. If its equations have other solutions, the
+    iterations leave these starts, and the results differ.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -141,14 +142,15 @@ class Reference:
         self.points = [point for point in points if point.computed]
         if not self.points:
             raise SceneError(
-                "no step can be computed from the initial state, nor from a state nearby",
+                "no step of the method can be computed from the initial state, nor from a state nearby",
                 where=scene.name,
-                expected="a field that is finite there, and stages that can be solved for small steps",
-                hint="look for roots of negative numbers, zero denominators and numbers above 1e308",
+                expected="a field that is finite at these states, and stages solvable for small steps",
+                hint="check the scene for roots of negative numbers, zero denominators, numbers above 1e308",
             )
 
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
-        """Yield results of the longest step and of shorter steps, in which more programs converge.
+        """Yield the results of the longest step, then of shorter and shorter steps, in which more iterations
+        converge.
 
         The steps begin at the initial state, or at a state near it.
         """
@@ -156,14 +158,15 @@ class Reference:
         # The distance covered in a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # A state at which the field is not finite is skipped, because the programs may still be compared at
-        # the other state.
+        # A state at which the field is not finite is skipped; the programs can then be compared at the other
+        # state.
         if not math.isfinite(speed):
             return
         excess = math.frexp(speed * STEPS[0] / REACH)[1]  # 2**excess is the next power of two
         last = math.inf
         for moderate in STEPS:
-            # The step is a power of two: h^k then has no rounding error that could look like a difference.
+            # The step size is a power of two, so powers of h have no rounding errors that could be mistaken
+            # for a difference.
             step = math.ldexp(moderate, -max(excess, 0))
             if step <= last / APART and (result := self._step(program, FloatDomain(step), inputs, moved)):
                 yield result
@@ -191,8 +194,8 @@ class Reference:
             after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
         except FAILURES:
             return None
-        # Sums near the greatest double are excluded, because they may overflow if their terms are added in
-        # another order.
+        # Results near the largest double are excluded, because the sum of their terms in another order may
+        # overflow.
         finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
@@ -230,8 +233,8 @@ class Reference:
         """Compare results after the longest step for which both programs have a finite result."""
         failure = ""
         for step in point.results():
-            # The equations of the compared program may converge, and its sums may stay finite, only for
-            # shorter steps. The next shorter step is then tried.
+            # The iterations of the compared program may converge only for shorter steps, and its sums may
+            # overflow in longer steps. In both cases the next shorter step is tried.
             try:
                 after = self._run(program, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
             except FAILURES as error:
@@ -246,7 +249,8 @@ class Reference:
         return failure
 
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
-        """Return the difference in a step of the same size in many digits; ``account`` if there is none.
+        """Repeat the step in many digits and return the difference found; return ``account`` if this step
+        cannot be computed.
 
         If a step is ill-conditioned, results in doubles may differ by more than rounding although the
         programs are equal.
@@ -275,8 +279,8 @@ class Reference:
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-            # The condition is negated on purpose: comparisons with NaN are false, so a gap that is NaN counts
-            # as a difference.
+            # Comparisons with NaN are false, so by the negated condition a gap that is NaN counts as a
+            # difference.
             if not gap <= agree * scale:
                 return f"{name} differs by {float(gap / (scale if step.tiny else 1)):.3g}"
         return ""
@@ -287,7 +291,7 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
     domain = FloatDomain(0.0)
     coordinates = tuple(x for block in scene.state for x in state[block.name])
     try:
-        # Where the field overflows or divides by zero, it counts as not finite.
+        # A field that overflows or divides by zero counts as not finite.
         values = evaluate(scene.roots, domain, scene.values(domain, coordinates, state["t"]))
     except (ArithmeticError, ValueError):
         return math.inf
@@ -300,8 +304,8 @@ def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     The moved state is an element of the group up to the rounding errors of the domain.
     """
     start = scene.initial(domain)
-    # The directions are sines of integers. They have no symmetry and no integer relation that a scene might
-    # share, and need no random seed.
+    # The directions are sines of integers: numbers without symmetries or integer relations, and the same in
+    # every run.
     directions = [_exactly(domain, math.sin(7.0 * k + 1.0) / 8) for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     state: dict[str, Value] = {"t": _exactly(domain, float(scene.span[0]) + moved / 8)}

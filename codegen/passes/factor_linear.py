@@ -14,7 +14,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
-    # Each round has fewer maps than the previous round, so the loop ends.
+    # Every round removes at least one map, so the loop ends.
     while True:
         # Values that are no longer used are removed, because they must not count as readers in the next
         # round.
@@ -27,12 +27,12 @@ def run(program: Program) -> Program:
 def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not assign.terms:
         return rewriter.emit(assign)
-    # A dict keeps the order of first appearance, so the emitted sum does not depend on hashes.
+    # A dict keeps the order of insertion, so the emitted sum is the same in every run.
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
     for k, (c, arg) in enumerate(assign.terms):
         source = rewriter.definitions.get(arg)
-        # If L(x) has a second reader, L(x) is computed anyway. Applying L to the sum would then take one more
-        # map.
+        # If L(x) has a second reader, L(x) must be computed in any case, and applying L to a sum would be an
+        # additional map.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
         # Terms with equal operation and equal first arguments are values of the same linear map. Other terms
         # get unique keys.
@@ -49,7 +49,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # The coefficients move inside: sum c_k L(x_k) = L(sum c_k x_k).
         inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
         total = _lin(rewriter, inner)
-        # The old name tells people who read the emitted code which map was factored out.
+        # The new value is named after the first term, so that readers of the emitted code see from which map
+        # it results.
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
         moved = Assign((target,), source.operation, (*source.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))

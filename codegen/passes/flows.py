@@ -1,8 +1,10 @@
 """Join exact flows of one part into one flow if they commute with all flows between them.
 
-The pass is exact. Two flows commute if their order does not matter. Whether two flows commute is tested with
-40 digits at points of the scene, for two different durations. Example: gravity does not depend on the spin of
-a symmetric top about its axis, so a step needs the flow of this spin only once.
+The pass is exact. Two flows commute if both orders of applying them give the same state. The pass tests this
+numerically: it applies two flows in both orders at sample points of the scene, with 40 digits and two
+different durations. Example: the rotation of a symmetric top about its own axis commutes with the flow of
+gravity. If a step rotates the top before and after the flow of gravity, the two rotations are joined into
+one.
 """
 
 from __future__ import annotations
@@ -23,7 +25,8 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Letter:
-    """One flow of a composition: its part of the splitting, its duration, and its time argument, if any."""
+    """One flow of a composition: the name of its part of the splitting, its duration, and its time argument,
+    if any."""
 
     part: str
     duration: Coefficient
@@ -35,8 +38,8 @@ def run(program: Program, scene: Problem) -> Program:
     letters = word(program)
     if letters is None:
         return program
-    # The predicate is formed only if the program is a composition of flows, because sampling the scene takes
-    # time.
+    # The test for commuting flows samples the scene, which takes time. It is built only for compositions of
+    # flows.
     commute = commuting(scene)
     kept: list[Letter] = []
     # Each flow is joined to an earlier flow of the same part if it commutes with all flows between them.
@@ -46,7 +49,8 @@ def run(program: Program, scene: Problem) -> Program:
             # Flows of one part form a one-parameter group: exp(a X) exp(b X) = exp((a + b) X).
             duration = letter.duration.value + kept.pop(at).duration.value
             letter = replace(letter, duration=Coefficient(duration, letter.duration.power))
-        # The flow of duration zero is the identity; a duration counts as zero only if that is proven.
+        # A flow of duration zero is the identity and is dropped. A duration counts as zero only if this is
+        # proven.
         if not letter.duration.is_zero:
             kept.append(letter)
     # If no flows were joined, the old program is returned, because the optimiser then skips the comparison of
@@ -55,14 +59,14 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the index of the last flow of the same part and time, if all flows after it commute with the new
-    flow."""
+    """Return the index of the last flow with the part and the time of ``letter``. The result is None if there
+    is no such flow, or if a flow after it does not commute with ``letter``."""
     for at in reversed(range(len(kept))):
-        # The flow of a part that depends on time uses the part at its stage time, so two stage times give two
-        # different flows.
+        # If a part of the splitting depends on time, its flow uses the vector field at a fixed stage time.
+        # Flows with different stage times are therefore flows of different fields.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # The new flow cannot be moved before this flow, because the two flows do not commute.
+        # The new flow does not commute with this flow, so it cannot be joined with any flow before this flow.
         if not commute(kept[at].part, letter.part):
             return None
     return None
@@ -73,7 +77,8 @@ def word(program: Program) -> list[Letter] | None:
     letters = []
     state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
-        # A block means implicit stages, so the program is not a composition of flows.
+        # A statement that is no assignment is a block of implicit equations, and a composition of flows has
+        # none.
         if not isinstance(statement, Assign):
             return None
         operation, args = statement.operation, statement.args
@@ -105,14 +110,15 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
 
 def commuting(scene: Problem) -> Callable[[str, str], bool]:
-    """Return a function of the names of two parts that returns whether the flows of these parts commute."""
+    """Return a test: given the names of two parts of the splitting, it returns True if their flows
+    commute."""
     orbit = orbit_of(scene)
     d = orbit.domain
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # The points are on the manifold, because flows that use the equations of the group may commute only
-        # there.
+        # All sample points are on the manifold: formulas of flows may use the equations that define the
+        # group, and such flows may commute only on the manifold.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)
@@ -132,13 +138,14 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
                 return False
         return True
 
-    # The relation is symmetric, so sorting the pair halves the number of comparisons. A flow commutes with
+    # The relation is symmetric, so (a, b) and (b, a) share one cached comparison. A flow commutes with
     # itself.
     return lambda a, b: a == b or same((a, b) if a < b else (b, a))
 
 
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:
-    """Return the parts whose flows commute with all other flows of a composition, by first appearance."""
+    """Return the parts whose flows commute with all other flows of a composition, in the order in which the
+    parts first occur."""
     parts = tuple(dict.fromkeys(letter.part for letter in letters))
     bound = {p for a, b in combinations(parts, 2) if not commute(a, b) for p in (a, b)}
     return tuple(p for p in parts if p not in bound)

@@ -14,9 +14,11 @@ from codegen.ir.operations import (
     Advance,
     Bracket,
     DualDexp,
+    ElementAt,
     Exp,
     Identity,
     InverseDexp,
+    InverseDifferential,
     Multiply,
     Zero,
 )
@@ -24,7 +26,7 @@ from codegen.ir.program import Assign, Program
 from codegen.ir.values import Coefficient, Var
 from codegen.passes.rewrite import Rewriter, rewrite
 
-AT_ZERO = (InverseDexp, DualDexp)
+AT_ZERO = (InverseDexp, DualDexp, InverseDifferential)
 """Operations that return their last argument if the first argument is zero."""
 
 AT_IDENTITY = (Act, Adjoint)
@@ -43,11 +45,12 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     # t + 0 h is t: the stage at the start of the step needs no stage time.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
-    # A value counts as zero (or as the identity) only if the operation Zero (or Identity) defines the value.
+    # A value counts as zero if the operation Zero defines it, and as the identity if the operation Identity
+    # defines it.
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]
-    if isinstance(operation, Exp) and zero[0]:
+    if isinstance(operation, Exp | ElementAt) and zero[0]:
         return rewriter.emit(Assign(assign.targets, Identity(), ()))
     if isinstance(operation, Multiply) and any(identity):
         # A product of the identity and another factor is the other factor.
@@ -74,7 +77,7 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
-    # A sum that is equal to one value is not computed: its readers read this value.
+    # If a sum equals a single value, its readers read this value, and the sum is removed.
     if len(terms) == 1 and terms[0][0].is_one:
         return (terms[0][1],)
     return rewriter.emit(Assign.of_terms(assign.targets[0], terms))

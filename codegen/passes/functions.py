@@ -1,4 +1,5 @@
-"""Functions of ad_x: dexp, dexp^{-1} and exp of one x, applied one after the other, become one function.
+"""Functions of ad_x: several functions of one ad_x (dexp, dexp^{-1}, exp), applied one after the other,
+become one function.
 
 The pass is exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations with
 multiples of one x is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a
@@ -26,7 +27,8 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Return the program with functions of ad combined, if the group has closed forms for them."""
-    # Without a closed form a product of functions costs as many brackets as its factors do separately.
+    # Without a closed form, a product of functions takes as many brackets as its factors together, so joining
+    # saves nothing.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
@@ -62,8 +64,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     function = _function(rewriter, assign)
     if function is None:
         return rewriter.emit(assign)
-    # If x = s y, functions of ad_x and ad_y commute. The order of the two maps does not matter then, and only
-    # the ratio s is needed.
+    # If x = s y, functions of ad_x and functions of ad_y commute, so their product is a function of ad_y in
+    # any order.
     x, word = function
     v = assign.args[-1]
     source = rewriter.definitions.get(v)
@@ -74,14 +76,14 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             # x = scale y turns f(ad_x) into f(scale ad_y): both factors are now functions of the same ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
-    # The argument of f(ad_x) is a sum of functions of ad_x. If f is distributed over the sum, all terms can
-    # be computed together with two brackets.
+    # If the argument of f(ad_x) is a sum of functions of ad_x, f is applied to each term. All terms of the
+    # new sum can then be computed with two brackets.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
         if len(parts) > 1 and all(part is not None for part in parts):
             return _distributed(rewriter, source, [p for p in parts if p is not None], word)
-    # If other operations also use exp(x), it is computed anyway, so nothing is saved.
+    # If other operations read exp(x), too, exp(x) must be computed in any case, and nothing is saved.
     if adjoint and rewriter.uses.get(assign.args[0], 0) > 1:
         return rewriter.emit(assign)
     return _emit(rewriter, assign, x, word, v)
@@ -96,14 +98,14 @@ def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tup
 
 
 Part = tuple[Var, Word, Var]
-"""x, a function of ad_x, and its argument."""
+"""The parts of a value f(ad_x) v: x, the function f as a word, and v."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
     """Return (s, (y, W, v)) if var is defined as W(ad_y) v and x = s y; None otherwise."""
     source = rewriter.definitions.get(var)
-    # If this function of ad has a second reader, it is computed anyway. Joined with one of its readers, it
-    # would be computed twice.
+    # A function of ad with a second reader is not joined with one reader, because it would then be computed
+    # twice.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])
@@ -129,7 +131,7 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
-        # Only an element that the program defines as an exponential gives a function of ad.
+        # Ad_g is a function of ad only if the program defines g as an exponential.
         if source is None or not isinstance(source.operation, Exp):
             return None
         # Ad_{exp x} = exp(ad_x), and its inverse is exp(-ad_x); the same holds on the dual.
@@ -142,8 +144,8 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
     """Return the rational number s with x = s y, or None if no such s follows from the terms of x and y."""
     a, b = _terms(definitions, x), _terms(definitions, y)
-    # Proportional combinations contain the same variables. Both dictionaries are sorted, so that their items
-    # can be compared in order.
+    # Proportional combinations contain the same variables. Both dictionaries are sorted, so their items are
+    # compared in pairs.
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
@@ -161,7 +163,8 @@ def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], N
         source = definitions.get(var)
         if source is not None and source.terms:
             for k, arg in source.terms:
-                # Sums are expanded completely: h xi/2 and h xi have nothing in common but the variable xi.
+                # Sums are expanded down to variables: h xi/2 and h xi are recognised as proportional only by
+                # the variable xi.
                 waiting.append((c * k.value, power + k.power, arg))
             continue
         old = total.get((var.name, power))

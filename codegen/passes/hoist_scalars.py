@@ -16,8 +16,8 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that contain a value. For each sum: its index, and the coefficient of the value in this sum
-divided by the coefficient of the value in the first sum."""
+"""The sums that contain a value: for each sum its index, and a ratio of two coefficients of the value, in
+this sum and in the first sum."""
 
 
 def run(program: Program) -> Program:
@@ -70,8 +70,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 def _added(program: Program) -> Program:
     """Return the program in which terms that several sums contain in the same proportion are added once."""
     builder = Builder({v.name for v in defined(program)})
-    # Only sums in blocks are changed, because a block is evaluated several times in a step, so that an
-    # addition saved in a block is saved several times.
+    # Only sums in blocks are changed: a block is evaluated several times in a step, so it is worth saving an
+    # addition there.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
     return replace(program, body=tuple(body))
 
@@ -105,10 +105,10 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The totals are appended after the sums that contain them, so the assignments are sorted: definitions
-    # must precede uses.
+    # The common sums are appended after the sums that read them. The assignments are then sorted, because
+    # definitions must precede uses.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
-    # A total reads only values that the old sums read, so no cycle can arise.
+    # A common sum reads only values that the old sums read, so no cycle can arise.
 
     assert result is not None
     return result

@@ -1,11 +1,11 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
 The pass is exact. If an unknown v equals W(Q, P) up to invertible linear maps, then P = W^{-1}(Q, v) at the
-solution. Other operations that read W, P, or a value on the path between v and a momentum M then read values
-computed from v instead. A force thus no longer depends on an unknown momentum, and tearing removes the force
-from the unknowns. One equation remains for each v: the momentum computed from v equals the momentum of the
-equations. :func:`residuals` adds this equation to the block. Statements after the block read the velocity
-from the unknown.
+solution. P results from a momentum M of the equations by further maps. All other operations that read W, P,
+or a value between v and M now read values that are computed from v. A force thus no longer depends on an
+unknown momentum, and tearing removes the force from the unknowns. One equation remains for each v: the
+momentum computed from v equals the momentum of the equations. :func:`residuals` adds this equation to the
+block. Statements after the block read the velocity from the unknown.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The momentum from which P is computed."""
+        """The momentum of the equations, from which P is computed."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
@@ -58,8 +58,7 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths are found before the first one is rewritten; rewriting one path does not change the
-        # statements of other paths.
+        # All paths are found first. Rewriting a path does not change the statements of the other paths.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
@@ -154,14 +153,15 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append the difference of the two momenta, in the frame in which this difference needs fewer
-    operations.
+    """Append the residual: the momentum of the equations minus the momentum computed from the velocity. Of
+    the frames in which they can be compared, the one with fewer operations is chosen.
     """
     replaced, computed = _values(build, route)
-    # Any two momenta on the path may be compared: an invertible map between them does not change the zeros.
+    # The two momenta may be compared at any place of the path: the maps of the path are invertible, so the
+    # residuals have the same zeros.
     given = route.base
-    # If P is Ad*_{exp x} of a sum of functions of one ad_x, then P is such a sum, too. It costs less than the
-    # momentum before the adjoint map.
+    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is such a sum and costs no more, and
+    # the base need not be computed.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -188,11 +188,11 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     """Return the block in which all other statements read the values of a path as computed from its
     unknown."""
-    # Every value on the path is computed again from the unknown; unused values are removed later.
+    # Every value on the path is computed from the unknown; a later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The base is a sum of many terms from other stages. No other operation needs the base as computed from
-    # the unknown, so computing it again would only add operations.
+    # The base is a sum of many terms of other stages. The other statements need no base computed from the
+    # unknown, so it is not replaced.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # Statements of the path itself are not changed: they are the equation that remains to be solved.

@@ -22,8 +22,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if isinstance(operation, Adjoint):
         g, x = assign.args
         source, element = rewriter.definitions.get(x), rewriter.definitions.get(g)
-        # Both operations must have the same variable g. This is enough, because value numbering has merged
-        # equal elements.
+        # The variables of g are compared, not their values, because value numbering has merged equal elements
+        # into one variable.
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
         # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0. This is false on the

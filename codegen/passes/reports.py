@@ -24,7 +24,7 @@ class PassReport:
 
     name: str
     because: str
-    # Whole programs are stored and not only counts, because ``emit --explain`` prints the program after each
+    # The programs are stored in addition to counts, because ``emit --explain`` prints the program after each
     # pass.
     earlier: Program
     program: Program
@@ -43,13 +43,13 @@ class PassReport:
     def removed(self) -> dict[str, int]:
         """How many of each operation the pass removed (negative: added)."""
         before, after = self.before, self.after
-        # The names are sorted, so that reports do not depend on the order of the program.
+        # The names are sorted, so that reports do not depend on the order of the statements.
         change = {n: before.get(n, 0) - after.get(n, 0) for n in sorted({*before, *after})}
         return {n: k for n, k in change.items() if k}
 
     @property
     def savings(self) -> Counter[str]:
-        """Return how many operations of each kind, by noun, the pass removed."""
+        """Return the number of operations that the pass removed, by the name of the operation in reports."""
         # Counter subtraction drops negative differences: an operation that a pass adds is no saving.
         return _nouns(self.earlier) - _nouns(self.program)
 
@@ -75,5 +75,6 @@ def _counted(noun: str, n: int) -> str:
 
 
 def _nouns(program: Program) -> Counter[str]:
-    """Return how often each kind of operation occurs, by noun, without operations that cost nothing."""
+    """Return the number of occurrences of each operation, by its name in reports; operations without cost are
+    omitted."""
     return Counter(a.operation.noun for a in program.assigns() if a.operation.noun)

@@ -14,9 +14,9 @@ class Rewriter:
     """Applies a rule to every assignment; the rule may read earlier definitions and the number of uses of
     each value.
 
-    ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. They are
-    earlier variables, in which case the assignment is removed, or targets of assignments that the rule
-    appended by ``emit``.
+    ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. If the rule
+    returns earlier variables, the assignment is removed. Otherwise it returns targets of assignments that it
+    has appended by ``emit``.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]
@@ -29,9 +29,10 @@ class Rewriter:
 
     def run(self) -> Program:
         """Return the rewritten program."""
-        # Uses are counted in the old program: a rule must not count assignments that it appended.
+        # Uses are counted in the old program, because assignments appended by a rule must not count as
+        # readers.
         self.uses = uses(self.program)
-        # Fresh names must differ from all old ones, including those of later statements.
+        # New names must differ from all names of the program, including the names in later statements.
         self.builder.taken = {v.name for v in defined(self.program)}
         body = tuple(s for statement in self.program.body for s in self._statement(statement))
         outputs = tuple((name, self.now(var)) for name, var in self.program.outputs)
@@ -49,7 +50,7 @@ class Rewriter:
         return assign.targets
 
     def _visit(self, assign: Assign) -> None:
-        # Arguments are renamed before the rule is called, so no rule has to follow chains of names.
+        # Arguments are renamed before the rule is called, so rules need not look up replacements.
         current = replace(assign, args=tuple(self.now(a) for a in assign.args))
         for old, new in zip(assign.targets, self.rule(self, current), strict=True):
             self.names[old] = new

@@ -1,10 +1,10 @@
 """Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
 
 The pass is exact. The sum equals A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum
-f_k c_k v_k, for any number of terms. Without nesting, each term needs two brackets. The momentum of (3.19) is
-such a sum: functions of the same ad_x applied to the old momentum and to the force. A group with closed forms
-computes the sum by ``series_sum``. If the v_k are sums themselves, A, B and C are expanded into the terms of
-the v_k. They can then be computed before the v_k.
+f_k c_k v_k, for any number of terms. Without nesting, each term needs two brackets. For example, the momentum
+in equation (3.19) of Marthinsen's thesis is such a sum: functions of one ad_x are applied to the old momentum
+and to the force. A group with closed forms computes the sum by ``series_sum``. If the v_k are sums
+themselves, A, B and C are expanded into the terms of the v_k. They can then be computed before the v_k.
 """
 
 from __future__ import annotations
@@ -76,13 +76,13 @@ class SeriesSums:
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # If a function of ad has a second reader, it is computed anyway, so nesting it in this sum saves
-            # nothing.
+            # A function of ad with a second reader must be computed in any case, so nesting it in this sum
+            # saves nothing.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
             for group in groups:
-                # If x = s y, then ad_x = s ad_y, and the number s becomes the scale of the factors.
+                # If x = s y, then ad_x = s ad_y: the factors of the word are scaled by s.
                 if ratio(self.definitions, term.x, group[0].x) is not None:
                     group.append(term)
                     break
@@ -115,8 +115,8 @@ class SeriesSums:
         """Return a sum with its terms expanded, unless the expanded sum is longer."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # Expanded sums contain values that are computed earlier, so the chain of dependent operations is
-            # shorter.
+            # The terms of an expanded sum are known earlier than the sums inside it, so the chain of
+            # dependent operations is shorter.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -125,14 +125,14 @@ class SeriesSums:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
         flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
-        # The expanded sum must not be longer, because each further term costs a product.
+        # Each additional term would cost a product, so the sum is expanded only if it gets no longer.
         return flat if 0 < len(flat) <= len(terms) else terms
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
     """Return a coefficient as plus or minus a number, so that products with the coefficient and with its
     negative are shared."""
-    # c x and (-c) x then share one product, and an addition or subtraction includes the sign at no cost.
+    # Then c x and (-c) x share one product; the sign makes an addition a subtraction, which costs nothing.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)

@@ -1,10 +1,10 @@
 """Linear maps of shared sums: if several sums contain L(x1), L(x2), ... in fixed proportions, L is applied
 once.
 
-The pass is exact. If sums contain the values L(x_k) of one map L in only a few fixed proportions, the
-combination is formed once for each proportion, and L is applied to it: sum_k c a_k L(x_k) = c L(sum_k a_k
-x_k). This pass is for terms that :mod:`codegen.passes.factor_linear` does not factor, because more than one
-sum uses them. The pass repeats until nothing changes.
+The pass is exact. Suppose that several sums contain multiples of sum_k a_k L(x_k) with fixed a_k. This
+combination is formed once, and L is applied once: sum_k c a_k L(x_k) = c L(sum_k a_k x_k). This pass is for
+terms that :mod:`codegen.passes.factor_linear` does not factor, because more than one sum uses them. The pass
+repeats until nothing changes.
 """
 
 from __future__ import annotations
@@ -19,22 +19,22 @@ Key = tuple[Operation, tuple[Var, ...]]
 """A linear map: the operation and its first arguments."""
 
 Share = tuple[tuple[Var, Coefficient], ...]
-"""A combination of a map's values, scaled so that the first value of the lowest power of h has coefficient
-one."""
+"""A combination of values of one map. It is scaled: among the terms with the lowest power of h, the first has
+coefficient one."""
 
 
 def run(program: Program) -> Program:
     """Return the program with linear maps of common sums computed once."""
     while True:
-        # Each round searches again for combinations, because a value of this round may be a term of a
-        # further combination.
+        # The search is repeated, because values formed in one round may be terms of a combination in the next
+        # round.
         wanted = _worthwhile(program)
         if not wanted:
             return program
         values: dict[Share, Var] = {}
 
         def rule(
-            # The sets are passed as default arguments, because a closure would read the sets of a later
+            # The sets are default arguments, which are bound now. A closure would read the sets of a later
             # round.
             rewriter: Rewriter,
             assign: Assign,
@@ -69,7 +69,8 @@ def _rule(
 
 
 def _worthwhile(program: Program) -> set[Share]:
-    """Return the combinations that are worth factoring: a map has fewer combinations than values."""
+    """Return the combinations to factor: the combinations of maps that have fewer combinations than
+    values."""
     worthwhile: set[Share] = set()
     for statement in program.body:
         # Only blocks are searched: a map in a block is evaluated in every sweep, but a map outside blocks is
@@ -83,15 +84,16 @@ def _worthwhile(program: Program) -> set[Share]:
                 shares.setdefault((first.operation, first.args[:-1]), {})[share] = None
         for combinations in shares.values():
             values = {v for share in combinations for v, _ in share}
-            # One map for each combination replaces one map for each value, which saves maps if there are
-            # fewer combinations.
+            # L is applied once for each combination and no longer once for each value, which is less if there
+            # are fewer combinations.
             if len(combinations) < len(values):
                 worthwhile |= {share for share in combinations if len(share) > 1}
     return worthwhile
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return, for each map in a sum, the combination of the map's values and the combination's factor."""
+    """For each linear map in a sum, return the combination of its values in this sum, and the factor of the
+    combination."""
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
         source = definitions.get(arg)

@@ -1,7 +1,8 @@
-"""Tearing: an unknown that the other unknowns determine within one sweep is computed, not solved for.
+"""Tearing: if an unknown can be computed directly from the other unknowns, it is computed from them, and its
+equation is removed.
 
 The pass is exact. An unknown is replaced by its image (the right-hand side of its fixed-point equation) if
-the body then has no cycle. An equation has to hold at the solution only, so the solutions do not change, and
+the body then has no cycle. The solutions do not change, because the equation still holds at the solution, and
 the block has fewer unknowns. Momenta and forces are replaced first, so that velocities remain unknowns.
 """
 
@@ -45,8 +46,8 @@ def run(program: Program) -> Program:
 def _without(block: Solve, unknown: Var) -> Solve | None:
     """Return the block with an unknown replaced by its image; None if the replacement closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A single unknown is never replaced, because its image depends on the unknown itself: an earlier pass has
-    # replaced blocks without cycles by plain assignments.
+    # A block with a single unknown has a cycle through this unknown, because an earlier pass has replaced
+    # blocks without cycles by plain assignments.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -71,15 +72,16 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     their order. The result is None if there is a cycle."""
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # The state is False while an assignment waits for its arguments. If the assignment is reached again in
-    # this state, there is a cycle.
+    # An assignment has the state False while its arguments are visited. If it is reached again in this state,
+    # there is a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:
         if k in state:
             return state[k]
         state[k] = False
-        # The search is depth first in the given order, so that a sorted body does not change.
+        # The depth-first search visits the assignments in the given order, so a body that is already sorted
+        # does not change.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

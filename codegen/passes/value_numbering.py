@@ -22,18 +22,19 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # Values are ranked by first appearance, not by name: fresh names would change the order of the terms.
+        # Terms are sorted by the first appearance of their values. If they were sorted by name, new names
+        # would change their order.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:
             assign = Assign.of_terms(
                 assign.targets[0], sorted(assign.terms, key=lambda term: ranked(term[1]))
             )
-        # The kind is part of the key, because the zero of the algebra and the zero of its dual are the same
-        # operation with results of different kinds.
+        # The key contains the kind of the result, because one operation creates both the zero of the algebra
+        # and the zero of its dual.
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
-            # The first computation of a value keeps its place, which is before all readers of the value.
+            # The first computation of a value is kept. It precedes all readers of the value.
 
             known[key] = rewriter.emit(assign)
         return known[key]

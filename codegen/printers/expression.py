@@ -1,8 +1,8 @@
 """Expressions as infix text with few parentheses; the text has the same roundings as the expression tree.
 
-Expressions are rewritten only where this changes no bit in IEEE arithmetic: a + (-b) becomes a - b, operands
-of sums and products may be exchanged, and a sign moves through products. Sums and products are never
-regrouped.
+Expressions are rewritten only if this changes no bit in IEEE arithmetic: a + (-b) becomes a - b, operands of
+sums and products may be exchanged, and the sign of a factor becomes the sign of the product. Sums and
+products are never regrouped.
 """
 
 from __future__ import annotations
@@ -60,14 +60,15 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
     ``names`` maps symbols to identifiers of the target; other symbols keep their names.
     Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
-    # Text is formed node by node, because expressions share nodes and are deeper than Python's recursion
-    # limit.
+    # The text of each node is formed once, although several nodes may contain it, and without recursion,
+    # because expressions may be nested more deeply than Python's recursion limit allows.
     rendered: dict[int, Rendering] = {}
     for node in walk([root]):
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
-                # The sign is kept separately, so that it can move through products and turn + into -.
+                # The sign is stored separately: the sign of a factor becomes the sign of the product, and a
+                # sum turns + into -.
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":

@@ -1,7 +1,8 @@
 """Terms of the run representation as infix text: precedence, parentheses and line breaks.
 
-The targets differ only in a few words, which abstract methods of :class:`Infix` supply. Operations are never
-regrouped: parentheses reproduce the tree, and are omitted only if precedence implies them (a b + c).
+The targets differ in a few operators and functions only, which subclasses of :class:`Infix` define.
+Operations are never regrouped: parentheses reproduce the tree, and are omitted only if precedence implies
+them (a b + c).
 """
 
 from __future__ import annotations
@@ -38,8 +39,8 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments, in parentheses if the precedence is below ``level``."""
-        # If the precedence is equal to ``level``, no parentheses are needed, because callers pass a higher
-        # level where grouping matters.
+        # If the precedence equals ``level``, no parentheses are added; callers for which the grouping matters
+        # pass a higher level.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")
@@ -53,7 +54,8 @@ def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
 
 
 SHORT, LONG = 48, 80
-"""No line breaks inside an operand of at most SHORT characters or a comparison of at most LONG characters."""
+"""Operands of at most SHORT characters and comparisons of at most LONG characters are never broken into
+several lines."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 """The calling convention of an emitted module: prefix, state size, arguments and implicit blocks.
 
-Printers write the convention in headers, the manifest stores it, and the loader calls through it.
+Printers describe the convention in headers, the manifest stores it, and the loader needs it to call the
+module.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel
 from codegen.ir.precision import DOUBLE, Precision, precision
 
 LISTS = ("parameters", "blocks", "inputs", "solvers")
-"""The fields of :class:`Interface` that are tuples, and lists in JSON."""
+"""The fields of :class:`Interface` that are tuples; in JSON they are lists."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,8 @@ class Interface:
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
-        """Return the interface of a kernel, without t and the parameters that the kernel never reads."""
+        """Return the interface of a kernel. The time t and parameters are included only if the kernel reads
+        them."""
         used = kernel.used_scalars()
         # Run-time inputs are sampled at certain times, so a step that reads inputs has the argument t.
         assert not kernel.inputs or "t" in used
@@ -48,7 +50,7 @@ class Interface:
             prefix=prefix,
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
-            # Parameters that simplification removed would be dead arguments of every call.
+            # Parameters that simplification has removed from the kernel would be unused arguments.
             parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
             blocks=tuple(loop.label for loop in kernel.loops),
             precision=precision,
@@ -81,5 +83,5 @@ class Interface:
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
         """Return the interface that :meth:`as_json` wrote."""
-        # JSON has no tuples. A list that a manifest does not contain is empty.
+        # Lists become tuples, because JSON has no tuples. A list that is missing in a manifest is empty.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))

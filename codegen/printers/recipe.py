@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Recipe:
-    """Facts for the header comment. All are derived from the input; none contains a date or a path.
+    """Facts for the header comment. All facts depend on scene, method and options only; none contains a date
+    or a path.
 
     ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
     ``left_out`` has one sentence for each simplification. ``initial``, ``h`` and ``steps`` are the initial

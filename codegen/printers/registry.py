@@ -33,7 +33,7 @@ def register(new: Target) -> Target:
     """
     known = {each.name: each for each in targets()}
     if known.get(new.name, new) != new:
-        raise InputError(f"there is a target {new.name!r} already", expected="a new name")
+        raise InputError(f"a target {new.name!r} already exists", expected="a new name")
     _registered[new.name] = new
     return new
 
@@ -46,7 +46,7 @@ def unregister(name: str) -> None:
 def targets() -> tuple[Target, ...]:
     """Return all targets; the built-in targets are first."""
     every = (*_built_in(), *_from_entry_points(), *_registered.values())
-    # The keys are names, so that a target that is registered a second time appears once in listings.
+    # The table has names as keys, so that a target that is registered twice is listed once.
     return tuple({each.name: each for each in every}.values())
 
 

@@ -1,4 +1,4 @@
-"""The lines of a header about the numbers of a state and about run-time inputs."""
+"""Lines for the header of emitted code, which describe the numbers of a state and the run-time inputs."""
 
 from __future__ import annotations
 

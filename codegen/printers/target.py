@@ -1,4 +1,5 @@
-"""A target of the compiler: a language of emitted modules, with the functions that print and load them."""
+"""A target of the compiler: a language of emitted modules, with the functions that print and load the
+modules."""
 
 from __future__ import annotations
 
@@ -52,7 +53,7 @@ class Target:
     @property
     def print_module(self) -> PrintModule:
         """The function that prints a module."""
-        # The function is imported when it is used, so that describing a target does not import its printer
+        # The function is imported only when it is called, so that listing targets does not import printers
         # and templates.
         return cast("PrintModule", resolve_name(self.printer))
 

@@ -23,8 +23,7 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
     """Return the statements of a kernel, in order, with ``after_loops`` after the last loop."""
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
-    # All unknowns have their final values after the last loop, so this is the first point at which the
-    # solution can be stored.
+    # The solution is stored directly after the last loop, when all unknowns have their final values.
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
@@ -67,8 +66,8 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     """Return the statements that sample run-time inputs at each time and load the inputs that are read."""
     sequence: list[Statement] = []
-    # Inputs are sampled once for each time, before all sweeps: an input function may be slow, and
-    # it must not change within a step.
+    # Inputs are sampled once for each time, before all sweeps: an input function may be slow, and all sweeps
+    # of a step must use equal values.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
@@ -101,5 +100,5 @@ def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
     body = loaded(plan.symbols, state, arrangement.symbols())
     body += computed(plan)
     body += stored(result, [value(x) for x in arrangement.outputs])
-    # The function returns no status, because tests of the complete state find NaNs in the result.
+    # The function returns no status. A NaN in the result is found later, when the complete state is tested.
     return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

@@ -1,12 +1,13 @@
 """The cause of a step whose result is not finite: the state, or the length of the step.
 
-A step may turn by an angle of which no digit is known, meet a pole of its formulas, or overflow. Then a step
-of size zero from the same state has a finite result, as has every step that is short enough, and the status
-is TOO_FAR. If the step of size zero fails as well, the field is not finite at this state, and the status
-remains NOT_FINITE. The test is made after a failure only, so steps that succeed do not pay for it.
+A step may fail because it is too long: an angle is so large that none of its digits is known, a formula has a
+pole, or a number overflows. Then all sufficiently short steps from the same state, and the step of size zero,
+have finite results, and the status is TOO_FAR. If the step of size zero fails as well, the field is not
+finite at this state, and the status remains NOT_FINITE. The test is made only after a failure, so it costs
+nothing in steps that succeed.
 
-Implicit steps with a warm start have no function of this kind: their continuation tries shorter steps in any
-case (:mod:`codegen.run.continuation`).
+Implicit steps with a warm start do not need this function, because the continuation after their failure tries
+shorter steps (:mod:`codegen.run.continuation`).
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the unit has the function."""
-    # The values of run-time inputs may be the cause, and a shorter step samples other values.
+    # With run-time inputs the test would prove nothing: the values of the inputs may be the cause, and a
+    # shorter step reads other values.
     return plan.start is None and not plan.kernel.inputs
 
 
@@ -38,11 +40,12 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Array(same),
         Assign(same, state),
         *memory,
-        # A product instead of a constant, because compilers copy a large function for a constant argument.
+        # The step size zero is written as a product, because compilers make a copy of a large function for a
+        # constant argument.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )
-    about = "Return the cause of a step without a finite result: does a step of size zero have one?"
+    about = "Find the cause of a failed step: it was too long if a step of size zero has a finite result."
     return Function(CAUSE, about, parameters, body, Kind.STATUS)
 
 
@@ -55,7 +58,8 @@ def step_arguments(plan: Plan) -> tuple[Term, ...]:
 
 
 def searched(plan: Plan, state: Term, t: Term = TIME) -> list[Statement]:
-    """Return the statement that replaces NOT_FINITE by the cause; none without the function.
+    """Return the statement that replaces the status NOT_FINITE by the cause; no statement if the unit does
+    not have the function.
 
     ``state`` is the state before the failed step, which begins at the time ``t``.
     """

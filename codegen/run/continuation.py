@@ -48,8 +48,10 @@ LARGEST_FACTOR = 4.0
 
 
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statement that calls the continuation if a step fails; none without a warm start."""
-    # Without stored solutions there is nothing to follow from a shorter step to a longer one.
+    """Return the statement that calls the continuation if a step fails; no statement for a kernel without a
+    warm start."""
+    # Continuation begins each step at the stored solution of a shorter step, so it needs a memory for
+    # solutions.
     if plan.start is None:
         return []
     # A diverging iteration may overflow before it reaches its limit of sweeps, and a singular matrix may be
@@ -75,14 +77,15 @@ class _Continuation:
         assert plan.start is not None
         self.plan, self.core, self.n = plan, core, len(plan.start.unknowns)
         self.guess, self.trial = real("known_solution", self.n), plan.state("trial")
-        # The failure to return is a separate variable, because every attempt overwrites STATUS.
+        # Every attempt overwrites STATUS, so the failure that is returned is stored in another variable.
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
         """Return the function with its parameters and body."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
-        # The memory of the run is passed on, so that the next step starts from the solution found here.
+        # The attempts use the memory of the run, so that the next step starts from the solution found by
+        # continuation.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of length zero is the identity, and there is no shorter step to try.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
@@ -100,8 +103,8 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # STATUS belongs to the latest attempt. If the limit of tries ends the loop, the caller
-            # gets the last failure.
+            # STATUS is the status of the last attempt. If the loop ends at the limit of tries, this failure
+            # is returned.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
@@ -119,7 +122,7 @@ class _Continuation:
         # The emitted comment names a step or a substep: with substeps, only the failed substep is repeated.
         about = (
             f"Repeat a {part} whose equations did not converge: first without the earlier solutions, which "
-            "mislead if the motion has changed, then by continuation in h from shorter steps."
+            "are bad initial guesses if the motion has changed, then by continuation in h from shorter steps."
         )
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
 
@@ -135,11 +138,12 @@ class _Continuation:
         return select(too_far, code(TOO_FAR), self.failure)
 
     def attempt(self) -> list[Statement]:
-        """Return the statements that try one step, from the solution of the last successful one."""
+        """Return the statements that try one step; its initial guess is the solution of the last successful
+        step."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # Begin at the solution of the shorter step. The rate of convergence of the shorter step does not
-        # apply to a longer step. With the rate 1 in its place, the stopping rule requires a second sweep.
+        # The initial guess is the solution of the shorter step. The stored rate of convergence does not apply
+        # to a longer step. It is replaced by 1, so that the stopping rule requires a second sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -147,15 +151,15 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # The error estimate is not needed: only step-size control reads it, and step-size control uses no
+        # No error estimate is computed: only step control reads it, and runs with step control use no
         # continuation in h.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
-            # Each attempt starts at the original state, because h is the parameter of the
-            # continuation and not time.
+            # Each attempt starts at the original state, because continuation varies the step size h and does
+            # not advance the time.
             Assign(self.trial, plan.state()),
-            # Solutions and matrices of another step size are wrong here. Without them, the first attempt is
-            # also independent of the steps before, whose solutions may be bad initial guesses.
+            # The memory is cleared: its solutions and matrices belong to another step size. The first attempt
+            # is then independent of earlier steps, whose solutions may be bad initial guesses.
             Assign(memory, fresh(memory)),
             If(self.solved > 0.0, tuple(from_guess)),
             Call(self.core, (self.trial, *arguments), (STATUS,)),
@@ -176,8 +180,9 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Halve the step until its equations converge. They converge for a short enough step, because the
-            # iteration is then a contraction. Afterwards increase the last successful length by the factor.
+            # The step is halved until its equations converge. For a sufficiently short step they converge,
+            # because the iteration is a contraction. After that, the last successful length is multiplied by
+            # the factor.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
             Assign(part, select(part < 1.0, part, 1.0)),
         )

@@ -62,7 +62,7 @@ LATE = count("late")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return all functions of a unit with deferred flows, the public ones last."""
+    """Return all functions of a unit with deferred flows; the public functions come last."""
     deferred = plan.kernel.deferred
     assert deferred is not None
     sequence = [_core(plan, ADVANCE, "One step without the deferred flows.")]
@@ -128,7 +128,7 @@ class _Deferring:
         """Return the call of the function of a kernel; no statement if ``kernel`` is None."""
         if kernel is None:
             return []
-        # The name of a scalar in the kernel decides which value of the run is passed for it.
+        # The value that is passed for a scalar of the kernel depends on the name of the scalar.
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
         plan = _plan(self.plan, kernel)
         passed = tuple(known.get(x.text, x) for x in _read(plan))
@@ -171,7 +171,7 @@ class _Deferring:
         """Return the public function for a run."""
         plan, state = self.plan, self.plan.state()
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
-        # Test the initial state first: a run from a state that is not finite would be repeated in vain.
+        # The initial state is tested first, because attempts from a state that is not finite would all fail.
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
@@ -183,8 +183,8 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
-            # There are at most three attempts: a fast attempt, a careful attempt that counts the good steps,
-            # and an attempt that makes only the good steps.
+            # There are at most three attempts: a fast attempt; after a failure, a careful attempt that counts
+            # the good steps; and an attempt that makes only these steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
@@ -196,8 +196,8 @@ class _Deferring:
     def attempt(self) -> tuple[Statement, ...]:
         """Return the statements of one attempt at all steps.
 
-        If the first attempt fails, a second one applies the deferred flows in every step and counts the good
-        steps. A third one makes only these steps.
+        If the first attempt fails, a second attempt applies the deferred flows in every step and counts the
+        good steps. A third attempt makes only these steps.
         """
         state = self.plan.state()
         failed = (
@@ -236,8 +236,8 @@ class _Deferring:
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # LONGEST bounds the angle of a deferred rotation, and so the loss of digits in the sine and
-            # cosine of this angle.
+            # After LONGEST steps the deferred flows are applied. This bounds the angle of a deferred
+            # rotation, and so the loss of digits in its sine and cosine.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:

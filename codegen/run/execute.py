@@ -1,8 +1,8 @@
 """An executor of the run representation over any ordered scalars, for example floats or a ring.
 
-It executes the same statements as emitted code, so it takes the same sweeps, matrices and steps; only the
-arithmetic differs, because the scalars belong to a domain (:mod:`codegen.ir.domain`). Each function is
-compiled to closures once, so that a run of many steps does not traverse the statements again.
+It executes the same statements as emitted code, so it makes the same steps and sweeps and computes the same
+matrices. Only the arithmetic differs, because the scalars belong to a domain (:mod:`codegen.ir.domain`). Each
+function is compiled to closures once, so that a run of many steps does not traverse the statements again.
 
 >>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
@@ -83,8 +83,8 @@ class Machine:
         self.unit, self.domain = unit, domain
         self.tables: Environment = {}
         for table in unit.tables:
-            # The entries of tables are converted only once. Conversion at each access would take most of the
-            # time of a run.
+            # The entries of tables are converted to scalars once. If they were converted at each access, this
+            # would take most of the time of a run.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
         # No word is reserved, because the executor uses identifiers as keys of a dictionary and not as names
@@ -153,7 +153,7 @@ class Machine:
 
 def is_number(x: Any) -> bool:
     """Return True if a scalar is neither infinite nor NaN."""
-    # x - x is NaN for infinities and NaNs; the test needs no function that an exact ring lacks.
+    # x - x is NaN for infinities and NaNs. This test needs subtraction only, which every ring has.
     return bool(x - x == 0)
 
 
@@ -307,7 +307,8 @@ class _Compiler:
                 return False
 
             return sample
-        # The function is looked up when the closure is built, so that no call in a run compares names.
+        # The function is found by name when the closure is built, so that calls during a run compare no
+        # names.
         library = _library(function, machine.domain)
 
         def run(env: Environment) -> bool:
@@ -413,8 +414,8 @@ class _Compiler:
                 return lambda env: domain.call("sqrt", first(env))
             case "copysign":
                 second = args[1]
-                # Exact rings have no negative zero, so comparing the second argument with zero gives its
-                # sign.
+                # Exact rings have no negative zero, so the sign of the second argument is found by comparing
+                # it with zero.
                 return lambda env: abs(first(env)) if second(env) >= 0 else -abs(first(env))
             case _:
                 assert name == "power"
@@ -458,10 +459,8 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
-        # A domain has the same operations as the function of the unit, and is faster.
-        return lambda *x: (
-            operator.setitem(x[-1], slice(None), domain.vector(function, [*chain(*x[:-1])])) or ()
-        )
+        # The domain computes the function with the same operations as the function of the unit, but faster.
+        return lambda *x: x[-1].__setitem__(slice(None), domain.vector(function, [*chain(*x[:-1])])) or ()
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]
         together = getattr(domain, "together", None)
@@ -479,7 +478,8 @@ def _inverted(n: int, matrix: list[Any]) -> int:
     rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
     rows = rows.reshape(n, n)
     order = []
-    with numpy.errstate(all="ignore"):  # overflow and NaN behave as in emitted code
+    # Emitted code gives no warning of overflow or NaN, so numpy must give none.
+    with numpy.errstate(all="ignore"):
         for k in range(n):
             sizes = abs(rows[k:, k])
             pivot = k + max(range(n - k), key=sizes.__getitem__)

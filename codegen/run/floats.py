@@ -1,8 +1,8 @@
 """Arithmetic in doubles as in emitted code: Stumpff functions by the same polynomials and closed forms.
 
 The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last
-place. Near the end of an iteration, this may cost or save a sweep. An executor that counts the sweeps of
-emitted code therefore needs the functions of this module.
+place. Near the end of an iteration, this may cost or save a sweep. To count the sweeps of emitted code
+exactly, the executor therefore uses the functions of this module.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class EmittedFloats(FloatDomain):
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
-        # Angles above the limit become NaN; the usual test for finiteness then rejects the step.
+        # For angles above the limit the result is NaN, so the test for finite results rejects the step.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
@@ -63,7 +63,7 @@ class EmittedFloats(FloatDomain):
             closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio) / z
         return [closed[k] for k in orders]
 
-    # Single calls go through ``together``, so that all branches are written once.
+    # A single c_k is computed by ``together``, too, so that the branches are written only once.
     def call(self, function: str, *args: float) -> float:
         """Call a function as emitted code does."""
         (z, *_) = args
@@ -149,7 +149,7 @@ def _chain(terms: Sequence[float], w: float) -> float:
     w2, total = w * w, 0.0
     pairs = [terms[k : k + 2] for k in range(0, len(terms), 2)]
     for number, pair in enumerate(reversed(pairs)):
-        # An odd number of terms leaves the highest term without a partner.
+        # If the number of terms is odd, the highest term is added alone.
         value = pair[0] + w * pair[1] if len(pair) == 2 else pair[0]
         total = value if number == 0 else value + w2 * total
     return total

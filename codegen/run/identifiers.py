@@ -1,7 +1,9 @@
-"""Identifiers of a unit in a target: legal names for the kernel's symbols, distinct from all other names.
+"""Identifiers of a unit in a target language: legal names for the kernel's symbols, different from all other
+names of the unit.
 
 The names of the run representation are legal in every target and are used unchanged. Names of a kernel come
-from scenes and programs. In each function these get identifiers that no other name of the function has.
+from scenes and programs and may be illegal in a target. In each function they are replaced by unique legal
+identifiers.
 """
 
 from __future__ import annotations
@@ -63,7 +65,7 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
             }
         for text in (t.text for t in names(direct(statement)) if t.own):
             if text not in entries and text not in own.identifiers:
-                # Inside an outlined function, its name before each input would only repeat the name of the
-                # function.
+                # In the kernel, each input of an outlined function has the function's name as a prefix.
+                # Inside the function the prefix is removed.
                 own.identifiers[text] = own.fresh(text.removeprefix(f"{function.name}."))
     return own.identifiers | entries

@@ -70,10 +70,11 @@ def vary(plan: Plan, varying: Plan) -> Function:
         *sampled(varying),
         *loaded(symbols[:n], state, read),
         *loaded(symbols[n:], vector, read),
-        # Sweeps for a derivative are not counted: the statistics describe the integration.
+        # Sweeps for a derivative are not counted, because the statistics describe the integration only.
         *computed(varying, counting=False),
         *ends,
-        # The result is tested before ``vector`` is overwritten, so that a failure leaves no partial result.
+        # The result is tested before ``vector`` is overwritten, so that ``vector`` is unchanged after a
+        # failure.
         If(negated(all_finite(*new)), (Return(code(NOT_FINITE)),)),
         *stored(vector, new),
         Return(code(OK)),
@@ -100,7 +101,7 @@ class _Jacobian:
         matrix = real("jacobian", dim * dim)
         # The differentiated step has constant inputs, as in the public function ``step``.
         given = (self.given,) if plan.held else ()
-        # Each call of ``vary`` computes a column, but the result is stored by rows.
+        # Each call of ``vary`` computes one column of the derivative, and the matrix is stored by rows.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
@@ -154,8 +155,8 @@ class _Jacobian:
             # the substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
-            # The number of the substep is increased even after a failure: the status ends the loop, and the
-            # number is not read again.
+            # The index of the substep is increased even after a failure, because the status then ends the
+            # loop, and the index is not read again.
             Assign(part, part + 1),
         )
         return [

@@ -27,7 +27,8 @@ from codegen.run.terms import Kind, Term, names
 
 @dataclass(frozen=True)
 class Assign:
-    """An assignment: target = value; every entry of an array, or every field of a record, is assigned."""
+    """An assignment: target = value. If the target is an array or a record, all its entries or fields are
+    assigned."""
 
     target: Term
     value: Term
@@ -75,7 +76,7 @@ class If:
 
 @dataclass(frozen=True)
 class Call:
-    """results = function(arguments); a function of the unit, or one of the target's library."""
+    """A call, results = function(arguments), of a function of the unit or of the target's library."""
 
     function: str
     arguments: tuple[Term, ...]
@@ -99,15 +100,16 @@ class Note:
 Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
-# Python raises exceptions where C continues with infinities and NaNs. A guard makes both targets
-# agree.
+# Python raises exceptions where C continues with infinities and NaNs. With a guard both targets return the
+# same result.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
 """The effect of an arithmetic error: the status NOT_FINITE, or NaNs in the result or array."""
 
 
 @dataclass(frozen=True)
 class Function:
-    """A function of the unit; callers outside use ``public`` functions, ``often`` asks for inlining."""
+    """A function of the unit. ``public`` functions can be called from outside the unit; functions marked
+    ``often`` should be inlined."""
 
     name: str
     about: str

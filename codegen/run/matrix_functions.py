@@ -1,8 +1,8 @@
 """Vector functions as functions of a unit: the matrix exponential with its derivatives, and the inverse.
 
 The statements compute exactly what :mod:`codegen.ir.matrix_exponential` and
-:mod:`codegen.ir.matrix_inverse` compute in doubles. Arrays hold matrices row by row, and jets hold one matrix
-after the other. The text of a function does not grow with the number of rows.
+:mod:`codegen.ir.matrix_inverse` compute in doubles. Matrices are stored in arrays row by row, and the
+matrices of a jet one after the other. The length of the emitted text does not depend on the number of rows.
 """
 
 from __future__ import annotations
@@ -46,10 +46,10 @@ from codegen.run.terms import (
 )
 
 UNROLLED = 4
-"""Matrices of at most UNROLLED rows are multiplied without a loop over the terms of an entry."""
+"""The largest number of rows for which an entry of a product of matrices is computed without a loop."""
 
 COEFFICIENTS = "inverse_factorial"
-"""The name of the table of 1/k!."""
+"""The name of the table that contains the coefficients 1/k!."""
 
 _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place")
 
@@ -75,7 +75,7 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Exponentials of matrices of one size share the function of the norm.
+        # Exponentials of matrices of one size use one function for the norm.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
@@ -95,7 +95,7 @@ def _is_lost(array: Term) -> For:
 
 
 class _Exponential:
-    """Builds the functions for one size and level."""
+    """Builds the functions for the exponential of matrices of one size, with derivatives up to one level."""
 
     def __init__(self, function: MatrixExponential, precision: Precision) -> None:
         self.name, self.n, self.level = function.name, function.n, function.level
@@ -190,7 +190,7 @@ class _Exponential:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
             what += f" + E e, where e^2 = 0{' for each of several e' if self.level > 1 else ''}"
-            what += "; a holds a and E"
+            what += "; the array a contains the matrices a and E"
         return (
             f"result = {what}: Taylor polynomial, squared. All results are NaN if the bound of the relative "
             f"error exceeds 2^-{LEAST_DIGITS}."
@@ -305,7 +305,7 @@ def _inverse(function: MatrixInverse) -> Function:
     column = (
         Assign(pivot, k),
         For(i, whole(n), (If(i > k, (search,)),)),
-        # A zero pivot makes all entries infinite or NaN: the matrix is singular.
+        # If the matrix is singular, a pivot is zero, and all entries of the result become infinite or NaN.
         Assign(order[k], pivot),
         For(j, whole(n), exchanged),
         Assign(factor, 1.0 / b[at]),

@@ -1,8 +1,9 @@
-"""The carried momentum: steps use the momentum in the body frame, states contain the momentum in space.
+"""Conversion of the momentum: the steps of a run use the momentum in the body frame, the state of the caller
+contains the momentum in the space frame.
 
 Converting at the beginning and the end of a run costs less than converting in each step. At the end, the
-increase of the space momentum over the run is added to the momentum of the initial state. If rounding has
-made q slightly non-orthogonal, the conversion therefore perturbs only the increase.
+increase of the space momentum over the run is added to the momentum of the initial state. Rounding makes q
+slightly non-orthogonal, so conversions are inexact, but the error affects only the increase.
 """
 
 from __future__ import annotations
@@ -54,8 +55,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         # The conversion needs q, which is the same in both frames.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
-        # Convert back immediately: the rounding error of converting to the body frame and back then cancels
-        # in the difference at the end of the run.
+        # The body momentum is converted back to space immediately. At the end of the run the difference of
+        # two converted momenta is formed, in which the errors of the conversion cancel.
         Call("to_space", (moving, before)),
     )
     about = "Begin: convert the state to body momentum, and store this momentum converted back to space."
@@ -72,7 +73,7 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Array(momentum),
         Call("to_space", (moving, momentum)),
         For(i, whole(n), (Assign(momentum[i], gained),)),
-        # The test precedes the assignment, so that a failure leaves the caller's state unchanged.
+        # The result is tested before it is assigned, so that the caller's state is unchanged after a failure.
         If(negated(all_finite(momentum)), (Return(code(NOT_FINITE)),)),
         Assign(state.part(0, carried.first), moving.part(0, carried.first)),
         Assign(state.part(carried.first, n), momentum),

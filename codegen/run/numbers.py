@@ -1,6 +1,4 @@
-"""The number of scalars that the functions of a unit store at the same time, which bounds the stack of a
-call.
-"""
+"""The number of scalars that a call stores at the same time, which bounds the size of its stack."""
 
 from __future__ import annotations
 
@@ -11,7 +9,7 @@ from codegen.run.language import Array, Call, Function, Unit, assigned, statemen
 from codegen.run.terms import Kind, Term
 
 REGISTERS = 8
-"""Calls with more than REGISTERS arguments pass some of them on the stack."""
+"""The number of arguments that a call passes in registers; further arguments are on the stack."""
 
 
 def numbers_held(unit: Unit) -> int:

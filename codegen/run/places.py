@@ -10,7 +10,7 @@ from codegen.run.terms import Term, real
 
 @dataclass(frozen=True)
 class Place:
-    """A block of ``size`` numbers from index ``start`` on, in an array of ``whole`` numbers."""
+    """A block of the state: ``size`` numbers from index ``start`` on, in an array of ``whole`` numbers."""
 
     array: str
     start: int
@@ -20,8 +20,8 @@ class Place:
     @property
     def term(self) -> Term:
         """The entries of the block."""
-        # A block is a single term, because the stopping rule compares a change with the largest entry of a
-        # block.
+        # All entries of a block are returned as one array, because the stopping rule compares a change with
+        # the largest entry.
         return real(self.array, self.whole).part(self.start, self.size)
 
 

@@ -1,4 +1,5 @@
-"""A plan: the common arguments of the functions around one kernel, and the features that the kernel needs."""
+"""A plan for the functions around one kernel: their common arguments, and the features that the kernel
+needs."""
 
 from __future__ import annotations
 
@@ -34,7 +35,8 @@ class Plan:
 
     kernel: Kernel
     format: Precision
-    # In a trial of a solver this limit is one, so that continuation in h does not hide that the solver fails.
+    # In a trial of a solver this limit is one. With continuation in h the trial could succeed although the
+    # solver fails.
     tries: int | None = None
 
     @cached_property
@@ -99,13 +101,14 @@ class Plan:
 
     @property
     def memory(self) -> Term:
-        """The memory: data that one step, or substep, stores for the next."""
+        """The memory: the data that one step or substep stores for the next one."""
         return record(MEMORY, MEMORY)
 
     @property
     def memories(self) -> Term:
         """The memory of each substep, or of the step."""
-        # Substeps have different lengths, so extrapolating from one substep to the next would be meaningless.
+        # Substeps differ in length, so the solutions of one substep cannot be extrapolated to the next
+        # substep. Each substep has its own memory.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
 
     @property
@@ -133,7 +136,8 @@ class Plan:
 
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:
         """Return the arguments for the time, if it is read, and the step size."""
-        # A time that is never read would cause a warning in C and round without need in each step.
+        # An unused argument would cause a warning of C compilers, and the time would be computed in vain in
+        # each step.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
@@ -147,8 +151,8 @@ class Plan:
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
         """Return the scalars that the kernel's statements read."""
-        # The scheduled statements are searched and not the kernel, because scheduling may have removed the
-        # last reader of a scalar.
+        # The search is in the scheduled statements, because scheduling may have removed all readers of a
+        # scalar.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

@@ -1,4 +1,5 @@
-"""Scopes for targets that declare variables: each variable is declared as deep and as late as possible.
+"""Scopes for target languages with declarations: each variable is declared in the innermost possible block,
+as late as possible.
 
 A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign
 the variable before they read it, it belongs to each of these blocks. The first assignment declares the
@@ -31,7 +32,8 @@ from codegen.run.terms import Term, names
 
 @dataclass
 class Declarations:
-    """The variables declared before each statement, and those that the statement itself declares.
+    """The variables that are declared before each statement, and the variables that the statement itself
+    declares.
 
     Keys are ``id(statement)``. The values of ``by`` map the name of a variable to whether it is constant.
     """
@@ -93,8 +95,8 @@ class _Scopes:
             places = holders[name]
             if not places:
                 continue
-            # Variables are declared as deep as possible, because a small scope shows readers and compilers
-            # how long a value is used.
+            # Variables are declared in the innermost block, because a small scope shows readers and compilers
+            # how long a value is needed.
             deeper = self.deeper(body, places, name)
             if not deeper:
                 self.declare(body, places, name, variable)
@@ -114,8 +116,8 @@ class _Scopes:
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # A value may pass from one sibling block to the next, unless each block assigns the
-        # variable first.
+        # If a block reads the variable before it assigns it, the value comes from an earlier block, and the
+        # variable belongs to ``body``.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
@@ -133,8 +135,8 @@ class _Scopes:
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # Counts are positive, so such a body is executed at least once. A While with the test first, or
-            # a branch, may be skipped.
+            # The body of a For loop is executed at least once, because counts are positive. The body of a
+            # While with the test first, or of a branch, may be skipped.
             if isinstance(statement, For) or (isinstance(statement, While) and statement.at_least_once):
                 return self.begins(statement.body, name)
             return False
@@ -143,8 +145,8 @@ class _Scopes:
     def declare(self, body: Body, places: list[int], name: str, variable: Term) -> None:
         """Declare a variable in this block."""
         first = body[places[0]]
-        # Assignments are counted in the whole block, because a variable that an inner block assigns again is
-        # not constant.
+        # Assignments in inner blocks are counted, too: a variable that an inner block assigns again is not
+        # constant.
         times = sum(self.assignments(body[k])[name] for k in places)
         # `x = x + 1` cannot be a declaration, because it reads x.
         direct_first = isinstance(first, Assign) and self.assignments(first)[name] > 0

@@ -1,32 +1,33 @@
 """How each block of equations is solved: by a fixed point, Newton's method or simplified Newton.
 
 Newton's method keeps an exact matrix as long as the iteration contracts. Simplified Newton computes a matrix
-to first order in h in each step. Fixed-point iteration needs no matrix, and each of its sweeps gains one
-power of h. This also holds for equation (3.19) of H. Marthinsen's thesis (*On symplectic integration in Lie
-groups and manifolds*), because momenta are computed within a sweep; if they were unknowns beside the
-velocities, one power of h would take two sweeps.
+to first order in h in each step. Fixed-point iteration needs no matrix; each sweep multiplies the error by a
+factor O(h). This is true for equation (3.19) of H. Marthinsen's thesis, too (*On symplectic integration in
+Lie groups and manifolds*), because momenta are computed within a sweep. If momenta were unknowns in addition
+to the velocities, two sweeps would be necessary for each factor O(h).
 
-The solver of least predicted time is chosen. A trial (:mod:`codegen.run.trial`) counts the sweeps and
-matrices in the first :data:`STEPS` steps of the usage example. From these counts the cost model
-(:mod:`codegen.run.step_cost`), which was fitted to measurements of emitted C, predicts the time of a step.
-``benchmarks/solver_choice.py`` compares the choices with the fastest solver measured.
+The solver with the least predicted time is chosen, with an exception stated below. A trial
+(:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps of the usage
+example. From these counts the cost model (:mod:`codegen.run.step_cost`), which was fitted to measurements of
+emitted C, predicts the time of a step. ``benchmarks/solver_choice.py`` compares the choices with the fastest
+solver measured.
 
 Robust solvers are preferred. A solver is robust if it also converges in a step :data:`LONGER` times as long,
 in at most :data:`SWEEPS` sweeps. Fixed-point iteration may converge at the step size of the example and fail
-at a somewhat longer one: the number of sweeps grows without bound as h L tends to 1, L the Lipschitz constant
-of the equations. The user's next step size is not known. Newton's method has no such limit for linear
-equations. A solver that is not robust is therefore chosen only if every robust solver is predicted to need
-more than :data:`PRICE` times the time of the fastest solver. The reason then says that longer steps may fail.
-Without the bound :data:`PRICE`, robust solvers with matrices of 24 and 36 unknowns would make some steps of
-the gallery 5 to 14 times as long (``benchmarks/README.md``).
+at a somewhat longer one: the number of sweeps grows without bound as h L tends to 1, where L is the Lipschitz
+constant of the equations. The step sizes that the user will choose are not known. Newton's method has no such
+limit for linear equations. A solver that is not robust is therefore chosen only if every robust solver is
+predicted to need more than :data:`PRICE` times the time of the fastest solver. The reason then says that
+longer steps may fail. Without the bound :data:`PRICE`, robust solvers with matrices of 24 and 36 unknowns
+would make some steps of the gallery 5 to 14 times as long (``benchmarks/README.md``).
 
 The bound does not apply to linear equations. Newton's method then needs one matrix for all steps of a run,
-and its step size is limited by accuracy only. A step by Newton's method may take many times as long to
-compute, but its step size may be larger by a still larger factor.
+and only accuracy limits the step size. If computing a step takes many times as long as with another solver,
+longer steps may more than compensate for this.
 
 Kernels of many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
-computed. The kernel is not built if a solver that has been tried is certain to be preferred to this kernel
-(:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
+computed. The kernel is not built if this bound shows that a solver that has already been tried will be
+preferred (:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
 """
 
 from __future__ import annotations
@@ -53,13 +54,15 @@ CHOICES = (AUTO, NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
 """The names of solvers that a caller may request."""
 
 ASKED = "as asked for"
-"""The reason for a solver that the caller named."""
+"""The reason that is stated for a solver that the caller has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""The steps of a trial, the steps of a trial with many unknowns, and the factor of the longer trial step."""
+"""The number of steps of a trial, the number of steps of a trial with many unknowns, and the ratio of the
+longer trial step to the usual step."""
 
 SWEEPS = 50
-"""The most sweeps that a robust solver needs in the longer step: half of the limit of a loop."""
+"""The largest number of sweeps that a robust solver may need in the longer step: half of the limit of a
+loop."""
 
 PRICE = 4.0
 """A robust solver is preferred if its step takes at most PRICE times as long as a step with the fastest
@@ -67,8 +70,8 @@ solver.
 """
 
 LARGE = 64
-"""Above LARGE unknowns a trial has FEW_STEPS steps. It omits continuation in h, which may take thousands of
-sweeps.
+"""The number of unknowns above which a trial has only FEW_STEPS steps and no continuation in h, which may
+take thousands of sweeps.
 """
 
 
@@ -91,7 +94,7 @@ class Choice:
     converges: bool = True
 
     def text(self) -> str:
-        """Return the sentence of the header.
+        """Return the sentence on this choice for the header of emitted code.
 
         >>> Choice("stage 1", 3, "newton", "as asked for").text()
         "stage 1: Newton's method, 3 unknowns; as asked for"
@@ -99,7 +102,7 @@ class Choice:
         return f"{self.label}: {METHODS[self.solver]}, {self.unknowns} unknowns; {self.reason}"
 
     def as_json(self) -> dict[str, str | int]:
-        """Return the entry of the manifest."""
+        """Return the entry on this choice for the manifest."""
         return {
             "label": self.label,
             "unknowns": self.unknowns,
@@ -172,7 +175,8 @@ def is_linear(loop: Loop) -> bool:
 
 
 def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
-    """Return the degree of an expression in the symbols that have a degree, at most NONLINEAR."""
+    """Return the degree of an expression as a polynomial in the symbols of the table; NONLINEAR represents
+    all degrees above one."""
     degree_of: dict[int, int] = {}
     for e in walk((root,)):
         args = [degree_of[a.id] for a in e.args]
@@ -191,7 +195,8 @@ def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
 
 
 class Candidate:
-    """A kernel with its cost and two trials: with steps of the usual size, and with one longer step."""
+    """A candidate: a kernel with its cost and two trials, one with steps of the usual size, and one with a
+    longer step."""
 
     def __init__(self, kernel: Kernel, scene: Problem, initial: tuple[float, ...]) -> None:
         self.kernel, self.cost = kernel, StepCost(kernel)
@@ -213,7 +218,7 @@ class Candidate:
         return self.cost.step(self.usual.sweeps, self.usual.matrices)
 
     def text(self, k: int) -> str:
-        """Return the results of the trials for a block in words."""
+        """Return a text on the results of the trials for a block."""
         if self.far is None:
             return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
         text = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
@@ -225,7 +230,7 @@ class Candidate:
 
 
 def counted(trial: Trial, k: int) -> str:
-    """Return how many sweeps and matrices a block needed."""
+    """Return a text on the average numbers of sweeps and matrices of a block."""
     text = amount(trial.sweeps[k], "sweep", "sweeps")
     if trial.matrices[k]:
         text += f" and {amount(trial.matrices[k], 'matrix', 'matrices')}"
@@ -243,7 +248,7 @@ def amount(x: float, one: str, several: str) -> str:
 
 
 def measured(trial: Trial, k: int) -> str:
-    """Return the counts of a block, with the steps in which they were measured."""
+    """Return a text on the sweeps and matrices of a block, and on the steps in which they were counted."""
     return f"{counted(trial, k)}, measured over the first {trial.steps} steps of h = {trial.h:.6g}"
 
 
@@ -310,7 +315,8 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return the nanoseconds below which a step with another solver may be preferred to a candidate."""
+        """Return a bound in nanoseconds: only a solver with a predicted step time below this bound may be
+        preferred to a candidate."""
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -340,7 +346,7 @@ class _Selection:
 
     @property
     def parts(self) -> int:
-        """How often a step solves each block."""
+        """The number of times that a step solves each block."""
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:

@@ -1,7 +1,8 @@
-"""Statistics: sweeps by block, the most in one step, the block that failed, and matrices of Newton's method.
+"""Statistics of a run: the sweeps over each block, the largest number of sweeps in one step, the block that
+failed, and the matrices of Newton's method.
 
-The record of statistics belongs to the caller. A run adds its counts to the record, or counts nothing if the
-caller passes none. Separate functions do the counting, so that a loop contains a single call.
+The record of statistics belongs to the caller. A run adds its counts to the record; if the caller passes no
+record, nothing is counted. Separate functions do the counting, so that a loop contains a single call.
 """
 
 from __future__ import annotations
@@ -38,8 +39,8 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     total = statistics.field("sweeps", Kind.COUNT, (len(plan.kernel.loops),))[block]
     adding = (
         Assign(total, total + sweeps),
-        # The largest number is stored besides the sum: a single step with many sweeps is the first sign that
-        # h is too large, and the mean would hide it.
+        # The sum and the largest number are stored: a single step with many sweeps is the first sign that h
+        # is too large, and would not be visible in a mean.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )
@@ -60,12 +61,13 @@ def counters(plan: Plan) -> tuple[Function, ...]:
 
 
 def count_sweeps(plan: Plan, block: int, sweeps: Term = SWEEPS) -> Statement:
-    """Return the call after a loop: a status that is not OK is a failure of the block."""
+    """Return the call that counts the sweeps of a loop; if the status is not OK, it records that the block
+    failed."""
     return Call("count_sweeps", (plan.statistics, whole(block), sweeps, STATUS.differs(code(OK))))
 
 
 def count_matrix(plan: Plan) -> Statement:
-    """Return the call after a matrix was computed."""
+    """Return the call that counts a matrix; it follows the computation of the matrix."""
     return Call("count_matrix", (plan.statistics,))
 
 

@@ -27,21 +27,21 @@ MEANINGS = {
     SINGULAR: "the matrix of an implicit block is singular",
     TOO_SHORT: "the end was not reached: the step became too small to change t",
 }
-"""The comment on each status code in a header."""
+"""The comment on each status code in the header of emitted code."""
 
 REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
     LIMIT: "the end is not reached: too many steps",
-    TOO_FAR: "the step turns or moves too far: its result is not finite, but that of a shorter step is",
+    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
     SINGULAR: "the matrix of {block} is singular",
     TOO_SHORT: "the end is not reached: the step became too small to change t",
 }
 """The reason for each failure, with the label of the implicit block and the step size, for both targets."""
 
 NOT_FINITE_BLOCK = "{block} computed a number that is not finite"
-"""The reason for NOT_FINITE if an implicit block has failed."""
+"""The reason in the error message for the status NOT_FINITE if an implicit block has failed."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""One step: the kernel on a state, checked, and the composition of substeps.
+"""One step: the kernel applied to a state, with checks of the result, and the composition of substeps.
 
 A step changes the state if it succeeds, and leaves it unchanged otherwise. The step size, the new state, and
 the entries of the old state that the kernel does not read must be finite.
@@ -64,15 +64,15 @@ def kernel_step(plan: Plan) -> Function:
     # All outputs are computed before the first entry of the state is overwritten, because they read the old
     # state.
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The kernel does not read these entries, because other entries determine them. A NaN in one of these
-    # entries would therefore not appear in the new state.
+    # The kernel does not read these entries, because it can compute them from other entries. A NaN in one of
+    # them would not appear in the new state, so they are tested.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
     body: list[Statement] = [
         If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
         *sampled(plan),
         *loaded(plan.symbols, state, read),
-        # The extrapolation comes directly after the loops, so that a processor can compute it in parallel
-        # with the outputs.
+        # The extrapolation comes directly after the loops, because a processor can then compute it in
+        # parallel with the outputs.
         *computed(plan, _remembered(plan)),
         *ends,
         # Nothing is written to the state before this last test: a failed step leaves the state unchanged.
@@ -112,8 +112,8 @@ def _aged(plan: Plan) -> list[Statement]:
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # After ``period`` steps the iteration with the old matrix contracts poorly, so the age becomes 0.
-        # With age 0 the next step computes a new matrix.
+        # After ``period`` steps the iteration with the old matrix would contract poorly. The age is then set
+        # to 0, and the next step computes a new matrix.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence
@@ -131,7 +131,7 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
     if not plan.parts:
         return ()
     n, rounded = plan.parts, plan.format.round
-    # The exact numbers are rounded once, at compile time.
+    # The numbers are exact and are rounded only once, when the code is generated.
     fractions = tuple(rounded(step.fraction) for step in plan.kernel.substeps)
     sequence = [Table(real("fraction", n), (fractions,), "Lengths of the substeps, in units of h.")]
     if plan.time:

@@ -5,13 +5,14 @@ the norm is at most one. Let p be the order of the estimate. After an accepted s
 multiplied by 0.9 norm^(-0.8/p) before^(0.2/p), where ``before`` is the norm of the previous accepted step;
 this factor is limited to [0.2, 5], and to [0.2, 1] after a rejection. A rejected step is repeated with the
 factor 0.9 norm^(-1/p), limited to [0.2, 0.9]. The limits are taken from Hairer, Norsett and Wanner, Solving
-Ordinary Differential Equations I, section II.4; the controller is Gustafsson's (II, section IV.2). With the
-exponents 0.7/p and 0.4/p, which damp more, the sizes follow the solution more slowly: DOP853 needs 15 to 20 %
-more steps on ``heavy_top``. The exponents 0.8/p and 0.2/p are multiples of one power of the norm.
+Ordinary Differential Equations I, section II.4; the controller is Gustafsson's (II, section IV.2). The
+exponents 0.7/p and 0.4/p damp changes of the step size more, so the step size follows the solution more
+slowly: DOP853 needs 15 to 20 % more steps on ``heavy_top``. Since 0.8 = 4 * 0.2, both factors are computed
+from one power, norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
-a few rejected steps, a guess that is too small costs a large part of a short run.
+a few rejected steps; a guess that is too small would make many of the steps of a short run too small.
 
 Each step starts without memory, because solutions of steps of another size are bad initial guesses.
 """
@@ -50,19 +51,21 @@ from codegen.run.terms import (
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
 FIRST = 16.0
-"""The first trial covers 1/FIRST of the interval, and may be lengthened to all of it."""
+"""The first trial covers 1/FIRST of the interval; the step after it is at most FIRST times as long."""
 
 SHARE = 0.2
-"""The exponents of the controller, times the order of the estimate, are -4 SHARE and SHARE."""
+"""If p is the order of the estimate, the exponents of the controller are -4 SHARE/p and SHARE/p."""
 
 FLOOR = 1e-4
-"""The least error norm that the controller stores, so that an accidentally small error has little effect."""
+"""The least error norm that the controller stores; a smaller norm, which is accidental, is replaced by this
+value."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the adaptive run and the functions that it calls; none without an error estimate."""
+    """Return the run with step control and the functions that it calls; no functions for a kernel without an
+    error estimate."""
     if plan.kernel.estimate is None:
         return ()
     return weighted(plan), between(), _Controlled(plan).function()
@@ -71,11 +74,12 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 def weighted(plan: Plan) -> Function:
     """Return the function that computes the norm of an error estimate."""
     n, i = plan.size, count("i")
-    # The norm has a separate function, so that the long body of the run contains no loop over components.
+    # The norm is computed by a separate function, so that the body of the run contains no loop over
+    # components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # The larger of the values at both ends of the step is used, because a component that crosses zero would
-    # otherwise require a tiny error.
+    # |y_i| is the larger of its values before and after the step. Otherwise a component that crosses zero
+    # would require a tiny error.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),
@@ -102,14 +106,14 @@ def weighted(plan: Plan) -> Function:
 def between() -> Function:
     """Return the function that limits a factor."""
     least, x, most = real("least"), real("x"), real("most")
-    # Comparisons with a NaN are false, so this order maps a NaN to the least factor.
+    # Comparisons with a NaN are false. The tests are in such an order that a NaN gives the least factor.
     bounded = select(x > least, select(x < most, x, most), least)
     about = "Clamp x to [least, most]; a NaN gives least."
     return Function("between", about, (least, x, most), (Return(bounded),), Kind.REAL)
 
 
 class _Controlled:
-    """Builds the adaptive run; the attributes are variables of the run."""
+    """Builds the run with step control; the attributes are variables of the run."""
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
@@ -157,8 +161,8 @@ class _Controlled:
         # The comparisons are false for a NaN, so a NaN is refused as well.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
-        # A crude first step size is enough: a rejection shortens the step by a factor of up to 5, and after
-        # an accepted first step the step size may grow by the factor FIRST.
+        # A rough first step size is sufficient: a rejection divides the step size by up to 5, and an accepted
+        # first step multiplies it by up to FIRST.
         chosen = size(self.end - self.now) / FIRST
         return (
             Assign(STATUS, code(OK)),
@@ -178,15 +182,15 @@ class _Controlled:
 
     def step(self) -> tuple[Statement, ...]:
         """Return the statements of one trial."""
-        # In floating-point arithmetic t + h may equal t. Then no number of steps reaches the end.
+        # In floating-point arithmetic t + h may equal t. Then the end is never reached.
         stuck = negated(either(self.following > self.now, self.following < self.now))
         return (
             Assign(self.left, self.end - self.now),
             # A step that reaches the end is shortened to end exactly there.
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
-            # The last step sets the time to the end itself. A sum would differ from the end by a rounding
-            # error, and a tiny step would follow.
+            # After the last step the time is set to the end. The sum t + h could differ from the end by a
+            # rounding error, and a tiny step would follow.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),
@@ -216,7 +220,7 @@ class _Controlled:
 
     def power(self, base: Term, exponent: float) -> Term:
         """Return a power of an error."""
-        # The order is known at compile time, so the exponent is a constant in emitted code.
+        # The order is known when the code is generated, so the exponent is a constant in emitted code.
         return call("power", base, number(self.plan.format.round(exponent / self.order)))
 
     def rounded(self, x: float) -> Term:
@@ -235,8 +239,8 @@ class _Controlled:
         # most its value for the norm FLOOR. The previous error damps the controller: step sizes oscillate
         # less where stability limits them. The first step has no previous error.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
-        # A rejection shows that the predicted step size was too large: do not increase the step at once
-        # (Hairer, Norsett and Wanner).
+        # After a rejection the predicted step size was too large, so the next step is not longer (Hairer,
+        # Norsett and Wanner).
         longer = select(self.shrunk, number(1.0), select(self.starting, number(FIRST), number(MOST)))
         return (
             Assign(state, self.trial),
@@ -246,8 +250,8 @@ class _Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step is shortened to hit the end. Its length is stored for the next call only if
-                # the error requires a shorter step.
+                # The last step was shortened to end at the end of the interval. The step size that the caller
+                # gets for the next call is not shortened, unless the error requires it.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -259,10 +263,9 @@ class _Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step.
 
-        The status of a failed step is reset to OK if adding the shorter step still changes the time.
+        The status of a failed step is reset to OK if t + h, with the shorter step h, differs from t.
         """
-        # If adding even the shorter step does not change the time, the run returns the status of the failed
-        # step.
+        # If t + h equals t, the run ends with the status of the failed step.
         following = real("next")
         changes = either(following > self.now, following < self.now)
         return (

@@ -5,13 +5,13 @@ A prediction is a sum of amounts times :data:`WEIGHTS`:
 - operations (:mod:`codegen.kernel.operations`): operations outside of sweeps and matrices count once a step,
   operations of a sweep or matrix as often as sweeps or matrices are computed;
 - unknowns: each costs time in a step, for the warm start, and in a sweep, for the stopping rule;
-- corrections: the time in which a sweep waits for the product of the inverse and the residuals g(u) - u. The
-  next sweep of Newton's method on u = g(u) cannot begin before, so each sweep adds one correction. For
-  residual equations, this time is part of the time of a sweep, so no correction is added;
+- corrections: a sweep of Newton's method on u = g(u) ends with the product of the inverse and the residuals
+g(u) - u. The next sweep cannot begin before this product is computed, so each sweep adds one correction. For
+residual equations, this time is part of the time of a sweep, and no correction is added;
 - cubes: inverting an n x n matrix without a formula costs n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` times emitted C of the implicit methods on every scene of the
-gallery, with each solver, and writes predictions beside measurements into ``benchmarks/README.md``.
+gallery, with each solver, and writes predictions and measurements into ``benchmarks/README.md``.
 ``python benchmarks/solver_choice.py --fit`` prints the weights that fit the measurements best: non-negative
 least squares of relative errors. We also tried the length of the critical path as one more amount. It reduced
 the median error by less than one part in a hundred and improved no choice, because the critical path of a
@@ -72,11 +72,11 @@ WEIGHTS = Amounts(
 
 
 CHEAP = ("add", "mul", "choose", "fabs")
-"""Operations that take about one cycle."""
+"""Operations that take about one cycle of a processor."""
 
 
 def of_operations(counts: Mapping[str, int]) -> Amounts:
-    """Return the amounts of counted operations.
+    """Return the amounts of work for counted operations.
 
     >>> of_operations({"add": 2, "mul": 3, "div": 1, "stumpff_12": 4}) == Amounts(
     ...     arithmetic=5, divisions=1, calls=4
@@ -100,8 +100,8 @@ def of_step(kernel: Kernel, work: Work) -> Amounts:
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of one sweep."""
-    # The next sweep reads the corrected unknowns, so a processor cannot begin it before this product is
-    # computed.
+    # The next sweep reads the corrected unknowns, so a processor cannot begin the next sweep before this
+    # product is computed.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 

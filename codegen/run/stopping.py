@@ -1,8 +1,8 @@
 """The stopping rule for all loops over implicit equations.
 
 ``change`` is the largest change of an unknown in a sweep, ``scale`` the largest absolute value of an unknown.
-``previous`` is the change in the sweep before. The rate of convergence is change/previous. A loop ends if it
-is in one of three states:
+``previous`` is the change in the sweep before. The rate of convergence is change/previous. A loop ends in
+three cases:
 
 - *close*: the change is at rounding level, and the predicted next change, change times rate, is below half a
   unit in the last place. A small change alone is no proof of convergence, because a slow iteration makes
@@ -13,8 +13,8 @@ is in one of three states:
   level themselves.
 
 All tests are relative, so the number of sweeps does not depend on the units of the motion. In particular, a
-diverging iteration is never accepted on the grounds that its values are still small. A change that is not
-finite ends a loop with NOT_FINITE.
+diverging iteration is not accepted because its values are small. A change that is not finite ends a loop with
+NOT_FINITE.
 
 The stopping test by rate times change is taken from Hairer and Wanner, Solving Ordinary Differential
 Equations II, section IV.8.
@@ -54,8 +54,8 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""This number is added to the rate of convergence. The loop also applies the last change to the unknowns, and
-the relative error of this change is about as large as this number.
+"""A number that is added to the rate of convergence. The last change is applied to the unknowns, too, and
+this number is about its relative error.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
@@ -102,9 +102,10 @@ class Stopping:
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            # Between steps of equal size the rate hardly changes. With the old rate, one sweep may be enough
-            # (Hairer and Wanner start with the old rate for the same reason). Without an old rate, the
-            # pessimistic rate 1 ends the loop after one sweep only if the change is at rounding level.
+            # Between steps of equal size the rate hardly changes. With the old rate a loop may end after one
+            # sweep, which measures no rate of its own (Hairer and Wanner start with the old rate, too). If
+            # there is no old rate, the rate is 1, and a loop ends after one sweep only if the change is at
+            # rounding level.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -125,7 +126,8 @@ class Stopping:
             # warm start uses the largest error among them.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
-                # Near rounding level a quotient of changes may be tiny by accident.
+                # Near rounding level a quotient of changes may be tiny by accident, so the rate has a lower
+                # bound.
                 self.previous > 0.0,
                 (Assign(self.rate, greatest([CHANGE / self.previous, number(SLOWEST)])),),
             ),
@@ -137,15 +139,15 @@ class Stopping:
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
         # The predicted next change, rate times change, must be below rounding, because a small change alone
-        # is no proof. Without a stored rate the test is change^2 <= bound * previous, without a division.
-        # In the first sweep previous = 0, so this test accepts a zero change only.
+        # is no proof. Without a stored rate the test is written as change^2 <= bound * previous, to avoid a
+        # division. In the first sweep previous = 0, so only the change zero satisfies the test.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # Rounding errors can keep the change above every bound. The change then stops decreasing, and more
-        # sweeps are useless. ``tolerance`` distinguishes this case from divergence.
+        # Rounding errors may keep the change above the bound. The change then no longer decreases, and more
+        # sweeps are useless. If the iteration diverges, the change exceeds ``tolerance``.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -171,7 +173,8 @@ class Stopping:
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
         """Return the statements that measure a sweep over residuals, by sums of absolute values."""
         return [
-            # Sums are used and not maxima, because sums keep NaNs: no separate test for finiteness is needed.
+            # Sums are used, because a sum with a NaN is NaN, and no other test for finite numbers is needed.
+            # A maximum may lose a NaN.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]
@@ -179,11 +182,11 @@ class Stopping:
     def converged_by_residuals(self) -> list[Statement]:
         """Return the statements that set the flag ``converged`` for a loop over residuals.
 
-        The matrix is exact to first order in h, so the rate of the step before is valid in the first sweep. A
-        loop that contracts ends if the predicted next change is below four roundings of the sum of the
-        unknowns. A loop that contracts slowly ends if the sum of all later changes, a geometric series, is
-        below this bound. A loop whose changes no longer decrease ends after the second sweep or later, if the
-        change is below the tolerance or below the rounding errors of the state.
+        The matrix is exact to first order in h, so the rate of the previous step is a good estimate in the
+        first sweep. A loop that contracts ends if the predicted next change is below four roundings of the
+        sum of the unknowns. A loop that contracts slowly ends if the sum of all later changes, a geometric
+        series, is below this bound. A loop whose changes no longer decrease ends after the second sweep or
+        later, if the change is below the tolerance or below the rounding errors of the state.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))
@@ -220,16 +223,15 @@ class Stopping:
 
         ``possible`` is false if the matrix is singular. The flag ``converged`` is then meaningless.
         """
-        # Test for finiteness first: all comparisons with a NaN are false, so the flag would ask for more
-        # sweeps.
+        # The test for finite numbers comes first: comparisons with a NaN are false, so the loop would
+        # otherwise continue.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))
         outcome = select(converged, code(OK), code(NOT_CONVERGED))
         return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))
 
     def going_on(self, astray: Term | None = None) -> Term:
         """Return the test for another sweep."""
-        # The limit is a safeguard for iterations that contract too slowly; the continuation then
-        # takes over.
+        # The limit ends iterations that contract too slowly; the step is then repeated by continuation in h.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))
 

@@ -55,10 +55,11 @@ from codegen.run.terms import (
 from codegen.run.values import simple
 
 WIDE = 12
-"""Up to WIDE unknowns, each entry of a matrix has a separate statement."""
+"""The largest number of unknowns for which each entry of a matrix is computed by a separate statement."""
 
 WIDEST = 20
-"""Up to WIDEST unknowns, fixed-point iteration measures each change in a separate statement."""
+"""The largest number of unknowns for which fixed-point iteration computes each change by a separate
+statement."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
@@ -71,7 +72,8 @@ def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
 
 @dataclass(frozen=True)
 class _Loop:
-    """The common part of fixed-point iteration and Newton's method; with ``counting``, sweeps are counted."""
+    """The common part of fixed-point iteration and Newton's method; if ``counting`` is true, sweeps are
+    counted."""
 
     plan: Plan
     iteration: Iteration
@@ -102,7 +104,7 @@ class _Loop:
         ]
 
     def named(self, word: str) -> list[Term]:
-        """Return a name for each unknown, with ``word`` before the name of the unknown."""
+        """Return a new name for each unknown: ``word`` followed by the name of the unknown."""
         return [own(f"{word} {u}") for u in self.iteration.loop.unknowns]
 
     def begin(self) -> list[Statement]:
@@ -132,8 +134,8 @@ class _Loop:
     ) -> list[Statement]:
         """Return the loop and the statements after it.
 
-        The loop ends if ``astray`` holds. ``singular`` is the test that the last matrix has no inverse; it is
-        made after a failure.
+        The loop ends with a failure if the test ``astray`` is true. After a failure, the test ``singular``
+        decides whether the last matrix has no inverse.
         """
         # The status ends the loop, because array languages cannot leave a loop from its middle. NOT_CONVERGED
         # is also the result if the loop reaches its limit of sweeps.
@@ -155,21 +157,23 @@ class _FixedPoint(_Loop):
 
     def statements(self) -> list[Statement]:
         """Return the statements of the loop."""
-        # Unrolled statements grow with the number of unknowns; above the limit, loops over arrays
-        # keep the code small.
+        # The number of separate statements grows with the number of unknowns. Above the limit, loops over
+        # arrays replace them.
         many = len(self.unknowns) > WIDEST
         measured, finite = self.wide() if many else self.narrow()
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
         # The last sweep does not change the unknowns, so the values of its body that are read later belong to
-        # the accepted unknowns. This is a branch and not a select: after convergence nothing needs copying.
+        # the accepted unknowns. A branch is used and not a select, because after convergence nothing needs to
+        # be copied.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that measure each change, and a term that is finite only if all are."""
+        """Return the statements that compute each change, and a term that is finite only if all changes
+        are."""
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))
@@ -256,8 +260,8 @@ class _Newton(_Loop):
         # small.
         body += self.corrected(changes)
         body += rule.converged()
-        # ``invert`` sets the age to 1 on success and to 0 for a singular matrix. With a singular matrix, even
-        # small changes do not show convergence.
+        # ``invert`` sets the age to 1 on success and to 0 for a singular matrix. If the matrix is singular,
+        # small changes are no sign of convergence.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
             # If the change does not decrease although the matrix is exact at the current unknowns, more
@@ -266,9 +270,9 @@ class _Newton(_Loop):
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))
             body.append(Assign(flag("astray"), stalled))
-            # With an old matrix, the iteration contracts by the relative error of the matrix. A slow
-            # contraction shows that the matrix is outdated, and a new matrix costs less than many slow
-            # sweeps. In the first sweep ``previous`` is 0, and the contraction is not known yet.
+            # With an old matrix, each sweep multiplies the error by about the relative error of the matrix.
+            # If the contraction is slow, a new matrix costs less than many more sweeps. In the first sweep
+            # ``previous`` is 0, because the contraction is not known yet.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -279,8 +283,8 @@ class _Newton(_Loop):
     def singular(self) -> Term:
         """Return the test, after a failure, that the matrix in the memory has no inverse.
 
-        Only elimination tests this. The formula for the inverse of a small matrix divides by zero, and then
-        the status is NOT_FINITE.
+        Only elimination makes this test. If a small matrix is singular, the formula for its inverse divides
+        by zero, and the status is NOT_FINITE.
         """
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
@@ -296,7 +300,8 @@ class _Newton(_Loop):
         body += self.corrected(changes)
         body += rule.converged_by_residuals()
         body.append(rule.decided(CHANGE, self.age > 0 if inverted else None))
-        # A second matrix in the same step costs more than the sweeps that it saves.
+        # At most one matrix is computed in a step, because a second one would cost more than the sweeps that
+        # it saves.
         body.append(Assign(self.making, truth(False)))
         body.append(Assign(rule.previous, CHANGE))
         astray = negated(self.age > 0) if inverted else None
@@ -311,8 +316,8 @@ class _Newton(_Loop):
         sequence = self.entries()
         if self.newton.inverted:
             return [*sequence, Assign(self.age, whole(1)), *self.matrix_counted()]
-        # Computing the inverse costs more than a factorisation. But a product with the inverse has no
-        # divisions or dependent substitutions, and the inverse is used in many sweeps.
+        # Computing the inverse costs more than a factorisation. But the inverse is used in many sweeps, and a
+        # product with the inverse is faster than forward and back substitution.
         sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.age,)))
         counted = self.matrix_counted()
         return [*sequence, *([If(self.age > 0, tuple(counted))] if counted else [])]
@@ -350,7 +355,8 @@ class _Newton(_Loop):
     def cell(self, place: int) -> Term:
         """Return an entry of the inverse; it is a variable if the inverse is computed in each step."""
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
-            # This inverse is used in one step only, so its entries can be scalars, which stay in registers.
+            # This inverse is used in one step only, so its entries can be scalars, which a compiler keeps in
+            # registers.
             return real(f"inverse_{self.number}_{place}")
         return self.inverse[place]
 
@@ -359,7 +365,8 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
-            # Every sweep waits for this sum. If pairs are added first, the latency of the sum is halved.
+            # The next sweep cannot begin before this sum is known. If pairs are added first, the latency of
+            # the sum is halved.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
         right, left = real(f"residuals_{self.number}", n), real(f"changes_{self.number}", n)

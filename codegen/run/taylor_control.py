@@ -3,8 +3,9 @@ no step is rejected.
 
 Let c_k be coefficient k of the solution at the state y, and p the degree. With the maximum norm and
 epsilon = atol + rtol |y|, the step size is the smaller one of (epsilon/|c_k|)^(1/k) for k = p - 1 and k = p,
-times exp(-0.7/(p - 1)). So the last terms of the polynomial are about as large as the tolerance (A. Jorba and
-M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1, where the tolerance determines the degree, too).
+times exp(-0.7/(p - 1)). The last terms of the polynomial are then about as large as the tolerance (A. Jorba
+and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1, where the tolerance determines the degree,
+too).
 """
 
 from __future__ import annotations
@@ -64,7 +65,7 @@ ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "m
 """The names of the functions that a run calls."""
 
 LEAST = 1e-30
-"""The least size of a coefficient: smaller coefficients permit steps beyond every span."""
+"""A lower bound for the size of a coefficient in the formula of the step size, which divides by this size."""
 
 ROWS = 4
 """The number of rows whose products are added to each inner sum in one pass."""
@@ -105,8 +106,8 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
         pairs = [products(i) for i in range(rows)]
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
-    # All sums advance together, so that no addition waits for the previous one of the same sum. Several rows
-    # share a load and a store of each sum.
+    # The loop adds one product to every sum in turn, so that consecutive additions are independent. Products
+    # of several rows are added between one load and one store of each sum.
     many = For(
         j,
         k // ROWS,
@@ -144,7 +145,7 @@ class _Controlled:
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
-        # If the polynomial is in the coordinates of the state, no arrays are copied.
+        # If the coordinates of the polynomial are the coordinates of the state, no arrays are copied.
         self.start = self.state if expansion.enter is None else real("start", self.size)
         self.moved = self.trial if expansion.leave is None else real("moved", self.size)
         self.series = real("series", self.degree * self.size)
@@ -319,7 +320,7 @@ class _Controlled:
             Assign(STATUS, code(OK)),
             Assign(self.steps, whole(0)),
             Assign(self.now, self.t[0]),
-            # If the caller gives a step size, the first step is at most that long.
+            # If the caller gives a step size, it is an upper bound for the first step.
             Assign(self.length, size(self.h[0])),
             Assign(self.advised, self.length),
             If(negated(both(numbers, tolerances)), (Assign(STATUS, code(BAD_STEP)),)),
@@ -343,8 +344,7 @@ class _Controlled:
         return (
             *self.entered(),
             Call(EXPAND, (self.start, *moment, self.series)),
-            # If a coefficient is infinite or NaN, so are later coefficients, and a shorter step does not
-            # help.
+            # The coefficients do not depend on h. If one is infinite or NaN, a shorter step fails, too.
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),

@@ -25,12 +25,13 @@ STATUSES = (OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT, TOO_FAR, SINGULAR, T
 
 
 class Kind(Enum):
-    """The type of a term; a WIDE real has the range and precision of a double in every format."""
+    """The kind of a term. A WIDE real has the range and precision of a double, whatever the format of the
+    module."""
 
     REAL = "real"
     WIDE = "wide"
     COUNT = "count"
-    # Flags have a separate kind, because array languages distinguish booleans from integers.
+    # Flags are a kind of their own, because array languages distinguish booleans from integers.
     FLAG = "flag"
     STATUS = "status"
     RECORD = "record"
@@ -138,8 +139,7 @@ class Term:
 
 Operand = Term | float | int
 
-# A Python number gets the kind of the other operand. The other operand is this count, so an index becomes a
-# count.
+# A Python number as operand gets the kind of the other operand, which is a count in an index.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
@@ -162,7 +162,7 @@ def _comparison(op: str, x: Term, y: Operand) -> Term:
 
 
 def real(name: str, *shape: int, optional: bool = False, cell: bool = False) -> Term:
-    """Return the name of a real, or of an array of them."""
+    """Return the name of a real, or of an array of reals."""
     return Term("name", (), Kind.REAL, name, shape=shape, optional=optional, cell=cell)
 
 
@@ -217,7 +217,7 @@ def truth(x: bool) -> Term:
 
 def value(x: Expr) -> Term:
     """Return an expression of the kernel; a bare symbol becomes a name."""
-    # Return a name and not a value, so that copies of scalars are recognised without inspecting
+    # A bare symbol is returned as a name, so that copies of scalars are recognised without inspecting
     # expressions.
     if x.op == "sym":
         return own(x.payload)
@@ -264,7 +264,7 @@ def size(x: Term) -> Term:
 
 
 def greatest(terms: Iterable[Term]) -> Term:
-    """Return the greatest of some reals."""
+    """Return the maximum of some reals."""
     listed = tuple(terms)
     # If there is only one term, it is returned without a call, because ``max`` of a single number is an error
     # in Python.

@@ -1,4 +1,4 @@
-"""A run of steps with constant size, with rows of a trajectory, and the public single step.
+"""A run of steps of constant size, which can store a trajectory, and the public function for a single step.
 
 A run ends after the last step or after a failure. After a failure, the state is the state before the failed
 step. Rows are written at the beginning and after every stride-th step.
@@ -46,7 +46,8 @@ RAISING = frozenset({"sqrt", "log", "exp", *(f.name for f in ELEMENTARY.values()
 """Functions that raise an exception in Python for some arguments."""
 
 REGISTERS = 6
-"""The largest state that stays in registers next to the intermediate values of a step."""
+"""The largest number of components of a state that is kept in registers together with the intermediate values
+of a step."""
 
 DONE = count("step")
 """The number of completed steps."""
@@ -58,8 +59,8 @@ LOOP = "loop"
 
 
 def is_looped(plan: Plan) -> bool:
-    """Return True if the kernel is inlined in a run: the kernel has a small state, and no other function
-    contains the kernel."""
+    """Return True if the kernel is inlined in a run: its state is small, and no other function must contain
+    the kernel."""
     kernel = plan.kernel
     # If each step were a function call, the state would have to be stored in memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
@@ -69,7 +70,8 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Return True if a target may raise an exception where C computes an infinity or a NaN."""
-    # An exception can become a status only in a function that contains nothing but the kernel.
+    # A function with a guard returns a status after an exception. It must contain the kernel only, so the
+    # kernel is not inlined.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
@@ -89,8 +91,8 @@ class Rows:
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
-            # The stride and the array are tested once, because one flag in the loop is cheaper than two
-            # tests.
+            # The stride and the array are tested once, before the loop, because testing one flag in the loop
+            # is cheaper than two tests.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),
@@ -139,7 +141,7 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
 def step(plan: Plan) -> Function:
     """Return the public function for one step; run-time inputs are constant over it."""
     state = plan.state()
-    # A single step needs values of the inputs and no function of time, because its caller may change the
+    # The inputs of a single step are values and not functions of time, because its caller may change the
     # values between steps.
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
@@ -176,7 +178,8 @@ def run_parameters(plan: Plan) -> tuple[Term, ...]:
 
 def looped_runs(plan: Plan) -> tuple[Function, ...]:
     """Return the functions of a run that contains the kernel: the loop, the cause, and the public run."""
-    # The loop is a separate function, so that the cause of a failure is found by a second, shorter run of it.
+    # The loop is a separate function, because the search for the cause of a failure calls it again with a
+    # step of size zero.
     loop = replace(run(plan), name=LOOP, about="The loop of a run.", public=False)
     alone = (whole(1), *plan.parameters, absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
     parameters = run_parameters(plan)
@@ -200,8 +203,8 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # The row is first a copy of the initial state. LEAVE then adds the increase of the momentum to
-            # the row. The run itself continues in the body frame, without another conversion.
+            # The row is first a copy of the initial state, and LEAVE updates it to the current state in the
+            # space frame. The run itself continues in the body frame.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # Each time is computed from the initial time, so that errors do not accumulate.

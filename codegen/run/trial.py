@@ -1,7 +1,7 @@
-"""Trials: a kernel run for a few steps from the initial state, with its sweeps and matrices counted.
+"""Trials: a kernel makes a few steps from the initial state, and its sweeps and matrices are counted.
 
-The executor (:mod:`codegen.run.execute`) executes the statements that printers translate, so a trial makes
-the same sweeps and matrices as the emitted program.
+The executor (:mod:`codegen.run.execute`) executes the statements that printers translate, so a trial takes
+the same numbers of sweeps and matrices as the emitted program.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ PARTS = 100
 
 @dataclass(frozen=True)
 class Trial:
-    """Counts of ``steps`` steps of size ``h``.
+    """The counts of a trial of ``steps`` steps of size ``h``.
 
     ``sweeps`` and ``matrices`` are average numbers per step, for each block. ``most`` is the largest number
     of sweeps over one block in one step or substep. ``converged`` is whether all steps succeeded.
@@ -66,7 +66,7 @@ class Trials:
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops
         counts, state = self.machine.record(STATISTICS), list(self.initial)
         time = [float(first)] if self.plan.time else []
-        # The run-time inputs of the user are not known, and zero inputs are the usual first test.
+        # The run-time inputs of the user are not known, so they are zero in a trial.
         signals = [lambda t: (0.0,) * number] if number else []
         # The step size is computed from exact rationals and rounded once, as in the usage example.
         h = float(longer * (last - first) / PARTS)

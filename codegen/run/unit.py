@@ -25,7 +25,7 @@ def unit_of(plan: Plan) -> Unit:
     else:
         functions += _steps(plan)
     functions += (*step_control.functions(plan), *taylor_control.functions(plan), *jacobian.functions(plan))
-    # t and h are included even if no expression reads t or h, so that no other name gets these identifiers.
+    # t and h are always included, so that no other name gets the identifiers t and h.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
     vectors = used(functions)
     functions = [*matrix_functions(vectors, plan.format), *functions]
@@ -40,8 +40,8 @@ def _steps(plan: Plan) -> list[Function]:
         listed += counters(plan)
     if plan.start is not None:
         listed += WarmStart(plan).functions()
-    # If the kernel is inlined in ``run``, ``step`` calls ``run``, so ``run`` comes first. Otherwise both
-    # call the function that contains the kernel.
+    # If the kernel is inlined in ``run``, ``run`` comes first, because ``step`` calls it. Otherwise both
+    # functions call the function that contains the kernel.
     if is_looped(plan):
         return [*listed, *turning(plan), *looped_runs(plan), step(plan)]
     if not plan.kernel.outputs:
@@ -57,7 +57,8 @@ def _steps(plan: Plan) -> list[Function]:
 
 
 def _causes(plan: Plan) -> list[Function]:
-    """Return the function that searches for the cause of a failure; none if the continuation finds it."""
+    """Return the function that finds the cause of a failure; no function if the continuation finds the
+    cause."""
     return [cause(plan, ADVANCE, step_arguments(plan))] if is_searched(plan) else []
 
 

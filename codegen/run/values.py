@@ -18,7 +18,7 @@ def simple(statement: Simple) -> list[Statement]:
         given = tuple(map(value, statement.arguments))
         if statement.arrays:
             return _in_arrays(statement)
-        # A single result is returned by value; an array of one entry would cost a store and a load.
+        # A single result is returned by value, because an array of one entry would cost a store and a load.
         if statement.results == 1:
             return [Call(statement.function, given, (own(statement.names[0]),))]
         results = own(statement.name, statement.results)
@@ -39,7 +39,8 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
         first += size
         array = _part(arguments)
         if array is None:
-            # No name of the kernel contains a space, so the array has a name of its own.
+            # No name of the kernel contains a space, so the name of the array differs from all names of the
+            # kernel.
             array = own(f"{statement.name} given {number}", size)
             declared.append(Array(array, tuple(map(value, arguments))))
         given.append(array)

@@ -4,9 +4,9 @@ The degree of the polynomial grows while the backward differences of the solutio
 is full, the degree is adapted in every eighth step only. If the error of the guess exceeds ``Start.ROUGH``
 times the change of the unknowns over the step, the motion has changed, and only the last solution is kept.
 
-Solutions are stored in a ring buffer, each twice. The last ``depth`` solutions are therefore always
-contiguous. Up to :data:`FEW` unknowns, each sum is a scalar variable, because loops over arrays would cost as
-much as the sweeps that the warm start saves.
+Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous. Up
+to :data:`FEW` unknowns, each sum is a scalar variable, because loops over arrays would cost as much as the
+sweeps that the warm start saves.
 """
 
 from __future__ import annotations
@@ -47,10 +47,10 @@ from codegen.run.terms import (
 from codegen.run.values import simple
 
 FEW = 12
-"""Up to FEW unknowns, differences are computed in scalars, without inner loops."""
+"""The largest number of unknowns for which differences are computed in scalars, without inner loops."""
 
 SELDOM = 8
-"""With a full memory, the degree is adapted in every SELDOM-th step."""
+"""When the memory is full, the degree is adapted only in every SELDOM-th step."""
 
 _I = count("i")
 
@@ -87,8 +87,8 @@ def memory_record(plan: Plan) -> Record:
                 "ring buffer; each solution is stored twice, so the last ones are contiguous",
             ),
         ]
-        # The rates of convergence belong to the solutions: rates and solutions become invalid together when
-        # the motion changes.
+        # The rates of convergence are stored with the solutions, because both become invalid when the motion
+        # changes.
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of its equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
@@ -96,7 +96,7 @@ def memory_record(plan: Plan) -> Record:
         if loop.newton is not None and not loop.newton.leading:
             n = len(loop.unknowns)
             fields += [
-                (count(f"age_{k}"), "age of the inverse in steps, 0: no inverse"),
+                (count(f"age_{k}"), "age of the inverse in steps; 0 without an inverse"),
                 (real(f"inverse_{k}", n * n), ""),
             ]
     if plan.newton:
@@ -121,9 +121,9 @@ def _factors(start: Start) -> Term:
 
 
 def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
-    """Return a statement for each index: one by one up to FEW, else as a loop."""
+    """Return statements for all indices: a separate statement for each index up to FEW, otherwise a loop."""
     if n <= FEW:
-        # Separate statements can be scheduled side by side; a loop with few iterations has its own cost.
+        # A compiler can interleave separate statements, and a loop with few iterations costs additional time.
         return [statement(whole(k)) for k in range(n)]
     return [For(_I, whole(n), (statement(_I),))]
 
@@ -163,7 +163,8 @@ class WarmStart:
             body = [
                 For(i, whole(self.n), (Assign(result[i], number(0.0)),)),
                 For(
-                    # The outer loop is over the solutions, so that the inner loop reads contiguous memory.
+                    # The outer loop runs over the solutions and the inner loop over the unknowns, so that the
+                    # inner loop reads contiguous memory.
                     count("back"),
                     order + 1 - first,
                     (Assign(j, first + count("back")), inner),
@@ -190,13 +191,13 @@ class WarmStart:
         ]
         for k, partial in enumerate(sums):
             later, earlier = self.values[place][k], self.values[place + 1][k]
-            # Each dependent addition adds two products, which are independent of each other. So there are
-            # half as many dependent additions.
+            # Two products are added to each other first, and then to the sum. This halves the number of
+            # additions that depend on one another.
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The sum runs from the oldest solution to the latest. The sweeps of this step have just computed
-            # the latest solution, so only the last product waits for the sweeps.
+            # The sum begins with the oldest solution. The latest solution, which the sweeps of this step have
+            # just computed, is added last, so only its product must wait for the sweeps.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
@@ -240,8 +241,8 @@ class WarmStart:
         body += self.chosen(place)
         body += [
             Note("choose the next solution such that the difference of the next order vanishes"),
-            # The differences of order k + 1 of a polynomial of degree k are zero. Solving this equation for
-            # the latest term of the difference yields the value one step later, without nodes and divisions.
+            # The differences of order k + 1 of a polynomial of degree k are zero. This equation is solved for
+            # the value one step later, which needs no interpolation nodes and no divisions.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
@@ -262,9 +263,9 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The test uses a ratio of two changes, so it does not depend on units. A guess whose error is
-            # half of the motion is hardly better than the last solution, and a polynomial of high degree
-            # would propagate the disturbance for many steps.
+            # The test uses a ratio of two changes, so it does not depend on units. If the error of a guess is
+            # half of the motion, the guess is hardly better than the last solution. A polynomial of high
+            # degree would keep errors of this size for many steps.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
@@ -285,9 +286,9 @@ class WarmStart:
         )
         grows = flag("grows")
         adapt = (
-            # If the motion is smooth on the scale of h, differences decrease with the order, until rounding
-            # errors dominate, which double with each order. The order of the least difference is the best
-            # degree. The best degree changes slowly, so comparing with the two neighbours is enough.
+            # If the motion is smooth on the scale of h, differences decrease with the order until rounding
+            # errors dominate. Rounding errors double with each order. The order of the least difference is
+            # the best degree. The best degree changes slowly, so comparing with the two neighbours is enough.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
             # A difference of order k needs k + 1 solutions.
@@ -298,7 +299,8 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
-        # The row of the latest solution decreases by one in each step and so counts the steps.
+        # The row of the latest solution decreases by one in each step, so this row can be used as a counter
+        # of steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(

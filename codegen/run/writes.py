@@ -7,7 +7,8 @@ from codegen.run.language import Array, Assign, Call, Function, Unit, root, stat
 
 def written(unit: Unit, function: Function) -> frozenset[str]:
     """Return the names of the arrays and records among a function's parameters that it changes."""
-    # Scalars are passed by value, so assignments to them are invisible to callers.
+    # Scalars are passed by value, so an assignment to a scalar parameter does not change a variable of the
+    # caller.
     own = {p.text for p in function.parameters if p.shape or p.record}
     changed_names: set[str] = set()
     for statement in statements(function.body):
@@ -21,7 +22,8 @@ def written(unit: Unit, function: Function) -> frozenset[str]:
                     changed_names |= {root(a).text for a in arguments if name == "invert"}
                     continue
                 changed = written(unit, callee)
-                # This recursion ends, because functions of a unit do not call each other recursively.
+                # The recursion ends, because no function of a unit calls itself, directly or through other
+                # functions.
                 pairs = zip(callee.parameters, arguments, strict=True)
                 changed_names |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
             case Array():

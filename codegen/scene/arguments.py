@@ -24,7 +24,7 @@ def check_group(name: str, group: object) -> None:
         _refuse(name, "group", group, "SO3()")
 
 
-def check_action(reader: Reader, group: LieGroup, action: object) -> None:
+def check_points(reader: Reader, group: LieGroup, action: object) -> None:
     """Raise :class:`SceneError` for an object that is no action, or for points on which the group cannot
     act."""
     if not isinstance(action, Action):
@@ -32,12 +32,18 @@ def check_action(reader: Reader, group: LieGroup, action: object) -> None:
     domain = ExprDomain(reader.space)
     y = tuple(domain.space.sym(s) for s in reader.coordinates)
     zero: Vector[Expr] = (domain.rational(0),) * group.dim
-    width = -1
-    if group.offers(action.needs) is not None:
-        try:
-            width = len(action.velocity(domain, group, zero, y))
-        except (ValueError, IndexError):  # a formula may combine tuples of different lengths
-            width = -1
+    action.check(group, reader.name)
+    size = action.point_size(group)
+    if size is not None and size != len(y):
+        raise SceneError(
+            f"a point with {len(y)} coordinates",
+            where=reader.name,
+            expected=f"a point on which {group.name} acts by {action.name}: {size} coordinates",
+        )
+    try:
+        width = len(action.velocity(domain, group, zero, y))
+    except (ValueError, IndexError):  # a formula may combine tuples of different lengths
+        width = -1
     if width != len(y):
         raise SceneError(
             f"a point with {len(y)} coordinates",

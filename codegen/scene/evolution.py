@@ -191,7 +191,7 @@ def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
 
 def _shorter(form: Evolution) -> Iterator[Evolution]:
     """Yield evolutions in which coordinates are omitted that the other coordinates determine."""
-    on_itself = isinstance(form.outer.action, LeftMultiplication)
+    on_itself = form.outer.action.on_itself
     group = _of_element(form.outer.group).offers(DependentCoordinates) if on_itself else None
     inner = form.inner
     for missing in () if group is None else group.determined():

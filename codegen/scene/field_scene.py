@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING
 
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
+from codegen.groups.coordinate_maps import EXPONENTIAL, CoordinateMap, coordinate_map
 from codegen.ir.values import Kind
-from codegen.scene.arguments import check_action, check_group, read_span
-from codegen.scene.consistency import Stated, check_problem
+from codegen.scene.arguments import check_group, check_points, read_span
+from codegen.scene.consistency import Stated, check_action, check_problem
 from codegen.scene.formulas import Reader
+from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem, StateField
 
 if TYPE_CHECKING:
@@ -27,6 +29,7 @@ def FieldScene(
     span: tuple[sympy.Expr, sympy.Expr],
     velocity: Sequence[sympy.Expr] | None = None,
     invariants: Mapping[str, sympy.Expr] | None = None,
+    coordinates: str | CoordinateMap = EXPONENTIAL,
     name: str = "scene",
     title: str = "",
 ) -> Problem:
@@ -35,13 +38,15 @@ def FieldScene(
     ``y`` is a sympy column of coordinate symbols. ``f`` is a column of ``group.dim`` formulas in the
     coordinates, in the symbol ``t`` and in parameters. ``y0`` is the exact initial point, ``span`` the
     rational time interval. ``invariants`` maps names to scalar formulas. ``velocity`` may contain formulas
-    for y', which must equal f.y. :class:`SceneError` is raised for a wrong shape or symbol, an initial point
-    that violates the equations of the group, a ``velocity`` that differs from f.y, and an invariant that
-    changes.
+    for y', which must equal f.y. ``coordinates`` is the coordinate map of Runge-Kutta-Munthe-Kaas methods:
+    "exp", "cayley", "second_kind", or a :class:`codegen.groups.coordinate_maps.CoordinateMap`.
+    :class:`SceneError` is raised for a wrong shape or symbol, an initial point that violates the equations of
+    the manifold, a ``velocity`` that differs from f.y, an invariant that changes, and a coordinate map that
+    the group does not have.
     """
     check_group(name, group)
     reader = Reader(name, list(y))
-    check_action(reader, group, action)
+    check_points(reader, group, action)
     open_roots = reader.column(f, group.dim, "f")
     roots = reader.closed(open_roots)
     start = reader.column(y0, len(y), "y0", constant=True)
@@ -55,6 +60,8 @@ def FieldScene(
         reader.parameters(),
         signals=reader.signals,
         open_roots=open_roots,
+        coordinates=coordinate_map(coordinates, group, name),
     )
+    check_action(orbit_of(problem))
     check_problem(problem, stated)
     return problem

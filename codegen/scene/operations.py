@@ -37,6 +37,13 @@ TRUNCATED: Mapping[str, GroupOperation] = {
     "P": lambda group, d, x, y, mu, order: group.require(Coadjoint).P(d, x, y, mu, order),
 }
 
+ON_COORDINATES: Mapping[str, Callable[..., Value]] = {
+    "element_at": lambda coordinates, d, group, x: coordinates.element(d, group, x),
+    "inverse_differential": lambda coordinates, d, group, x, y: coordinates.inverse_differential(
+        d, group, x, y
+    ),
+}
+
 BY_ACTION: Mapping[str, Callable[[Action, Domain, LieGroup, Value, Value], Value]] = {
     "act": lambda action, d, group, g, y: action.act(d, group, g, y),
     "actexp": lambda action, d, group, x, y: action.actexp(d, group, x, y),

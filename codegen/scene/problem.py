@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from codegen.groups.actions import Action, LeftMultiplication
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import BodyFrame, ClosedFormSeries, Coadjoint
+from codegen.groups.coordinate_maps import CoordinateMap
 from codegen.groups.cotangent import Cotangent
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.ad_series import Word
@@ -27,7 +28,7 @@ from codegen.ir.values import Kind
 from codegen.scene import energy
 from codegen.scene.body_frame import BodyField, body_field
 from codegen.scene.flow import Flow
-from codegen.scene.operations import BY_ACTION, ON_GROUP, TRUNCATED
+from codegen.scene.operations import BY_ACTION, ON_COORDINATES, ON_GROUP, TRUNCATED
 from codegen.scene.values import Bindings
 
 if TYPE_CHECKING:
@@ -61,8 +62,10 @@ class Problem:
     with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that emitted code
     reads at run time. ``forced`` says that n is not a derivative of the Hamiltonian alone. If emitted code
     reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution`` contains the
-    coordinates in which a step of Taylor's method computes. ``derived`` stores the problems that families
-    derive from this one, by the kind of the family, because a search lowers hundreds of methods.
+    coordinates in which a step of Taylor's method computes. ``coordinates`` is the map with which
+    Runge-Kutta-Munthe-Kaas methods parametrise the group; None is the exponential map. ``derived`` stores the
+    problems that families derive from this one, by the kind of the family, because a search lowers hundreds
+    of methods.
     """
 
     name: str
@@ -84,6 +87,7 @@ class Problem:
     forced: bool = False
     body_group: Coadjoint | None = None
     evolution: Evolution | None = None
+    coordinates: CoordinateMap | None = None
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
@@ -139,6 +143,9 @@ class Problem:
             return (ON_GROUP[name](self.group, domain, *args),)
         if name in BY_ACTION:
             return (BY_ACTION[name](self.action, domain, self.group, *args),)
+        if name in ON_COORDINATES:
+            assert self.coordinates is not None
+            return (ON_COORDINATES[name](self.coordinates, domain, self.group, *args),)
         if name in energy.OPERATIONS:
             return (energy.apply(self, domain, name, args),)
         match name:

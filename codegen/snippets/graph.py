@@ -20,7 +20,7 @@ from codegen.snippets import stumpff
 from codegen.templates import environment
 
 LIBRARY = (ANGLE, "fabs", "isfinite", *sorted(MATHEMATICAL))
-"""Functions that both targets have in their mathematical library."""
+"""Functions that are in the mathematical libraries of both C and Python."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,8 @@ def graph(precision: Precision = DOUBLE) -> nx.DiGraph:
 
 @dataclass(frozen=True)
 class Needed:
-    """The requirements of a set of functions: library functions, sorted, and helper texts, callees first."""
+    """What a set of functions requires: library functions, sorted by name, and texts of helpers, callees
+    first."""
 
     library: tuple[str, ...]
     texts: tuple[str, ...]
@@ -135,12 +136,12 @@ def needed(
     """Return the helpers and library functions that a module of a target needs, and no others.
 
     ``functions`` are the functions that the module calls. ``sweeps`` is true if the module calls them in
-    sweeps over equations. A call in a sweep would move many live values from registers to memory, so C may
-    inline all branches of Stumpff functions. ``wide`` is the common number of rows of all inverted matrices,
-    0 if they differ or are large; C unrolls a row of this length. ``widest`` is the largest number of rows; C
-    reserves this much memory. ``chain`` is the number of angles that depend on one another
-    (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of helpers in C, so that two modules
-    can share one translation unit.
+    sweeps over equations. A function call in a sweep would force the compiler to move many values from
+    registers to memory. In this case C compilers may inline all branches of Stumpff functions. ``wide`` is
+    the common number of rows of all inverted matrices, 0 if they differ or are large; C unrolls a row of this
+    length. ``widest`` is the largest number of rows; C reserves this much memory. ``chain`` is the number of
+    angles that depend on one another (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of
+    helpers in C, so that two modules can share one translation unit.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())

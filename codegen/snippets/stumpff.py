@@ -22,7 +22,7 @@ below 1/2.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""Shorter polynomials suffice up to these z: angles up to 1/4 and up to 1/16."""
+"""The largest z for which shorter polynomials are used; they are the squares of the angles 1/4 and 1/16."""
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
@@ -36,7 +36,8 @@ LEFT = 10
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
-    """Return the largest z; beyond it c_k is NaN, because no digit of the rotated vector would be correct.
+    """Return the largest z for which c_k is computed. For a larger z the result is NaN, because no digit of
+    the rotated vector would be correct.
 
     A relative rounding error of 2^-bits in the data of an angle a gives an error of a 2^-bits in the point,
     and an error about eight times as large in the field at this point. Along a ``chain`` of angles

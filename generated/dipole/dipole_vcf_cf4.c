@@ -15,12 +15,13 @@
  * left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms cancel
  *             4 Legendre transforms, 19 adjoint maps, 31 evaluations of dexp*, 1 exponential, 4
  *             sums: equal values are computed once
- *             7 adjoint maps, 1 evaluation of the derivatives of H: no result depends on them
- *             4 adjoint maps, 9 evaluations of dexp*: a linear map is applied to a sum, not to
- *             each term
+ *             7 adjoint maps, 1 evaluation of the derivatives of H: no result depends on these
+ *             operations
+ *             4 adjoint maps, 9 evaluations of dexp*: a linear map is applied once to a sum and
+ *             not to each term
  *             4 adjoint maps: an adjoint map and its inverse cancel
  *             5 evaluations of dexp*: functions of the same ad_x are combined
- *             parameters, folded: beta = 1, depth = 3/2
+ *             arguments for parameters, which are constants: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
  *             2 mul for an initial guess, in the first step of a run
@@ -332,7 +333,7 @@ struct dipole_vcf_cf4_memory {
     double guess[12]; /* extrapolation to the next step */
     double values[32][12]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps, 0: no inverse */
+    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
     double inverse_1[144];
 };
 
@@ -1341,8 +1342,8 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
 }
 
 /*
- * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
- * if the motion has changed, then by continuation in h from shorter steps.
+ * Repeat a step whose equations did not converge: first without the earlier solutions, which are bad
+ * initial guesses if the motion has changed, then by continuation in h from shorter steps.
  */
 static int dipole_vcf_cf4_continued(double state[static 12], double h,
     struct dipole_vcf_cf4_memory *memory, dipole_vcf_cf4_statistics *statistics)

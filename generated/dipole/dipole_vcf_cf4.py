@@ -19,12 +19,12 @@ left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms
             4 Legendre transforms, 19 adjoint maps, 31 evaluations of dexp*, 1
             exponential, 4 sums: equal values are computed once
             7 adjoint maps, 1 evaluation of the derivatives of H: no result depends
-            on them
-            4 adjoint maps, 9 evaluations of dexp*: a linear map is applied to a
-            sum, not to each term
+            on these operations
+            4 adjoint maps, 9 evaluations of dexp*: a linear map is applied once to
+            a sum and not to each term
             4 adjoint maps: an adjoint map and its inverse cancel
             5 evaluations of dexp*: functions of the same ad_x are combined
-            parameters, folded: beta = 1, depth = 3/2
+            arguments for parameters, which are constants: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
             2 mul for an initial guess, in the first step of a run
@@ -106,7 +106,7 @@ class _Memory:
         self.guess = [0.0] * 12  # extrapolation to the next step
         self.values = [[0.0] * 12 for _ in range(32)]
         self.rate_1 = 0.0
-        self.age_1 = 0  # age of the inverse in steps, 0: no inverse
+        self.age_1 = 0  # age of the inverse in steps; 0 without an inverse
         self.inverse_1 = [0.0] * 144
 
 
@@ -168,7 +168,7 @@ def _stumpff_small_1(z):
 
 
 def _stumpff_series_3(z):
-    """Return c_3(z) = sum (-z)^j/(2j+3)! up to z = 4."""
+    """Return c_3(z) = sum_j (-z)^j/(2j+3)!, truncated, for z <= 4."""
     w = z * z
     w2 = w * w
     even = -1.9572941063391263e-20
@@ -181,7 +181,7 @@ def _stumpff_series_3(z):
 
 
 def _stumpff_series_2(z):
-    """Return c_2(z) = sum (-z)^j/(2j+2)! up to z = 1."""
+    """Return c_2(z) = sum_j (-z)^j/(2j+2)!, truncated, for z <= 1."""
     w = z * z
     w2 = w * w
     even = -2.08767569878681e-09 + w * -4.779477332387385e-14
@@ -192,7 +192,7 @@ def _stumpff_series_2(z):
 
 
 def _stumpff_series_1(z):
-    """Return c_1(z) = sum (-z)^j/(2j+1)! up to z = 1."""
+    """Return c_1(z) = sum_j (-z)^j/(2j+1)!, truncated, for z <= 1."""
     w = z * z
     w2 = w * w
     even = -2.505210838544172e-08 + w * -7.647163731819816e-13
@@ -1274,8 +1274,8 @@ def _advance(state, h, memory, statistics):
 
 def _continued(state, h, memory, statistics):
     """Repeat a step whose equations did not converge: first without the earlier
-    solutions, which mislead if the motion has changed, then by continuation in h
-    from shorter steps.
+    solutions, which are bad initial guesses if the motion has changed, then by
+    continuation in h from shorter steps.
     """
     if not (h < 0.0 or h > 0.0):
         return OK if all(map(isfinite, state)) else NOT_FINITE
@@ -1409,7 +1409,7 @@ _REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: its result is not finite, but that of a shorter step is",
+    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
     SINGULAR: "the matrix of {block} is singular",
 }
 

@@ -17,12 +17,13 @@
  *             exponentials, 12 products, 16 sums: the step repeats a shorter step
  *             3 adjoint maps, 2 products: coefficients are zero, or terms cancel
  *             1 Legendre transform, 1 sum: equal values are computed once
- *             3 adjoint maps, 1 evaluation of the derivatives of H: no result depends on them
+ *             3 adjoint maps, 1 evaluation of the derivatives of H: no result depends on these
+ *             operations
  *             1 evaluation of dexp*, 1 exponential, 2 functions of ad, 1 sum: a linear map is
- *             applied to a sum, not to each term
+ *             applied once to a sum and not to each term
  *             4 adjoint maps: an adjoint map and its inverse cancel
  *             2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are combined
- *             parameters, folded: beta = 1, depth = 3/2
+ *             arguments for parameters, which are constants: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 114 add, 174 mul, 3 stumpff_12 a step
  *             6 mul for an initial guess, in the first step of a run
@@ -237,7 +238,7 @@ struct dipole_vcg_triple_jump_memory {
     double guess[3]; /* extrapolation to the next step */
     double values[32][3]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps, 0: no inverse */
+    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
     double inverse_1[9];
 };
 
@@ -586,7 +587,7 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
 
 /*
  * Repeat a part of a step whose equations did not converge: first without the earlier solutions, which
- * mislead if the motion has changed, then by continuation in h from shorter steps.
+ * are bad initial guesses if the motion has changed, then by continuation in h from shorter steps.
  */
 static int dipole_vcg_triple_jump_continued(double state[static 12], double h,
     struct dipole_vcg_triple_jump_memory *memory,

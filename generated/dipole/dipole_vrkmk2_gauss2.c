@@ -15,14 +15,14 @@
  * left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4 sums: equal
  *             values are computed once
  *             1 adjoint map, 1 evaluation of dexp*, 1 evaluation of the derivatives of H, 3 sums:
- *             no result depends on them
+ *             no result depends on these operations
  *             6 adjoint maps, 2 evaluations of dexp*, 2 exponentials, 2 functions of ad: a linear
- *             map is applied to a sum, not to each term
+ *             map is applied once to a sum and not to each term
  *             3 adjoint maps: an adjoint map and its inverse cancel
  *             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv: functions of the
  *             same ad_x are combined
  *             2 sums: numbers are multiplied into sums
- *             parameters, folded: beta = 1, depth = 3/2
+ *             arguments for parameters, which are constants: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 47 add, 80 mul, 1 stumpff_12 a step
  *             2 mul for an initial guess, in the first step of a run
@@ -328,7 +328,7 @@ struct dipole_vrkmk2_gauss2_memory {
     double guess[6]; /* extrapolation to the next step */
     double values[32][6]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps, 0: no inverse */
+    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
     double inverse_1[36];
 };
 
@@ -882,8 +882,8 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
 }
 
 /*
- * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
- * if the motion has changed, then by continuation in h from shorter steps.
+ * Repeat a step whose equations did not converge: first without the earlier solutions, which are bad
+ * initial guesses if the motion has changed, then by continuation in h from shorter steps.
  */
 static int dipole_vrkmk2_gauss2_continued(double state[static 12], double h,
     struct dipole_vrkmk2_gauss2_memory *memory, dipole_vrkmk2_gauss2_statistics *statistics)

@@ -15,14 +15,14 @@ state:      [0..8] q: element of SO(3), row by row
 left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
             sums: equal values are computed once
             1 adjoint map, 1 evaluation of dexp*, 1 evaluation of the derivatives of
-            H, 3 sums: no result depends on them
+            H, 3 sums: no result depends on these operations
             6 adjoint maps, 2 evaluations of dexp*, 2 exponentials, 2 functions of
-            ad: a linear map is applied to a sum, not to each term
+            ad: a linear map is applied once to a sum and not to each term
             3 adjoint maps: an adjoint map and its inverse cancel
             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv:
             functions of the same ad_x are combined
             2 sums: numbers are multiplied into sums
-            parameters, folded: beta = 1, depth = 3/2
+            arguments for parameters, which are constants: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 47 add, 80 mul, 1 stumpff_12 a step
             2 mul for an initial guess, in the first step of a run
@@ -103,7 +103,7 @@ class _Memory:
         self.guess = [0.0] * 6  # extrapolation to the next step
         self.values = [[0.0] * 6 for _ in range(32)]
         self.rate_1 = 0.0
-        self.age_1 = 0  # age of the inverse in steps, 0: no inverse
+        self.age_1 = 0  # age of the inverse in steps; 0 without an inverse
         self.inverse_1 = [0.0] * 36
 
 
@@ -165,7 +165,7 @@ def _stumpff_small_1(z):
 
 
 def _stumpff_series_3(z):
-    """Return c_3(z) = sum (-z)^j/(2j+3)! up to z = 4."""
+    """Return c_3(z) = sum_j (-z)^j/(2j+3)!, truncated, for z <= 4."""
     w = z * z
     w2 = w * w
     even = -1.9572941063391263e-20
@@ -178,7 +178,7 @@ def _stumpff_series_3(z):
 
 
 def _stumpff_series_2(z):
-    """Return c_2(z) = sum (-z)^j/(2j+2)! up to z = 1."""
+    """Return c_2(z) = sum_j (-z)^j/(2j+2)!, truncated, for z <= 1."""
     w = z * z
     w2 = w * w
     even = -2.08767569878681e-09 + w * -4.779477332387385e-14
@@ -189,7 +189,7 @@ def _stumpff_series_2(z):
 
 
 def _stumpff_series_1(z):
-    """Return c_1(z) = sum (-z)^j/(2j+1)! up to z = 1."""
+    """Return c_1(z) = sum_j (-z)^j/(2j+1)!, truncated, for z <= 1."""
     w = z * z
     w2 = w * w
     even = -2.505210838544172e-08 + w * -7.647163731819816e-13
@@ -854,8 +854,8 @@ def _advance(state, h, memory, statistics):
 
 def _continued(state, h, memory, statistics):
     """Repeat a step whose equations did not converge: first without the earlier
-    solutions, which mislead if the motion has changed, then by continuation in h
-    from shorter steps.
+    solutions, which are bad initial guesses if the motion has changed, then by
+    continuation in h from shorter steps.
     """
     if not (h < 0.0 or h > 0.0):
         return OK if all(map(isfinite, state)) else NOT_FINITE
@@ -989,7 +989,7 @@ _REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: its result is not finite, but that of a shorter step is",
+    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
     SINGULAR: "the matrix of {block} is singular",
 }
 

@@ -146,7 +146,7 @@ static inline double duffing_sl2_cf4_stumpff_0(double z)
     return z <= 0.0625 ? duffing_sl2_cf4_stumpff_small_0(z) : duffing_sl2_cf4_stumpff_0_far(z);
 }
 
-/* For z of either sign, s = sqrt(z) and r = sqrt(-z): c_1 = sin(s)/s or sinh(r)/r */
+/* c_1 = sin(s)/s with s = sqrt(z) for z >= 0, sinh(r)/r with r = sqrt(-z) for z < 0 */
 static inline double duffing_sl2_cf4_signed_stumpff1(double z)
 {
     if (z >= 0.0) {
@@ -156,7 +156,7 @@ static inline double duffing_sl2_cf4_signed_stumpff1(double z)
     return sinh(r) / r;
 }
 
-/* For z of either sign, s = sqrt(z) and r = sqrt(-z): c_0 = cos(s) or cosh(r) */
+/* c_0 = cos(s) with s = sqrt(z) for z >= 0, cosh(r) with r = sqrt(-z) for z < 0 */
 static inline double duffing_sl2_cf4_signed_stumpff0(double z)
 {
     if (z >= 0.0) {
@@ -241,7 +241,7 @@ static int duffing_sl2_cf4_loop(double state[static 2], double h, size_t steps,
     return status;
 }
 
-/* Return the cause of a step without a finite result: does a step of size zero have one? */
+/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
 static int duffing_sl2_cf4_cause(const double state[static 2], double h)
 {
     double same[2];

@@ -89,7 +89,7 @@ def _stumpff_small_0(z):
 
 
 def _stumpff_series_1(z):
-    """Return c_1(z) = sum (-z)^j/(2j+1)! up to z = 1."""
+    """Return c_1(z) = sum_j (-z)^j/(2j+1)!, truncated, for z <= 1."""
     w = z * z
     w2 = w * w
     even = -2.505210838544172e-08 + w * -7.647163731819816e-13
@@ -100,7 +100,7 @@ def _stumpff_series_1(z):
 
 
 def _stumpff_series_0(z):
-    """Return c_0(z) = sum (-z)^j/(2j+0)! up to z = 1."""
+    """Return c_0(z) = sum_j (-z)^j/(2j+0)!, truncated, for z <= 1."""
     w = z * z
     w2 = w * w
     even = -1.5619206968586225e-16
@@ -148,7 +148,7 @@ def _stumpff_0(z):
 
 
 def signed_stumpff1(z):
-    """Return c_1 for z of either sign: sin(s)/s, s = sqrt(z), or sinh(r)/r, r = sqrt(-z)."""
+    """Return c_1: sin(s)/s with s = sqrt(z) for z >= 0, sinh(r)/r with r = sqrt(-z) for z < 0."""
     if z >= 0.0:
         return _stumpff_1(z)
     r = sqrt(-z)
@@ -156,7 +156,7 @@ def signed_stumpff1(z):
 
 
 def signed_stumpff0(z):
-    """Return c_0 for z of either sign: cos(s), s = sqrt(z), or cosh(r), r = sqrt(-z)."""
+    """Return c_0: cos(s) with s = sqrt(z) for z >= 0, cosh(r) with r = sqrt(-z) for z < 0."""
     if z >= 0.0:
         return _stumpff_0(z)
     r = sqrt(-z)
@@ -231,8 +231,8 @@ def _loop(state, h, steps, trajectory, stride, completed):
 
 
 def _cause(state, h):
-    """Return the cause of a step without a finite result: does a step of size zero
-    have one?
+    """Find the cause of a failed step: it was too long if a step of size zero has a
+    finite result.
     """
     same = [0.0] * 2
     same[:] = state
@@ -258,7 +258,7 @@ def _numbers(state):
 _REASONS = {
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: its result is not finite, but that of a shorter step is",
+    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
 }
 
 

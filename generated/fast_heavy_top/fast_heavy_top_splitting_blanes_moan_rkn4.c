@@ -442,7 +442,7 @@ static int fast_heavy_top_splitting_blanes_moan_rkn4_complete_step(double state[
     return FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_OK;
 }
 
-/* Return the cause of a step without a finite result: does a step of size zero have one? */
+/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
 static int fast_heavy_top_splitting_blanes_moan_rkn4_cause(const double state[static 12],
     double h)
 {

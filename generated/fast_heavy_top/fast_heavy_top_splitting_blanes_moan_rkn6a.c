@@ -661,7 +661,7 @@ static int fast_heavy_top_splitting_blanes_moan_rkn6a_complete_step(double state
     return FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_OK;
 }
 
-/* Return the cause of a step without a finite result: does a step of size zero have one? */
+/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
 static int fast_heavy_top_splitting_blanes_moan_rkn6a_cause(const double state[static 12],
     double h)
 {

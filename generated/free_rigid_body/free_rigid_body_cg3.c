@@ -10,7 +10,7 @@
  * state:      [0..2] y: point that SO(3) acts on by rotation
  * left out:   1 evaluation of the field: equal values are computed once
  *             6 exponentials: exp(x).y is computed without exp(x)
- *             parameters, folded: alpha = 0
+ *             arguments for parameters, which are constants: alpha = 0
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit
  * operations: 84 add, 161 mul, 6 stumpff_12 a step
@@ -251,7 +251,7 @@ static int free_rigid_body_cg3_loop(double state[static 3], double h, size_t ste
     return status;
 }
 
-/* Return the cause of a step without a finite result: does a step of size zero have one? */
+/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
 static int free_rigid_body_cg3_cause(const double state[static 3], double h)
 {
     double same[3];

@@ -10,7 +10,7 @@ scene:      Free rigid body on the sphere, group SO(3)
 state:      [0..2] y: point that SO(3) acts on by rotation
 left out:   1 evaluation of the field: equal values are computed once
             6 exponentials: exp(x).y is computed without exp(x)
-            parameters, folded: alpha = 0
+            arguments for parameters, which are constants: alpha = 0
             the time: the scene does not depend on it
             equation solving: every stage is explicit
 operations: 84 add, 161 mul, 6 stumpff_12 a step
@@ -87,7 +87,7 @@ def _stumpff_small_1(z):
 
 
 def _stumpff_series_2(z):
-    """Return c_2(z) = sum (-z)^j/(2j+2)! up to z = 1."""
+    """Return c_2(z) = sum_j (-z)^j/(2j+2)!, truncated, for z <= 1."""
     w = z * z
     w2 = w * w
     even = -2.08767569878681e-09 + w * -4.779477332387385e-14
@@ -98,7 +98,7 @@ def _stumpff_series_2(z):
 
 
 def _stumpff_series_1(z):
-    """Return c_1(z) = sum (-z)^j/(2j+1)! up to z = 1."""
+    """Return c_1(z) = sum_j (-z)^j/(2j+1)!, truncated, for z <= 1."""
     w = z * z
     w2 = w * w
     even = -2.505210838544172e-08 + w * -7.647163731819816e-13
@@ -227,8 +227,8 @@ def _loop(state, h, steps, trajectory, stride, completed):
 
 
 def _cause(state, h):
-    """Return the cause of a step without a finite result: does a step of size zero
-    have one?
+    """Find the cause of a failed step: it was too long if a step of size zero has a
+    finite result.
     """
     same = [0.0] * 3
     same[:] = state
@@ -254,7 +254,7 @@ def _numbers(state):
 _REASONS = {
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: its result is not finite, but that of a shorter step is",
+    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
 }
 
 

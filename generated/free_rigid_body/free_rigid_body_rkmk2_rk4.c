@@ -13,7 +13,7 @@
  *             cancel
  *             1 evaluation of the field: equal values are computed once
  *             4 exponentials: exp(x).y is computed without exp(x)
- *             parameters, folded: alpha = 0
+ *             arguments for parameters, which are constants: alpha = 0
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit
  * operations: 101 add, 164 mul, 4 stumpff_12 a step
@@ -253,7 +253,7 @@ static int free_rigid_body_rkmk2_rk4_loop(double state[static 3], double h, size
     return status;
 }
 
-/* Return the cause of a step without a finite result: does a step of size zero have one? */
+/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
 static int free_rigid_body_rkmk2_rk4_cause(const double state[static 3], double h)
 {
     double same[3];

@@ -275,7 +275,7 @@ struct free_rigid_body_s3_discrete_gradient_midpoint_memory {
     double guess[3]; /* extrapolation to the next step */
     double values[32][3]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps, 0: no inverse */
+    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
     double inverse_1[9];
 };
 
@@ -1065,8 +1065,8 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
 }
 
 /*
- * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
- * if the motion has changed, then by continuation in h from shorter steps.
+ * Repeat a step whose equations did not converge: first without the earlier solutions, which are bad
+ * initial guesses if the motion has changed, then by continuation in h from shorter steps.
  */
 static int free_rigid_body_s3_discrete_gradient_midpoint_continued(double state[static 4],
     double h, struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,

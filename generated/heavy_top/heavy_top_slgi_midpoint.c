@@ -377,7 +377,7 @@ struct heavy_top_slgi_midpoint_memory {
     double guess[6]; /* extrapolation to the next step */
     double values[32][6]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps, 0: no inverse */
+    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
     double inverse_1[36];
 };
 
@@ -877,8 +877,8 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
 }
 
 /*
- * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
- * if the motion has changed, then by continuation in h from shorter steps.
+ * Repeat a step whose equations did not converge: first without the earlier solutions, which are bad
+ * initial guesses if the motion has changed, then by continuation in h from shorter steps.
  */
 static int heavy_top_slgi_midpoint_continued(double state[static 12], double h,
     struct heavy_top_slgi_midpoint_memory *memory,

@@ -22,11 +22,11 @@ LISTING_GROUP = "orderconds.listings"
 Records = Iterable[dict[str, str]]
 
 
-@click.command(name="list", short_help="List families, tableaux, groups and scenes.")
+@click.command(name="list", short_help="List families, tableaux, groups, actions and scenes.")
 @click.argument("kind", required=False)
 @click.option("--json", "as_json", is_flag=True, help="Print names and descriptions on stdout as JSON.")
 def command(kind: str | None, as_json: bool) -> int:
-    """List one KIND (families, tableaux, groups, scenes), or all kinds.
+    """List one KIND (families, tableaux, groups, actions, scenes), or all kinds.
 
     \b
     Examples:

@@ -42,7 +42,10 @@ if TYPE_CHECKING:
     "--fsal", is_flag=True, help="Only methods whose last stage is the first stage of the next step."
 )
 @click.option(
-    "--fix", multiple=True, metavar="a21=1/2", help="A linear equation for coefficients; may be repeated."
+    "--fix",
+    multiple=True,
+    metavar="a21=1/2",
+    help="A linear equation for coefficients, and for nodes c_i of a Butcher tableau; may be repeated.",
 )
 @click.option(
     "--positive",

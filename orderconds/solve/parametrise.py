@@ -4,7 +4,7 @@ file."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from orderconds import families
@@ -22,21 +22,38 @@ from orderconds.solve.linear import Constraint, Elimination, equal, equality, na
 from orderconds.solve.spec import Spec, refuse
 
 
-def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constraint]) -> Elimination:
+def _eliminated(
+    names: Sequence[str],
+    spec: Spec,
+    constraints: Sequence[Constraint],
+    nodes: Mapping[str, Sequence[str]] | None = None,
+) -> Elimination:
     """Return the coefficients after elimination of the given constraints and of the constraints from
-    ``--fix``."""
+    ``--fix``.
+
+    A constraint from ``--fix`` may contain the ``nodes``; a node is the sum of the coefficients of its stage.
+    """
     elimination = Elimination(tuple(names))
-    fixed = [equality(text) for text in spec.fix]
+    fixed = [_without_nodes(equality(text), nodes or {}) for text in spec.fix]
     for constraint in fixed:
         for name in constraint.form:
             if name and name not in names:
                 raise InputError(
                     f"unknown coefficient {name!r} in {constraint.text!r}",
                     where="--fix",
-                    expected=f"one of {', '.join(names)}",
+                    expected=f"one of {', '.join([*names, *(nodes or {})])}",
                 )
     elimination.impose([*constraints, *fixed])
     return elimination
+
+
+def _without_nodes(constraint: Constraint, nodes: Mapping[str, Sequence[str]]) -> Constraint:
+    """Return a constraint with every node replaced by its sum."""
+    form: dict[str, Fraction] = {}
+    for name, factor in constraint.form.items():
+        for summand in nodes.get(name, (name,)):
+            form[summand] = form.get(summand, Fraction(0)) + factor
+    return replace(constraint, form={name: factor for name, factor in form.items() if factor or not name})
 
 
 @dataclass(frozen=True)
@@ -110,7 +127,8 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         constraints += [equal("symplecticity", (2, A[i][i]), (-1, b[i])) for i in range(s)]
     if structure == "abscissae":
         constraints.append(sum_to_one(b))
-    elimination = _eliminated(names, spec, constraints)
+    nodes = {named("c", i + 1): line for i, line in enumerate(A)}
+    elimination = _eliminated(names, spec, constraints, nodes)
     extra = {}
     if structure == "abscissae":
         weights = [_Cells(elimination).written(x) for x in b]

@@ -71,7 +71,7 @@ def test_a_choice_among_several_must_be_made(kernels, tmp_path):
 
 def test_what_is_no_manifest_is_said_to_be_none(kernels, tmp_path):
     (tmp_path / MANIFEST).write_text("[1, 2]")
-    with pytest.raises(InputError, match="this is not a manifest"):
+    with pytest.raises(InputError, match="this file is not a manifest"):
         kernels.emission(kernels.rigid(), "c").write(tmp_path)
 
 
@@ -226,7 +226,7 @@ def test_methods_whose_names_differ_in_signs_do_not_overwrite_each_other(tmp_pat
 )
 def test_a_manifest_of_other_types_is_said_to_be_none(tmp_path, text):
     (tmp_path / MANIFEST).write_bytes(text.encode("latin-1"))
-    with pytest.raises(InputError, match="this is not a manifest"):
+    with pytest.raises(InputError, match="this file is not a manifest"):
         read(tmp_path)
 
 

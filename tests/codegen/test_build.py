@@ -31,7 +31,7 @@ def test_no_compiler_is_one_message(monkeypatch, tmp_path):
 
 def test_a_named_compiler_that_is_not_there_is_not_replaced_by_another(monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler -O3")
-    with pytest.raises(CompilerMissing, match=r"\$CC: no-such-compiler does not exist"):
+    with pytest.raises(CompilerMissing, match=r"\$CC: the compiler no-such-compiler does not exist"):
         find_compiler()
 
 

@@ -222,7 +222,7 @@ def test_step_control_needs_two_coefficients():
 
 
 def test_inputs_without_formula_are_refused():
-    with pytest.raises(MethodError, match=r"family taylor on this scene"):
+    with pytest.raises(MethodError, match=r"taylor on actuated_rigid_body, whose input u0 is a function"):
         compile_method("actuated_rigid_body", "taylor(4)", inputs=("u0",))
 
 

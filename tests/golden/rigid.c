@@ -182,7 +182,7 @@ static int rigid_loop(double state[static 3], double h, size_t steps, double *tr
     return status;
 }
 
-/* Return the cause of a step without a finite result: does a step of size zero have one? */
+/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
 static int rigid_cause(const double state[static 3], double h)
 {
     double same[3];

@@ -77,7 +77,7 @@ def _stumpff_small_1(z):
 
 
 def _stumpff_series_2(z):
-    """Return c_2(z) = sum (-z)^j/(2j+2)! up to z = 1."""
+    """Return c_2(z) = sum_j (-z)^j/(2j+2)!, truncated, for z <= 1."""
     w = z * z
     w2 = w * w
     even = -2.08767569878681e-09 + w * -4.779477332387385e-14
@@ -88,7 +88,7 @@ def _stumpff_series_2(z):
 
 
 def _stumpff_series_1(z):
-    """Return c_1(z) = sum (-z)^j/(2j+1)! up to z = 1."""
+    """Return c_1(z) = sum_j (-z)^j/(2j+1)!, truncated, for z <= 1."""
     w = z * z
     w2 = w * w
     even = -2.505210838544172e-08 + w * -7.647163731819816e-13
@@ -157,8 +157,8 @@ def _loop(state, h, steps, trajectory, stride, completed):
 
 
 def _cause(state, h):
-    """Return the cause of a step without a finite result: does a step of size zero
-    have one?
+    """Find the cause of a failed step: it was too long if a step of size zero has a
+    finite result.
     """
     same = [0.0] * 3
     same[:] = state
@@ -184,7 +184,7 @@ def _numbers(state):
 _REASONS = {
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: its result is not finite, but that of a shorter step is",
+    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
 }
 
 

@@ -1,9 +1,16 @@
-"""The base class of left actions of a group on a manifold."""
+"""The base class of left actions of a group on a manifold.
+
+To define an action, inherit :class:`Action` and write ``name``, ``act`` and ``velocity``. These are enough
+for scenes, emitted code and convergence tests. The other members have defaults, which an action replaces
+where it can say more: the number of coordinates of a point, the equations of the manifold, a projection.
+"""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import ClassVar
 
+from codegen.errors import SceneError
 from codegen.groups.base import LieGroup
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
@@ -14,11 +21,39 @@ class Action(ABC):
 
     A point y of the manifold is a flat tuple of scalars; its length may depend on the group. ``name`` is
     printed in messages and headers. ``needs`` is the capability that the formulas require of the group.
+    ``on_itself`` says that the points are elements of the group, in its coordinates.
     :func:`codegen.groups.register` adds the class to the list of actions.
     """
 
     name: str
     needs: type[LieGroup] = LieGroup
+    on_itself: ClassVar[bool] = False
+
+    def check(self, group: LieGroup, where: str = "") -> None:
+        """Raise :class:`codegen.errors.SceneError` if the group cannot act in this way."""
+        self.require(group, self.needs, where)
+
+    def require(self, group: LieGroup, capability: type[LieGroup], where: str) -> None:
+        """Raise :class:`codegen.errors.SceneError` if the group lacks a capability that the action needs."""
+        if group.offers(capability) is None:
+            raise SceneError(
+                f"the action {self.name} of {group.name}, which has no {capability.provides}",
+                where=where,
+                expected=f"a group with the capability {capability.__name__}, or an action that "
+                f"{group.name} has",
+                hint="use LeftMultiplication() if the points are elements of the group",
+            )
+
+    def point_size(self, group: LieGroup) -> int | None:
+        """Return the number of coordinates of a point; None if the action does not fix the number."""
+        return None
+
+    def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return the equations of the manifold in the coordinates of a point: pairs of a name and a residual.
+
+        The residuals vanish exactly on the manifold. By default there are no equations.
+        """
+        return ()
 
     @abstractmethod
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -13,6 +13,15 @@ class LeftMultiplication(Action):
     """A group acting on itself, g.y = g y; on R^n these are translations."""
 
     name = "left multiplication"
+    on_itself = True
+
+    def point_size(self, group: LieGroup) -> int:
+        """Return the number of coordinates of an element."""
+        return group.size
+
+    def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return the equations of the group."""
+        return group.laws(d, y)
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return g y."""

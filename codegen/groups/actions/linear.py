@@ -15,6 +15,10 @@ class Linear(Action):
     name = "linear maps"
     needs = MatrixElements
 
+    def point_size(self, group: LieGroup) -> int:
+        """Return the number of rows of a matrix."""
+        return group.require(MatrixElements).order
+
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return g y."""
         return matvec(g, y)

@@ -10,10 +10,14 @@ from codegen.ir.domain import Domain
 
 
 class Motion(Action):
-    """Rigid motions acting on points, g.z = R z + a: SE(2) on the plane."""
+    """Rigid motions acting on points, g.z = R z + a: SE(2) on the plane, SE(3) on space."""
 
     name = "rigid motion"
     needs = PointMotions
+
+    def point_size(self, group: LieGroup) -> int:
+        """Return the dimension of the space."""
+        return group.require(PointMotions).point_size
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return R y + a."""

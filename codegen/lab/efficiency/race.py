@@ -165,6 +165,14 @@ class Racer:
         control = self._coarsened(control, error)
         return Result(self.entry, control, self.counts[control], self.errors[control], self.seconds(control))
 
+    def halved(self, result: Result) -> Result | None:
+        """Return the run with steps of half the length; None with step-size control, or if the run fails."""
+        control = 2.0 * result.control
+        if self.entry.recipe.adaptive or control > MOST_STEPS or not math.isfinite(self.error(control)):
+            return None
+        steps, error = self.counts[control], self.errors[control]
+        return replace(result, control=control, steps=steps, error=error, seconds=self.seconds(control))
+
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
         """Return the first control from which two runs reach the error, and whether there is one."""
         control, seen = 1.0, [self.error(1.0)]

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -57,6 +57,9 @@ UNREACHED = 1e-3
 
 LONG_STEPS = 20_000
 """Steps of the long run that a recommendation for long times must survive."""
+
+SHORTER = 5
+"""Largest number of times that the step of a recipe is halved because its long run loses a quantity."""
 
 Kind = tuple[str, bool, bool]
 """Family, explicit or not, adaptive or not: predictions of one kind have similar errors."""
@@ -259,23 +262,38 @@ class Search:
                         results[recipe] = replace(results[recipe], seconds=seconds)
 
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
-        """Time the leaders for a goal again; return all places, and the labels that a long run excludes."""
+        """Time the leaders for a goal again; return all places, and the labels that a long run excludes.
+
+        If a conserved quantity is lost in a long run with the step of a leader, shorter steps are tried.
+        """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         lost: list[str] = []
-        if goal.long:
-            while ranked and self._loses(ranked[0]):
-                lost.append(ranked.pop(0).entry.recipe.label)
-            while len(ranked) > 1 and self._loses(ranked[1]):
-                lost.append(ranked.pop(1).entry.recipe.label)
+        halvings: Counter[Recipe] = Counter()
+        kept = 0
+        while goal.long and kept < min(2, len(ranked)):
+            result = ranked[kept]
+            # The long run has the same duration for all steps of a recipe.
+            if not self._loses(result, LONG_STEPS << halvings[result.entry.recipe]):
+                kept += 1
+                continue
+            del ranked[kept]
+            recipe = result.entry.recipe
+            halvings[recipe] += 1
+            shorter = self.racers[recipe].halved(result) if halvings[recipe] <= SHORTER else None
+            if shorter is None:
+                lost.append(recipe.label)
+            else:
+                # A recipe is no place before the places that are kept already: they are faster.
+                ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked, lost
 
-    def _loses(self, result: Result) -> bool:
-        """Return True if a conserved quantity is lost, or a step fails, in a long run with the step of a
+    def _loses(self, result: Result, steps: int) -> bool:
+        """Return True if a conserved quantity is lost, or a step fails, in a run of this many steps of a
         result."""
         racer = self.racers[result.entry.recipe]
         h = (racer.last - racer.first) / result.steps
-        done = record(self.problem, racer.integrator, racer.initial, h, LONG_STEPS, racer.first)
+        done = record(self.problem, racer.integrator, racer.initial, h, steps, racer.first)
         largest = (max(s.peaks, default=0.0) / done.scales[name] for name, s in done.series.items())
         return bool(done.failure) or any(x >= LOST for x in largest)
 

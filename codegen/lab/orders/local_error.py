@@ -94,6 +94,12 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
     """
     if not scene.autonomous:
         raise SceneError("a scene that depends on time", where=scene.name, expected="an autonomous one")
+    if scene.coordinates is not None:
+        raise SceneError(
+            f"a scene in the coordinates {scene.coordinates.name}",
+            where=scene.name,
+            expected="exponential coordinates, which the order conditions assume",
+        )
     if method.kind.trees == "directed":
         return _partitioned(scene, method, power)
     if scene.is_hamiltonian:

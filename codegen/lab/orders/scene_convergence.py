@@ -14,8 +14,8 @@ from codegen.lab.orders.convergence import Convergence, NotEmitted
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.lab.runner import DOUBLE, check_target, runner
-from codegen.lower import families_for
-from codegen.method import Method, method_of
+from codegen.lower import method_for
+from codegen.method import Method
 from codegen.printers import DEFAULT
 from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
 from codegen.scene.problem import Problem
@@ -57,7 +57,7 @@ class ConvergenceTest:
         problem = scenes.load(scene) if isinstance(scene, str) else scene
         chosen = find_form(problem, form) if form not in (None, PRINTED) else None
         equations = problem if chosen is None else chosen.problem
-        known = tuple(method_of(method, families_for(equations)) for method in methods)
+        known = tuple(method_for(equations, method) for method in methods)
         check_target(target or DEFAULT, digits)
         return cls(problem, equations, known, target or DEFAULT, tuple(steps), digits, stated, chosen)
 

@@ -37,7 +37,8 @@ from codegen.run.writes import written
 from codegen.snippets.graph import LIBRARY
 
 MANY = 20
-"""More than MANY consecutive short statements share lines."""
+"""Consecutive short statements are printed with several on a line if there are more than this number of
+them."""
 
 ONE_TEST = "one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN"
 
@@ -85,11 +86,11 @@ class FunctionPrinter:
             size = f"[{promised}{parameter.shape[0]}]" if parameter.shape else ""
             return f"{const}{of} {name}{size}" if size else f"{const}{of} *{name}"
         kind = self.type_of(parameter.kind)
-        # Scalars are passed by value; a const on them would mean nothing to callers.
+        # Scalars are passed by value, so ``const`` would have no meaning for callers.
         if not parameter.shape:
             return f"{kind} {name}"
-        # An optional array is declared as a pointer, because it may be NULL; a ``static`` size would promise
-        # that it is not.
+        # An optional array is declared as a pointer, because it may be NULL, and a ``static`` size excludes
+        # NULL.
         if parameter.cell or parameter.optional:
             return f"{const}{kind} *{name}"
         promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
@@ -145,7 +146,7 @@ class FunctionPrinter:
 
 def _without_zeros(row: Sequence[str]) -> str:
     """Return a row without trailing zeros; C initialises the remaining entries to zero."""
-    # Rows of a table of differences have different lengths; their padding would only be noise.
+    # Tables of coefficients have rows of different lengths, padded with zeros. The padding is not printed.
     kept = list(row)
     while len(kept) > 1 and kept[-1].startswith("0.0"):
         kept.pop()
@@ -181,7 +182,7 @@ class _Body:
         """Return the lines of statements; many consecutive short statements share lines."""
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
-            # A declaration must come between two statements, so it ends a group of short statements.
+            # A declaration is printed on a line of its own, so it ends a group of short statements.
             before = self.before(statement)
             own = list(self.statement(statement))
             # Only statements that copy a value share lines, because a line with several sums would be hard to
@@ -242,7 +243,7 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch; an else that is a single branch becomes ``else if``."""
         test = statement.test
-        # The test appears with and without a negation: as a guard, and as the test of a loop's success.
+        # The program may contain this test with or without a negation.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
@@ -276,10 +277,9 @@ class _Body:
     def kind(self, statement: Statement, target: Term) -> str:
         """Return the type of a target that the statement declares, otherwise an empty text."""
         name = self.identifiers.of(target) if target.op == "name" else ""
-        # ``const`` for variables that are assigned once: a reader sees that the value is final, and the
-        # compiler checks it.
-        # Statements are identified by id, because equal statements at different places declare different
-        # variables.
+        # Variables that are assigned once are ``const``, so that readers and the compiler know that the value
+        # does not change. Statements are identified by id, because equal statements at different places
+        # declare different variables.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -303,8 +303,8 @@ class _Body:
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # Compound assignments are printed only where the target is the first operand: for x = x + y, but not
-        # for x = y + x, because x += y would exchange the operands.
+        # x += y is printed only for x = x + y and not for x = y + x, so that the order of the operands is
+        # kept.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed and not kind:
             more = self.terms.text(value.args[1])
@@ -353,7 +353,8 @@ class _Body:
         text = self.terms.line(term)
         if term.kind is not Kind.RECORD or term.op == "none" or term.shape:
             return text
-        # A parameter is a pointer already; a local record, or an entry of an array of records, is not.
+        # A record that is a parameter is already a pointer. Of a local record, or an entry of an array of
+        # records, the address is taken.
         return text if term.text in self.pointers and term.op == "name" else f"&{text}"
 
     def call(self, statement: Call) -> Iterator[str]:

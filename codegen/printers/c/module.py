@@ -28,20 +28,21 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import LIBRARY, needed, snippets
 from codegen.templates import environment
 
-# -ffp-contract=off forbids fused multiply-adds, which round once and not twice: with them, results would
-# depend on the machine.
+# -ffp-contract=off forbids fused multiply-adds. They round once, a product and a sum round twice, so results
+# would depend on the machine.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
 FRAMES = 640
-"""Bytes for return addresses, saved registers and the frames of helpers."""
+"""The number of bytes of the stack for return addresses, saved registers and the frames of helpers."""
 
 EACH, EACH_SOLVING = 8, 10
-"""The stack bound counts this many bytes for each number of a step: without equations, and with equations.
+"""The numbers of bytes on the stack for each number of a step: first for steps without equations, then for
+steps with equations.
 
 Single precision needs as many bytes as double precision, because an optimiser keeps pairs of numbers for
 vector instructions in 16 bytes. Where equations are solved, an optimiser also needs space for values without
-a name, which it moves out of a loop. The most that was measured with equations were 8.8 bytes in double
+a name, which it moves out of a loop. The largest measured values with equations were 8.8 bytes in double
 precision and 8.0 bytes in single precision.
 """
 
@@ -69,7 +70,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         prefix=interface.prefix,
     )
     public = {f.name: f for f in unit.functions if f.public}
-    # The width is 96, because the comment adds a star and spaces to each line of at most 100 characters.
+    # The width is 96, because the comment adds a star and spaces to each line, and lines have at most 100
+    # characters.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
         # Titles and names come from users: an end of a comment in them must not end the header.
@@ -143,7 +145,7 @@ def helpers(unit: Unit) -> list[str]:
 def inverted(kernel: Kernel) -> int:
     """Return the size of the inverted matrices, 0 if they have several sizes or are large."""
     sizes = {len(x.unknowns) for x in kernel.loops if x.newton is not None and not x.newton.inverted}
-    # A single small size allows unrolled rows; with several sizes, each would need its own function.
+    # If all matrices have one small size, ``invert`` is written for this size, with unrolled rows.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
@@ -154,8 +156,8 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     compare the bound with ``-fstack-usage`` and with a painted stack.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # ``invert`` has local variables, a row and a permutation. If the kernel is inlined, there is one stack
-    # frame less.
+    # The local variables of ``invert`` are scalars, a row and a permutation. If the kernel is inlined, there
+    # is one stack frame less.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
@@ -169,7 +171,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
 
 
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
-    """Return the names that a module declares itself, and that no variable may hide."""
+    """Return the names that the module declares at file scope; no variable may hide these names."""
     prefix, upper = interface.prefix, interface.prefix.upper()
     names = {"step", "run", "run_adaptive", "jacobian", "statistics", "input", "hold"}
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}

@@ -78,9 +78,10 @@ class Terms(Infix):
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return two tests such that all values are finite exactly if at least one of the tests holds."""
-        # isfinite of one sum replaces a test for each value. This test fails wrongly only if a sum of finite
-        # values overflows. The second test, of sums of x - x, which cannot overflow, decides this rare case.
+        """Return two tests. All values are finite if and only if at least one of the tests is true."""
+        # The first test is isfinite of the sum of all values, which is faster than a test for each value. It
+        # is false for finite values whose sum overflows. In this rare case the second test decides: it adds
+        # the terms x - x, and cannot overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
@@ -95,8 +96,8 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # The weakest precedence of arithmetic is assumed, so an expression of the kernel has
-                # parentheses wherever it may need them.
+                # The precedence of a sum is assumed for every expression of the kernel, so it gets
+                # parentheses wherever a sum would need them.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))
@@ -179,7 +180,8 @@ class Terms(Infix):
     def finite(self, values: Sequence[Term]) -> Text:
         """Return the test that all values are finite."""
         first = values[0]
-        # An array has a helper with a loop, because its test would be as long as the array.
+        # For an array a helper with a loop is called, because an expression with all its entries would be
+        # long.
         if first.shape:
             return Text((f"{self.prefix}all_finite({self.line(first)}, {first.shape[0]})",))
         if len(values) == 1:

@@ -18,8 +18,8 @@ def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
     """
     if len(terms) == 1:
         return (terms[0],)
-    # The depth of a balanced tree is logarithmic. In a linear chain each comparison would wait for the
-    # previous comparison.
+    # Comparisons in different branches of a balanced tree are independent. In a linear chain each comparison
+    # would wait for the previous one.
     middle = len(terms) // 2
     first, second = greatest(terms[:middle], name), greatest(terms[middle:], name)
     return (*closed(f"{name}(", first, ","), *closed("", second, ")"))

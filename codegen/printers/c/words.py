@@ -40,7 +40,7 @@ RESERVED = (
     | {f"{name}{kind}" for name in _CONSTANTS.split() for kind in _FORMATS}
     | {f"{name}{kind}" for name in LIBRARY for kind in ("", "f")}
 )
-"""Words that are excluded as names of variables, besides the names of the run representation.
+"""Words that no variable may have as a name, in addition to the names of the run representation.
 
 Keywords of C and, since both read headers, of C++; macros of headers that the module or its caller is likely
 to include, in any dialect; the mathematical library. Helpers have the prefix of their module.

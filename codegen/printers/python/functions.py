@@ -1,7 +1,8 @@
 """Functions of the run representation in Python: lists are changed in place, and statuses are returned.
 
-One statement reads, or writes, consecutive entries of a list. Python raises an arithmetic error where C
-computes an infinity or a NaN. The guard of a function converts the error to a status or to NaNs.
+A single statement reads consecutive entries of a list into names, or writes names into consecutive entries.
+Python raises an arithmetic error where C computes an infinity or a NaN. The guard of a function converts the
+error to a status or to NaNs.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 
 TOGETHER = 3
-"""At least TOGETHER consecutive entries are read or written by one statement."""
+"""The least number of consecutive entries that are read or written by one statement."""
 
 
 class FunctionPrinter:
@@ -253,8 +254,7 @@ class _Body:
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
-        # A ``break`` is allowed in emitted Python. Only loops of the run representation are never left from
-        # their middle.
+        # A loop of the run representation has no ``break``, but its Python form may have one.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:
@@ -271,7 +271,8 @@ class _Body:
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
-        # Compound assignments are printed only where the target is the first operand, as in C.
+        # x += y is printed only for x = x + y and not for x = y + x, so that the order of the operands is
+        # kept.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)
@@ -300,7 +301,8 @@ class _Body:
 
 def _entry(term: Term) -> int | None:
     """Return the constant index of an entry of a list of scalars; None for any other term."""
-    # A variable index has no value at compile time, so the neighbours of such an entry are unknown.
+    # If the index is a variable, its value is not known when code is generated, so consecutive entries cannot
+    # be recognised.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
     return int(term.args[1].number)

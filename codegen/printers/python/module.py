@@ -44,7 +44,8 @@ class _Module:
 
     @cached_property
     def unit(self) -> Unit:
-        """The unit of the module without ``step``, which in Python is a run of a single step."""
+        """The unit of the module, without the function ``step``: in Python a step is a run of a single
+        step."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
         # The public ``step`` is in the template, where it calls ``run``.
         kept = tuple(f for f in unit.functions if f.name != "step")
@@ -137,7 +138,7 @@ class _Module:
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
         public = [r for r in self.unit.records if r.public]
-        parts = self.parts()  # before the constants, which they use
+        parts = self.parts()  # the functions are printed first, because printing them collects the constants
         imports, arrays = self.imports()
         variables: dict[str, object] = {
             # Titles and names come from users and must not end the docstring.
@@ -196,7 +197,7 @@ class _Module:
 
 
 def keywords(arguments: list[str]) -> list[str]:
-    """Return arguments as keyword-only arguments."""
+    """Return the text that declares arguments as keyword-only."""
     return ["*", *arguments] if arguments else []
 
 

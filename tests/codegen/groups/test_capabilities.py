@@ -12,12 +12,14 @@ from codegen.errors import SceneError
 from codegen.groups import SO3, Cotangent, LieGroup, Linear, Product, Rn, capabilities
 from codegen.groups.capabilities import (
     BodyFrame,
+    CayleyMap,
     ClosedFormSeries,
     Coadjoint,
     CotangentBundle,
     Covered,
     DependentCoordinates,
     DirectProduct,
+    Inverse,
     LeftTranslation,
     MatrixElements,
     MatrixRepresentation,
@@ -68,6 +70,19 @@ DECLARED = {
     Projection: {name for group in PROJECTED for name in (group, f"T*{group}")},
     DependentCoordinates: {"SO(3)"},
     DirectProduct: {"SO(3) x R^2"},
+    Inverse: set(ALL_GROUPS),
+    CayleyMap: {
+        "SO(3)",
+        "R^3",
+        "GL(2)",
+        "Heisenberg",
+        "S^3",
+        "SE(2)",
+        "SL(2)",
+        "SO(3) x R^2",
+        "SO(2)",
+        "SU(2)",
+    },
     CotangentBundle: {f"T*{name}" for name in BASE_GROUPS},
 }
 """The groups of each capability, among the groups and bundles of :data:`PINNED`."""
@@ -163,7 +178,10 @@ class TestACallerRefuses:
 
     def test_linear_maps_of_a_group_that_has_no_matrices(self):
         group = Rn(2)
-        with pytest.raises(SceneError, match=r"expected a point on which R\^2 acts by linear maps"):
+        with pytest.raises(
+            SceneError,
+            match=r"linear maps of R\^2, which has no matrix el.*that R\^2 has",
+        ):
             FieldScene(group=group, action=Linear(), y=group.dual("y"), f=[1, 2], y0=[0, 0], span=(0, 1))
 
     def test_a_jacobian_on_a_group_without_right_trivialisation(self):

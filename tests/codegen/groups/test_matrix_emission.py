@@ -159,7 +159,11 @@ ORDERS = [
         for method in ("rkmk:rk4", "cf:cf4", "cg:cg4")
     ),
     *(("hamiltonian", "SO(4)", method) for method in ("vcg:triple_jump", "vrkmk:gauss2", "vcf:cf4")),
-    *((kind, "SO(5)", method) for kind in ("field", "hamiltonian") for method in ("taylor(4)", "ambient:rk4")),
+    *(
+        (kind, "SO(5)", method)
+        for kind in ("field", "hamiltonian")
+        for method in ("taylor(4)", "ambient:rk4")
+    ),
 ]
 
 

@@ -92,7 +92,7 @@ def test_a_pole_at_h_0_is_refused():
     space = Space()
     with pytest.raises(NotLinearised, match="divisor"):
         FirstOrder(["x"]).jacobian([space.sym("x") / space.sym("h")])
-    with pytest.raises(NotLinearised, match="angle"):
+    with pytest.raises(NotLinearised, match="argument of a Stumpff function"):
         FirstOrder(["x"]).jacobian([space.call("stumpff1", space.sym("x"))])
 
 
@@ -101,5 +101,5 @@ def test_a_function_without_an_expansion_is_refused(function):
     space = Space()
     x = space.sym("x")
     call = space.call(function, x, x + 1) if function == "quotient" else space.call(function, x)
-    with pytest.raises(NotLinearised, match=f"{function} is not expanded"):
+    with pytest.raises(NotLinearised, match=f"the function {function} has no rule"):
         FirstOrder(["x"]).jacobian([call])

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from codegen.groups.coordinate_maps import Cayley
 from codegen.ir.ad_series import Factor
 from codegen.ir.domain import FloatDomain
 from codegen.ir.number import Number
@@ -16,10 +19,12 @@ from codegen.ir.operations import (
     Advance,
     Bracket,
     DualDexp,
+    ElementAt,
     Exp,
     Identity,
     InverseDexp,
     InverseDexpSlope,
+    InverseDifferential,
     Linear,
     Multiply,
     MultiplyExp,
@@ -45,12 +50,13 @@ from codegen.ir.values import MINUS_ONE, ONE, Coefficient, Kind
 from tests.strategies import hamiltonian_scene
 
 D = FloatDomain(0.25)
-SCENE = hamiltonian_scene("SO(3)")
+SCENE = replace(hamiltonian_scene("SO(3)"), coordinates=Cayley())
 HALF_H = Coefficient(Number.rational(1, 2), 1)
 WORD = (Factor("dexp", UNIT), Factor("exp", -UNIT / 2))
 BOTH = (False, True)
 ALL = [
     *(Zero(Kind.ALG), Linear((ONE,)), Advance(HALF_H), Identity(), Exp(), Multiply(), MultiplyExp()),
+    *(ElementAt(), InverseDifferential()),
     *(Act(), ActExp(), InverseDexpSlope(2), DualDexp(), Legendre(), Energy(), Differential(), Secant()),
     *(
         Bivector(),

@@ -133,7 +133,7 @@ def test_a_wrong_piece_is_caught(monkeypatch):
         return replace(made, outputs=spoilt), *arguments
 
     monkeypatch.setattr(outlining, "function", wrong)
-    with pytest.raises(IllFormed, match="outlining changed the meaning"):
+    with pytest.raises(IllFormed, match="outlining changed the results"):
         outline.run(roots, {})
 
 

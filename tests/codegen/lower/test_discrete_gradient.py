@@ -238,7 +238,7 @@ def test_the_order_is_that_of_the_quadrature_up_to_two():
 def test_scenes_without_an_energy_do_not_offer_it(name):
     scene = gallery(name)
     assert "discrete_gradient" not in families_for(scene)
-    with pytest.raises(MethodError, match="family discrete_gradient on this scene"):
+    with pytest.raises(MethodError, match="family discrete_gradient cannot be used on this scene"):
         parse("discrete_gradient:midpoint", families_for(scene))
 
 
@@ -265,7 +265,7 @@ def test_an_energy_that_says_nothing_of_the_field_is_refused(energy):
         span=(0, 1),
         invariants={"energy": kept},
     )
-    with pytest.raises(MethodError, match="the same in all directions of"):
+    with pytest.raises(MethodError, match="differential zero where f is not zero"):
         lowered("discrete_gradient", "midpoint", made)
 
 

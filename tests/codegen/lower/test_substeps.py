@@ -95,7 +95,7 @@ def test_wrong_substeps_are_caught(wrong):
     composed = lower_composed(scene, method)
     first, second = composed.substeps
     spoilt = replace(second, **{wrong: getattr(second, wrong) + Number.rational(1, 2**20)})
-    with pytest.raises(IllFormed, match="the pass substeps changed the meaning"):
+    with pytest.raises(IllFormed, match="the pass substeps changed the results"):
         optimise(
             lower(scene, method),
             problem_for(scene, method),

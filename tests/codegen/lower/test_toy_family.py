@@ -129,5 +129,5 @@ def test_converge_observes_its_order():
 
 def test_once_forgotten_it_is_unknown():
     unregister("one_slope")
-    with pytest.raises(MethodError, match="family one_slope on this scene"):
+    with pytest.raises(MethodError, match="family one_slope cannot be used on this scene"):
         parse("one_slope:heun", families_for(scenes.load("free_rigid_body")))

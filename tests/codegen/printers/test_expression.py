@@ -63,7 +63,7 @@ def test_constants_are_rounded_once(value):
 
 
 def test_a_constant_beyond_double_is_bad_input():
-    with pytest.raises(InputError, match="does not fit a double"):
+    with pytest.raises(InputError, match="is too large for the type double"):
         number(Number.rational(10**400))
 
 

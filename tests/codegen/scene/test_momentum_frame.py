@@ -59,7 +59,7 @@ def test_the_angular_momentum_of_a_free_body_stands_still_in_space_and_turns_in_
 def test_the_frame_is_in_the_head_the_command_and_the_name():
     emission = emitted("dipole", "vcg:midpoint", frame="body")
     text = emission.files["dipole_vcg_midpoint_body.c"]
-    assert "[9..11] mu: left-trivialised momentum, that of the body" in text
+    assert "[9..11] mu: left-trivialised momentum (body frame)" in text
     assert "--frame body" in emission.manifest["command"]
     assert "right-trivialised momentum" in "".join(emitted("dipole", "vcg:midpoint").files.values())
 

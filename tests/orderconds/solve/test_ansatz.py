@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 from flint import fmpq
 
+from orderconds import solve
 from orderconds.errors import InputError
 from orderconds.families.elementary_weights import conjugate
 from orderconds.ring import QQ
@@ -83,6 +84,17 @@ def test_symmetric_paths_reach_a_stage_from_either_end(s: int, m: int, inner: in
     for i in range(s):
         seen = reduced([*update, *map(bar, method.stages[s - 1 - i].exponentials)])
         assert seen == reduced(method.stages[i].exponentials)
+
+
+def test_a_fixed_node_is_the_sum_of_its_row() -> None:
+    found = solve("rk", stages=3, order=3, explicit=True, fix=["c2=1/2", "c3=1"]).tableau
+    assert ((0, 0, 0), (Fraction(1, 2), 0, 0), (-1, 2, 0)) == found.A
+    # b2 c2 = 1/2, so the node and the weight are equal to the root of 1/2.
+    equal = solve("rk", stages=2, order=2, explicit=True, fix=["c2 = b2"]).tableau
+    assert equal.c[1] == equal.b[1]
+    assert abs(float(equal.c[1]) ** 2 - 0.5) < 1e-12
+    with pytest.raises(InputError, match="contradicts"):
+        solve("rk", stages=2, order=2, explicit=True, fix=["c1=1/2"])
 
 
 def test_a_fixed_entry_may_depend_on_others() -> None:

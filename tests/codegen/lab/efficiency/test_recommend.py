@@ -22,7 +22,7 @@ from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.jobs import Jobs
 from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor, run, widths_of_inputs
-from codegen.lab.efficiency.race import Racer, entry
+from codegen.lab.efficiency.race import Racer, Result, entry
 from codegen.lab.efficiency.recommend import Recommendation, Request, recommend
 from codegen.lab.efficiency.search import Search
 from codegen.lab.efficiency.task import Task
@@ -104,10 +104,37 @@ def test_a_method_that_loses_a_conserved_quantity_is_not_recommended_for_long_ti
     free = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
     first = free.places[0].entry.recipe.label
     real = module.Search._loses
-    monkeypatch.setattr(module.Search, "_loses", lambda s, r: r.entry.recipe.label == first or real(s, r))
+    monkeypatch.setattr(
+        module.Search, "_loses", lambda s, r, n: r.entry.recipe.label == first or real(s, r, n)
+    )
     without = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
-    assert first in without.lost
-    assert first not in [place.entry.recipe.label for place in without.places]
+    # The first two places have survived a long run.
+    assert first not in [place.entry.recipe.label for place in without.places[:2]]
+    assert without.places
+    monkeypatch.setattr(module.Search, "_loses", lambda s, r, n: True)
+    nothing = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
+    assert first in nothing.lost
+    assert not nothing.places
+
+
+def test_shorter_steps_are_tried_if_a_long_run_loses_a_conserved_quantity(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from codegen.lab.efficiency import search as module
+
+    free = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=("lobatto3a2",)))
+    steps = {place.entry.recipe: place.steps for place in free.places}
+    durations: set[float] = set()
+
+    def loses(search: module.Search, result: Result, count: int) -> bool:
+        durations.add(count / result.steps)
+        return result.steps < 4 * steps[result.entry.recipe]
+
+    monkeypatch.setattr(module.Search, "_loses", loses)
+    kept = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=("lobatto3a2",)))
+    assert not kept.lost
+    assert kept.places[0].steps == 4 * steps[kept.places[0].entry.recipe]
+    assert kept.places[0].error < free.places[0].error
 
 
 def test_an_error_that_nothing_reaches_gives_the_most_accurate_run() -> None:

@@ -1,0 +1,52 @@
+"""Affine maps of a vector space, given by matrices with the last row (0, ..., 0, 1)."""
+
+from __future__ import annotations
+
+from codegen.errors import SceneError
+from codegen.groups.actions.base import Action
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import MatrixElements
+from codegen.groups.linear_algebra import S, Vector, dot, units
+from codegen.ir.domain import Domain, FloatDomain
+
+
+class AffineAction(Action):
+    """Affine maps acting on points, g.z = A z + b, for matrices g = [[A, b], [0, 1]].
+
+    The velocity is x.z = L z + c for the matrix [[L, c], [0, 0]] of x. For a semilinear equation z' = L z +
+    N(z), with one generator L and one generator for each translation, the Lie-Euler method is the exponential
+    Euler method exp(h L) z + h phi(h L) N(z), where phi(w) = (exp(w) - 1)/w.
+    """
+
+    name = "affine maps"
+    needs = MatrixElements
+
+    def check(self, group: LieGroup, where: str = "") -> None:
+        """Raise :class:`codegen.errors.SceneError` unless the last rows of the matrices of the algebra are
+        zero."""
+        super().check(group, where)
+        matrices, d = group.require(MatrixElements), FloatDomain(0.0)
+        n = matrices.order
+        basis: tuple[Vector[float], ...] = units(d, group.dim)
+        for k, x in enumerate(basis):
+            if any(matrices.hat(d, x)[n * (n - 1) :]):
+                raise SceneError(
+                    f"{self.name} by {group.name}, whose basis element {k} has a last row that is not zero",
+                    where=where,
+                    expected="a group of matrices [[A, b], [0, 1]]",
+                    hint="use Linear() for linear maps of columns",
+                )
+
+    def point_size(self, group: LieGroup) -> int:
+        """Return the number of rows of A."""
+        return group.require(MatrixElements).order - 1
+
+    def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return A y + b."""
+        n = len(y)
+        rows = [g[i : i + n + 1] for i in range(0, n * (n + 1), n + 1)]
+        return tuple(dot(row[:n], y) + row[n] for row in rows)
+
+    def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return L y + c."""
+        return self.act(d, group, group.require(MatrixElements).hat(d, x), y)

@@ -1,0 +1,36 @@
+"""Conjugation of matrices, the action of isospectral flows."""
+
+from __future__ import annotations
+
+from codegen.groups.actions.base import Action
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import MatrixElements
+from codegen.groups.linear_algebra import S, Vector, matmul
+from codegen.ir.domain import Domain
+
+
+class Conjugation(Action):
+    """Matrices acting on n x n matrices by g.P = g P g^-1: isospectral flows such as Toda's lattice.
+
+    A point is a matrix row by row. The velocity is x.P = [x, P], so the flow keeps the eigenvalues of P. If
+    the group is orthogonal and P is a symmetric projection of rank k, the orbit is a Grassmann manifold.
+    """
+
+    name = "conjugation"
+    needs = MatrixElements
+
+    def point_size(self, group: LieGroup) -> int:
+        """Return n^2."""
+        return group.size
+
+    def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return g y g^-1."""
+        matrices = group.require(MatrixElements)
+        return matmul(matmul(g, y, matrices.order), matrices.inverse(d, g), matrices.order)
+
+    def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return [x, y], the commutator of matrices."""
+        matrices = group.require(MatrixElements)
+        a, n = matrices.hat(d, x), matrices.order
+        pairs = zip(matmul(a, y, n), matmul(y, a, n), strict=True)
+        return tuple(p - q for p, q in pairs)

@@ -1,0 +1,74 @@
+"""One group acting on several manifolds at once."""
+
+from __future__ import annotations
+
+from itertools import accumulate
+
+from codegen.errors import SceneError
+from codegen.groups.actions.base import Action
+from codegen.groups.base import LieGroup
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+
+
+class DiagonalAction(Action):
+    """The diagonal action of a group on a product of manifolds, g.(y1, y2, ...) = (g.y1, g.y2, ...).
+
+    The coordinates of the points follow one another, in the order of ``actions``. An example is a frame
+    beside the trajectory that carries it: left multiplication beside rotation or motion of points.
+    """
+
+    def __init__(self, *actions: Action) -> None:
+        if not actions:
+            raise SceneError("a diagonal action without parts", expected="one action at least")
+        self.actions = actions
+        self.name = " and ".join(action.name for action in actions)
+
+    def check(self, group: LieGroup, where: str = "") -> None:
+        """Raise :class:`codegen.errors.SceneError` if the group cannot act in one of these ways, or if a part
+        does not fix the number of its coordinates."""
+        for action in self.actions:
+            action.check(group, where)
+        self._sizes(group, where)
+
+    def _sizes(self, group: LieGroup, where: str = "") -> list[int]:
+        sizes = []
+        for action in self.actions:
+            size = action.point_size(group)
+            if size is None:
+                raise SceneError(
+                    f"the part {action.name} of a diagonal action, without a number of coordinates",
+                    where=where,
+                    expected="actions that define point_size",
+                    hint=f"define point_size(self, group) in {type(action).__name__}",
+                )
+            sizes.append(size)
+        return sizes
+
+    def _parts(self, group: LieGroup, y: Vector[S]) -> list[tuple[Action, Vector[S]]]:
+        """Return each part with its coordinates."""
+        sizes = self._sizes(group)
+        ends = accumulate(sizes)
+        rows = zip(self.actions, ends, sizes, strict=True)
+        return [(action, tuple(y[end - n : end])) for action, end, n in rows]
+
+    def point_size(self, group: LieGroup) -> int:
+        """Return the sum of the numbers of coordinates."""
+        return sum(self._sizes(group))
+
+    def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return the equations of every manifold."""
+        return tuple(law for action, own in self._parts(group, y) for law in action.laws(d, group, own))
+
+    def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return (g.y1, g.y2, ...)."""
+        return tuple(a for action, own in self._parts(group, y) for a in action.act(d, group, g, own))
+
+    def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return (x.y1, x.y2, ...)."""
+        return tuple(a for action, own in self._parts(group, y) for a in action.velocity(d, group, x, own))
+
+    def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
+        """Return the points, each projected onto its own orbit."""
+        rows = zip(self._parts(group, y), self._parts(group, start), strict=True)
+        return tuple(a for (action, own), (_, first) in rows for a in action.to_orbit(d, group, own, first))

@@ -1,0 +1,56 @@
+"""Right multiplication: a group acting on itself by y -> y g^-1."""
+
+from __future__ import annotations
+
+from codegen.groups.actions.base import Action
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import Coadjoint, Inverse, LeftTranslation, Projection
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+
+
+class RightMultiplication(Action):
+    """A group acting on itself from the right, g.y = y g^-1.
+
+    This is a left action, so all methods and signs of brackets stay as they are. The velocity is x.y = -y x:
+    the equation y' = y F(y), for example of a body frame with velocity F, is the scene with f = -F.
+    """
+
+    name = "right multiplication"
+    needs = Inverse
+    on_itself = True
+
+    def check(self, group: LieGroup, where: str = "") -> None:
+        """Raise :class:`codegen.errors.SceneError` unless the group has inverses and an adjoint map."""
+        self.require(group, Inverse, where)
+        self.require(group, Coadjoint, where)
+
+    def point_size(self, group: LieGroup) -> int:
+        """Return the number of coordinates of an element."""
+        return group.size
+
+    def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return the equations of the group."""
+        return group.laws(d, y)
+
+    def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return y g^-1."""
+        return group.mul(d, y, group.require(Inverse).inverse(d, g))
+
+    def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return y exp(-x)."""
+        return group.mul(d, y, group.exp(d, tuple(-a for a in x)))
+
+    def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
+        """Return y projected onto the group; if the group has no projection, return y."""
+        projection = group.offers(Projection)
+        return y if projection is None else projection.project(d, y)
+
+    def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return -y x, the derivative of y exp(-eps x) at eps = 0."""
+        translation = group.offers(LeftTranslation)
+        if translation is not None:
+            return tuple(-a for a in translation.left_velocity(d, y, x))
+        # y x = (y x y^-1) y
+        moved = group.require(Coadjoint).Ad(d, y, x)
+        return tuple(-a for a in group.velocity(d, moved, y))

@@ -1,0 +1,67 @@
+"""Rotations acting on orthonormal columns: the Stiefel manifold."""
+
+from __future__ import annotations
+
+from codegen.errors import SceneError
+from codegen.groups.actions.columns import Columns
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import MatrixElements
+from codegen.groups.linear_algebra import S, Vector, dot, units
+from codegen.ir.domain import Domain, FloatDomain
+
+
+class Stiefel(Columns):
+    """Orthogonal matrices acting on n x k matrices with orthonormal columns, g.Y = g Y.
+
+    A point is the matrix Y row by row, where k is the number of ``columns``.
+    """
+
+    name = "rotation of orthonormal columns"
+
+    def check(self, group: LieGroup, where: str = "") -> None:
+        """Raise :class:`codegen.errors.SceneError` unless the elements of the algebra are skew matrices of at
+        least k rows."""
+        super().check(group, where)
+        matrices, d = group.require(MatrixElements), FloatDomain(0.0)
+        n = matrices.order
+        basis: tuple[Vector[float], ...] = units(d, group.dim)
+        for x in basis:
+            a = matrices.hat(d, x)
+            if any(a[n * i + j] != -a[n * j + i] for i in range(n) for j in range(i + 1)):
+                raise SceneError(
+                    f"{self.name} by {group.name}",
+                    where=where,
+                    expected="a group of orthogonal matrices, whose algebra consists of skew matrices",
+                    hint=f"use Columns({self.columns}) for other matrices",
+                )
+        if self.columns > n:
+            raise SceneError(
+                f"{self.columns} orthonormal columns of {n} rows",
+                where=where,
+                expected=f"at most {n} columns",
+            )
+
+    def _gram(self, y: Vector[S]) -> list[list[S]]:
+        """Return Y^T Y."""
+        columns = [y[j :: self.columns] for j in range(self.columns)]
+        return [[dot(a, b) for b in columns] for a in columns]
+
+    def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return Y^T Y = 1, entry by entry."""
+        gram, one = self._gram(y), d.rational(1)
+        return tuple(
+            (f"(Y^T Y)[{i}, {j}] = {int(i == j)}", gram[i][j] - one if i == j else gram[i][j])
+            for i in range(self.columns)
+            for j in range(i + 1)
+        )
+
+    def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
+        """Return Y (3 - Y^T Y)/2, whose columns are orthonormal up to the square of the error of Y^T Y."""
+        gram, half, k = self._gram(y), d.rational(1, 2), self.columns
+        unit: tuple[Vector[S], ...] = units(d, k)
+        # Y + Y E/2 with E = 1 - Y^T Y: the correction is small, so rounding 1 + E/2 is avoided.
+        defect = [[half * (unit[i][j] - gram[i][j]) for j in range(k)] for i in range(k)]
+        rows = [y[i : i + k] for i in range(0, len(y), k)]
+        return tuple(
+            row[j] + dot(row, tuple(defect[i][j] for i in range(k))) for row in rows for j in range(k)
+        )

@@ -1,0 +1,39 @@
+"""Coordinate maps for Runge-Kutta-Munthe-Kaas methods, one file for each map.
+
+The exponential map is the default of every scene: ``coordinates="exp"``. Its inverse differential is a series
+of brackets, which methods truncate.
+"""
+
+from __future__ import annotations
+
+from codegen.errors import SceneError
+from codegen.groups.base import LieGroup
+from codegen.groups.coordinate_maps.base import CoordinateMap
+from codegen.groups.coordinate_maps.cayley import Cayley
+from codegen.groups.coordinate_maps.second_kind import SecondKind
+
+__all__ = ["Cayley", "CoordinateMap", "SecondKind", "coordinate_map"]
+
+EXPONENTIAL = "exp"
+"""The name of the exponential map."""
+
+MAPS: dict[str, CoordinateMap] = {each.name: each for each in (Cayley(), SecondKind())}
+"""The coordinate maps other than the exponential map, by name."""
+
+
+def coordinate_map(given: str | CoordinateMap, group: LieGroup, where: str) -> CoordinateMap | None:
+    """Return the coordinate map that a scene names, or its own map; None for the exponential map.
+
+    :class:`SceneError` is raised for an unknown name, and for a map that the group does not have.
+    """
+    if given == EXPONENTIAL:
+        return None
+    known = MAPS.get(given) if isinstance(given, str) else None
+    chosen = given if isinstance(given, CoordinateMap) else known
+    if chosen is None:
+        names = ", ".join(repr(name) for name in (EXPONENTIAL, *MAPS))
+        raise SceneError(
+            f"coordinates={given!r}", where=where, expected=f"one of {names}, or a CoordinateMap of your own"
+        )
+    chosen.check(group, where)
+    return chosen

@@ -1,0 +1,33 @@
+"""The base class of coordinate maps: local coordinates of a group in its Lie algebra, near the identity."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from codegen.groups.base import LieGroup
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+
+
+class CoordinateMap(ABC):
+    """A map tau from the algebra to the group, tau(0) = e, whose derivative at zero is the identity map.
+
+    Runge-Kutta-Munthe-Kaas methods integrate x' = dtau^{-1}_x f(tau(x).y0) in the algebra. With the exact
+    inverse differential the order on the group is the order of the Runge-Kutta tableau. ``name`` is the value
+    of the option ``coordinates`` of a scene, ``text`` the description in headers.
+    """
+
+    name: str
+    text: str
+
+    @abstractmethod
+    def check(self, group: LieGroup, where: str = "") -> None:
+        """Raise :class:`codegen.errors.SceneError` if the group does not have this map."""
+
+    @abstractmethod
+    def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:
+        """Return tau(x)."""
+
+    @abstractmethod
+    def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return dtau^{-1}_x y: if x' = dtau^{-1}_x y, then tau(x)' = y.tau(x)."""

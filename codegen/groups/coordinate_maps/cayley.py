@@ -1,0 +1,42 @@
+"""The Cayley map as a coordinate map."""
+
+from __future__ import annotations
+
+from codegen.errors import SceneError
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import CayleyMap
+from codegen.groups.coordinate_maps.base import CoordinateMap
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+
+
+class Cayley(CoordinateMap):
+    """cay(x) = (1 - x/2)^-1 (1 + x/2), with dcay^{-1}_x y = (1 - x/2) y (1 + x/2).
+
+    x is a matrix, or a pure quaternion. Groups of matrices g with g^T J g = J have this map, and so have all
+    groups whose algebra contains x^3 for each of its elements x. On groups of orthogonal matrices the map is
+    defined for all x; on other groups 1 - x/2 may be singular for a long step, which then returns the status
+    of a step that moves too far.
+    """
+
+    name = "cayley"
+    text = "Cayley map, cay(x) = (1 - x/2)^-1 (1 + x/2), with its exact inverse differential"
+
+    def check(self, group: LieGroup, where: str = "") -> None:
+        """Raise :class:`codegen.errors.SceneError` if the group has no Cayley map."""
+        if group.offers(CayleyMap) is None:
+            raise SceneError(
+                f"Cayley coordinates on {group.name}",
+                where=where,
+                expected="a group whose algebra contains x^3 for each of its elements x, such as SO(3), S^3 "
+                "or SL(2)",
+                hint='write coordinates="exp", or give the group the capability CayleyMap',
+            )
+
+    def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:
+        """Return cay(x)."""
+        return group.require(CayleyMap).cay(d, x)
+
+    def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return dcay^{-1}_x y."""
+        return group.require(CayleyMap).dcayinv(d, x, y)

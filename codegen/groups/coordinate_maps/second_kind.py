@@ -1,0 +1,66 @@
+"""Coordinates of the second kind: products of exponentials of the basis elements."""
+
+from __future__ import annotations
+
+from codegen.errors import SceneError
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import Coadjoint, MatrixElements
+from codegen.groups.coordinate_maps.base import CoordinateMap
+from codegen.groups.linear_algebra import S, Vector, matmul, solved_near_identity, units
+from codegen.ir.domain import Domain
+
+
+class SecondKind(CoordinateMap):
+    """tau(x) = exp(x_1 e_1) exp(x_2 e_2) ... exp(x_d e_d) for the basis e_1, ..., e_d of the algebra.
+
+    dtau_x v = sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k with E_k = exp(x_k e_k) (Owren and Marthinsen 2001).
+    The inverse is the solution of this linear system. Where the system is singular, or elimination meets a
+    pivot that is zero, the step returns the status of a step that moves too far.
+    """
+
+    name = "second_kind"
+    text = (
+        "products of exponentials of the basis elements (second kind), exp(x_1 e_1) ... exp(x_d e_d), with "
+        "their exact inverse differential"
+    )
+
+    def check(self, group: LieGroup, where: str = "") -> None:
+        """Raise :class:`codegen.errors.SceneError` if the group has no adjoint map."""
+        if group.offers(Coadjoint) is None:
+            raise SceneError(
+                f"coordinates of the second kind on {group.name}",
+                where=where,
+                expected="a group with an adjoint map",
+                hint='write coordinates="exp", or give the group the capability Coadjoint',
+            )
+
+    def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:
+        """Return exp(x_1 e_1) ... exp(x_d e_d)."""
+        g = group.expbasis(d, 0, x[0])
+        for k, t in enumerate(x[1:], start=1):
+            g = group.mul(d, g, group.expbasis(d, k, t))
+        return g
+
+    def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return the solution v of sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k = y."""
+        n = group.dim
+        basis: tuple[Vector[S], ...] = units(d, n)
+        # Ad_{E_1}^-1 is applied to both sides. The columns are then e_1, e_2, Ad_{E_2} e_3, and so on, so the
+        # first two pivots are 1. The loop forms the columns from the last one to the second one.
+        columns: list[Vector[S]] = []
+        for k in reversed(range(1, n)):
+            columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]
+        columns.insert(0, basis[0])
+        matrix = tuple(column[i] for i in range(n) for column in columns)
+        return solved_near_identity(matrix, _adjoint(d, group, 0, -x[0], y), n)
+
+
+def _adjoint(d: Domain, group: LieGroup, k: int, t: S, v: Vector[S]) -> Vector[S]:
+    """Return Ad_g v for g = exp(t e_k)."""
+    g = group.expbasis(d, k, t)
+    matrices = group.offers(MatrixElements)
+    if matrices is None:
+        return group.require(Coadjoint).Ad(d, g, v)
+    # The inverse of exp(t e_k) is exp(-t e_k), which costs less than the inverse of a matrix.
+    n, back = matrices.order, group.expbasis(d, k, -t)
+    return matrices.vee(d, matmul(matmul(g, matrices.hat(d, v), n), back, n))

@@ -1,0 +1,105 @@
+"""The Cayley map of groups of matrices, and exponentials of their basis elements in closed form."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import cached_property
+
+from codegen.groups.base import C
+from codegen.groups.capabilities import CayleyMap, MatrixElements
+from codegen.groups.linear_algebra import S, Vector, matmul, solved_near_identity
+from codegen.ir.domain import Domain, SeriesDomain
+from orderconds.ring import QQ
+
+
+class MatrixCoordinates(MatrixElements, CayleyMap):
+    """A group of matrices with a rational basis of its algebra; it has a Cayley map if the algebra contains
+    x^3 for each of its elements x."""
+
+    def offers(self, capability: type[C]) -> C | None:
+        """Return this group as a group with a capability; None for the Cayley map if the algebra does not
+        contain all cubes of its elements."""
+        own = super().offers(capability)
+        return None if capability is CayleyMap and not self._contains_cubes else own
+
+    @cached_property
+    def _contains_cubes(self) -> bool:
+        """Whether the algebra contains x^3 for each of its elements x.
+
+        x^3 is a polynomial of degree three in the coordinates of x. The test evaluates it at one point with
+        large coordinates. A component of x^3 outside the algebra that does not vanish identically vanishes at
+        most on a fraction 3/2^61 of such points.
+        """
+        # Powers modulo the prime 2^61 - 1 are irregular integers without a random seed.
+        x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
+        matrix = self._exact(x)
+        cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)
+        d = SeriesDomain(QQ, 0)
+        y = self.vee(d, tuple(d.rational(c.numerator, c.denominator) for c in cube))
+        return self._exact(tuple(Fraction(QQ.text(c.coefficients[0])) for c in y)) == cube
+
+    def _exact(self, x: Sequence[Fraction]) -> Vector[Fraction]:
+        """Return the matrix of an element with rational coordinates."""
+        d = SeriesDomain(QQ, 0)
+        entries = self.hat(d, tuple(d.rational(a.numerator, a.denominator) for a in x))
+        return tuple(Fraction(QQ.text(e.coefficients[0])) for e in entries)
+
+    def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return (1 - A/2)^-1 (1 + A/2) for the matrix A of x, by elimination."""
+        return solved_near_identity(*self._near_identity(d, x), self.order)
+
+    def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return (1 - A/2) B (1 + A/2) for the matrices A of x and B of y."""
+        left, right = self._near_identity(d, x)
+        n = self.order
+        return self.vee(d, matmul(matmul(left, self.hat(d, y), n), right, n))
+
+    def _near_identity(self, d: Domain, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
+        """Return 1 - A/2 and 1 + A/2."""
+        half: S = d.rational(1, 2)
+        one: Vector[S] = self.identity(d)
+        pairs = [(i, half * e) for i, e in zip(one, self.hat(d, x), strict=True)]
+        return tuple(i - e for i, e in pairs), tuple(i + e for i, e in pairs)
+
+    def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
+        """Return exp(t B) for the basis matrix B: in closed form if B^3 = c B, else by :meth:`exp`.
+
+        The closed form is 1 + t c_1(-c t^2) B + t^2 c_2(-c t^2) B^2 with the Stumpff functions.
+        """
+        b = self._exact([Fraction(int(i == k)) for i in range(self.dim)])
+        square = matmul(b, b, self.order)
+        c = _ratio(matmul(square, b, self.order), b)
+        if c is None:
+            return super().expbasis(d, k, t)
+        first, second = _stumpff(d, c, t)
+        unit: Vector[S] = self.identity(d)
+        factors = (t * first, t * t * second)
+        return tuple(_plus(d, one, (p, q), factors) for one, p, q in zip(unit, b, square, strict=True))
+
+
+def _ratio(a: Vector[Fraction], b: Vector[Fraction]) -> Fraction | None:
+    """Return c with a = c b; None if there is no such number."""
+    c = next((x / y for x, y in zip(a, b, strict=True) if y), Fraction(0))
+    return c if all(x == c * y for x, y in zip(a, b, strict=True)) else None
+
+
+def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
+    """Return c_1(-c t^2) and c_2(-c t^2)."""
+    if not c:
+        return d.rational(1), d.rational(1, 2)
+    z: S = d.rational(-c.numerator, c.denominator) * (t * t)
+    if c < 0:
+        return d.call("stumpff1", z), d.call("stumpff2", z)
+    # c_2(z) = c_1(z/4)^2/2
+    half: S = d.call("signed_stumpff1", d.rational(1, 4) * z)
+    return d.call("signed_stumpff1", z), d.rational(1, 2) * (half * half)
+
+
+def _plus(d: Domain, total: S, weights: tuple[Fraction, Fraction], values: tuple[S, S]) -> S:
+    """Return total + sum w_k v_k; terms with weight zero are omitted."""
+    for w, v in zip(weights, values, strict=True):
+        if w:
+            factor: S = d.rational(w.numerator, w.denominator)
+            total = total + (v if w == 1 else factor * v)
+    return total

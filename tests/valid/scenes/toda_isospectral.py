@@ -1,0 +1,25 @@
+"""Toda's lattice of three particles as an isospectral flow: L' = [B(L), L] for symmetric matrices L.
+
+B(L) is the skew matrix with the entries of L above the diagonal and their negatives below it. SO(3) acts by
+conjugation, so a step keeps the eigenvalues of L. L stays tridiagonal, and tends to a diagonal matrix.
+"""
+
+from sympy import Matrix, symbols
+
+from codegen.groups import SO3, Conjugation
+from codegen.scene import FieldScene
+
+L = Matrix(3, 3, symbols("l0:3(0:3)", real=True))
+# The matrix of f is [[0, -f2, f1], [f2, 0, -f0], [-f1, f0, 0]].
+f = Matrix([-L[1, 2], L[0, 2], -L[0, 1]])
+
+scene = FieldScene(
+    title="Toda's lattice, isospectral",
+    group=SO3(),
+    action=Conjugation(),
+    y=list(L),
+    f=f,
+    y0=Matrix([[1, 1, 0], [1, 0, 1], [0, 1, -1]]),
+    span=(0, 5),
+    invariants={"trace": L.trace(), "square": (L * L).trace(), "determinant": L.det()},
+)
