@@ -76,7 +76,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
             return []
 
 
-def _derivatives(node: Expr) -> list[Expr]:
+def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each function
     """Return the partial derivatives of a function with respect to its arguments. For the Stumpff functions
     c_k' = (k c_{k+2} - c_{k+1})/2."""
     space, x = node.space, node.args[0]

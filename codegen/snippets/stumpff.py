@@ -122,8 +122,8 @@ def constants(k: int, last: Fraction | int | None = None, precision: Precision =
 def curvatures(k: int, precision: Precision = DOUBLE) -> tuple[float, ...]:
     """Return the Taylor coefficients of c_k'' for arguments from 0 to 1.
 
-    >>> [1 / x for x in curvatures(2)[:2]]
-    [360.0, -6720.0]
+    >>> [round(1 / x) for x in curvatures(2)[:2]]
+    [360, -6720]
     """
     terms = coefficients(k, 1, precision.bits + 8)
     return tuple(precision.round((j + 1) * (j + 2) * c) for j, c in enumerate(terms[2:]))

@@ -6,7 +6,7 @@ coefficients; all other coefficients are affine functions of the free coefficien
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from orderconds.errors import InputError, TableauError
@@ -22,6 +22,14 @@ class Constraint:
 
     text: str
     form: Affine
+
+    def expanded(self, sums: Mapping[str, Sequence[str]]) -> Constraint:
+        """Return the constraint with each name in ``sums`` replaced by the sum of the listed names."""
+        form: dict[str, Fraction] = {}
+        for name, factor in self.form.items():
+            for summand in sums.get(name, (name,)):
+                form[summand] = form.get(summand, Fraction(0)) + factor
+        return replace(self, form={name: factor for name, factor in form.items() if factor})
 
 
 @dataclass

@@ -4,7 +4,7 @@ file."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 from orderconds import families
@@ -21,20 +21,16 @@ from orderconds.solve.ansatz import Ansatz
 from orderconds.solve.linear import Constraint, Elimination, equal, equality, named, spell, sum_to_one, zero
 from orderconds.solve.spec import Spec, refuse
 
+Nodes = Mapping[str, Sequence[str]]
+"""The coefficients of a stage by the name of its node, which is their sum."""
+
 
 def _eliminated(
-    names: Sequence[str],
-    spec: Spec,
-    constraints: Sequence[Constraint],
-    nodes: Mapping[str, Sequence[str]] | None = None,
+    names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the coefficients after elimination of the given constraints and of the constraints from
-    ``--fix``.
-
-    A constraint from ``--fix`` may contain the ``nodes``; a node is the sum of the coefficients of its stage.
-    """
+    """Return the coefficients after elimination of all constraints; those of ``--fix`` may have nodes."""
     elimination = Elimination(tuple(names))
-    fixed = [_without_nodes(equality(text), nodes or {}) for text in spec.fix]
+    fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
     for constraint in fixed:
         for name in constraint.form:
             if name and name not in names:
@@ -45,15 +41,6 @@ def _eliminated(
                 )
     elimination.impose([*constraints, *fixed])
     return elimination
-
-
-def _without_nodes(constraint: Constraint, nodes: Mapping[str, Sequence[str]]) -> Constraint:
-    """Return a constraint with every node replaced by its sum."""
-    form: dict[str, Fraction] = {}
-    for name, factor in constraint.form.items():
-        for summand in nodes.get(name, (name,)):
-            form[summand] = form.get(summand, Fraction(0)) + factor
-    return replace(constraint, form={name: factor for name, factor in form.items() if factor or not name})
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,7 @@ def render(results: SceneResults, command: str) -> str:
     values = {
         "name": scene.name,
         "title": _title(scene),
-        "about": [p for p in scenes.about(results.subject.name).split("\n\n") if p],
+        "about": [_formatted(p) for p in scenes.about(results.subject.name).split("\n\n") if p],
         "group": scene.group.name,
         "state": ", ".join(f"{b.name} ({len(b.symbols)} numbers)" for b in scene.state),
         "span": f"{first} ≤ t ≤ {last}",
@@ -66,7 +66,7 @@ def render_overview(every: Sequence[SceneResults], command: str) -> str:
             "title": _title(results.scene),
             "page": page_name(results),
             "name": results.scene.name,
-            "about": scenes.about(results.subject.name).partition("\n\n")[0],
+            "about": _formatted(scenes.about(results.subject.name).partition("\n\n")[0]),
             "sections": [
                 _html(body, results.subject.styles)
                 for m in results.measured
@@ -76,6 +76,15 @@ def render_overview(every: Sequence[SceneResults], command: str) -> str:
         for results in every
     ]
     return _filled("overview.html.j2", command, scenes=summaries, needs=REQUIREMENTS)
+
+
+def _formatted(paragraph: str) -> Markup:
+    """Return a paragraph of a docstring as HTML; text between double or single backquotes is code."""
+    # re.split with one group returns the texts between the matches at even indices, the groups at odd ones.
+    parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)
+    return Markup("").join(
+        Markup("<code>{}</code>").format(part) if k % 2 else escape(part) for k, part in enumerate(parts)
+    )
 
 
 def _html(section: Section, styles: Styles) -> Markup:

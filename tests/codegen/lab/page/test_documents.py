@@ -18,6 +18,7 @@ from codegen.lab.measurements.long_runs import LongRuns
 from codegen.lab.measurements.orders import Orders, agreement
 from codegen.lab.measurements.stability import StabilityTests
 from codegen.lab.orders import order_study
+from codegen.lab.page import documents
 from codegen.lab.page.documents import page_name, render, render_overview
 from codegen.lab.registry import selected
 from codegen.lab.scene_results import Measured, SceneResults, measure_scene
@@ -394,3 +395,7 @@ def test_nothing_is_hidden_without_the_script(document: str) -> None:
     hiding = re.findall(r"([^{}]+)\{[^{}]*display: none", style)
     assert {rule.strip() for rule in hiding} == {"svg .off", ".tip[hidden]", ".advice thead"}
     assert 'class="off"' not in body
+
+
+def test_code_in_the_description_of_a_scene_is_marked_and_escaped() -> None:
+    assert documents._formatted("See ``a < b`` & `c`.") == ("See <code>a &lt; b</code> &amp; <code>c</code>.")
