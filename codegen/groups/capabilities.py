@@ -244,11 +244,14 @@ class MatrixElements(MatrixRepresentation, Inverse):
         return invert(d, g, self.order)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of the entries: ``name`` followed by the digits of row and column."""
+        """Return the symbols of the entries: ``name`` followed by the digits of row and column.
+
+        If there are more than ten rows, an underscore separates row and column.
+        """
         from sympy import Symbol
 
-        rows = range(self.order)
-        return [Symbol(f"{name}{i}{j}", real=True) for i in rows for j in rows]
+        rows, mark = range(self.order), "_" if self.order > 10 else ""
+        return [Symbol(f"{name}{i}{mark}{j}", real=True) for i in rows for j in rows]
 
     def point(self, name: str) -> sympy.Matrix:
         """Return :meth:`symbols` as a square sympy matrix."""

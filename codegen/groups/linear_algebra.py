@@ -106,6 +106,16 @@ def determinant(a: Vector[S], n: int) -> S:
     return minors[tuple(range(n))]
 
 
+LOOPED = 5
+"""Products of matrices with at least this number of rows are loops in emitted code."""
+
+
+def product(d: Domain, a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
+    """Return the product of two n x n matrices: of large matrices as a vector function, of small ones by its
+    terms."""
+    return matmul(a, b, n) if n < LOOPED else d.vector(f"product{n}", (*a, *b))
+
+
 WITHOUT_PIVOTS = 3
 """Inverses of matrices with at most this number of rows are formed without pivots."""
 

@@ -10,13 +10,13 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from codegen.errors import SceneError
-from codegen.groups.capabilities import Coadjoint, Projection, RightTrivialisation
-from codegen.groups.linear_algebra import S, Vector, invert, matmul, transposed
+from codegen.groups.capabilities import Coadjoint, Projection, RightTrivialisation, Rotations
+from codegen.groups.linear_algebra import LOOPED, S, Vector, invert, matmul, matvec, product, transposed
 from codegen.groups.matrix_algebra import Sparse, matrix_algebra, sparse
 from codegen.groups.matrix_coordinates import MatrixCoordinates
 from codegen.groups.rational_rows import rational_rows
 from codegen.ir.domain import Domain
-from codegen.ir.vector_function import EXPANDED
+from codegen.ir.matrix_functions import EXPANDED
 
 Rows = Sequence[Sequence[int | Fraction]]
 """A rational matrix."""
@@ -69,7 +69,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
         """Return the matrix product."""
-        return matmul(g, k, self.n)
+        return product(d, g, k, self.n)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g^-1. A group of isometries overrides this method by a transposition."""
@@ -88,7 +88,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         total, term = tuple(x + y for x, y in zip(unit, a, strict=True)), a
         for k in range(2, self.algebra.nilpotency):
             factor: S = d.rational(1, k)
-            term = tuple(factor * x for x in matmul(a, term, self.n))
+            term = tuple(factor * x for x in product(d, a, term, self.n))
             total = tuple(x + y for x, y in zip(total, term, strict=True))
         return total
 
@@ -106,30 +106,40 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self._exponential(d, tuple(-x for x in a))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return [x, y] by the structure constants."""
+        """Return [x, y], by the structure constants or by matrices, whichever is shorter."""
+        if self._has_long_brackets:
+            return self.vee(d, d.vector(f"commutator{self.n}", (*self.hat(d, x), *self.hat(d, y))))
         total: list[S] = [d.rational(0)] * self.dim
         for i, j, k, c in self.constants:
             total[k] = _added(d, total[k], c, x[i] * y[j])
         return tuple(total)
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return ad*_x mu: <ad*_x mu, y> = <mu, [x, y]>."""
+        """Return ad*_x mu: <ad*_x mu, y> = <mu, [x, y]>. Its matrix is [a^T, M] with a = hat(x) and the
+        matrix M of mu."""
+        if self._has_long_brackets:
+            a = transposed(self.hat(d, x), self.n)
+            return self.dual_vee(d, d.vector(f"commutator{self.n}", (*a, *self.dual_hat(d, mu))))
         total: list[S] = [d.rational(0)] * self.dim
         for i, j, k, c in self.constants:
             total[j] = _added(d, total[j], c, mu[k] * x[i])
         return tuple(total)
+
+    @property
+    def _has_long_brackets(self) -> bool:
+        return self.n >= LOOPED and len(self.constants) > self.size
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g x g^-1."""
         return self._conjugated(d, g, x, self.inverse(d, g))
 
     def _conjugated(self, d: Domain, g: Vector[S], x: Vector[S], inverse: Vector[S]) -> Vector[S]:
-        return self.vee(d, matmul(matmul(g, self.hat(d, x), self.n), inverse, self.n))
+        return self.vee(d, product(d, product(d, g, self.hat(d, x), self.n), inverse, self.n))
 
     def _dual_conjugated(self, d: Domain, g: Vector[S], mu: Vector[S], inverse: Vector[S]) -> Vector[S]:
         """Return the element of the dual with the matrix g^T M g^-T."""
-        moved = matmul(transposed(g, self.n), self.dual_hat(d, mu), self.n)
-        return self.dual_vee(d, matmul(moved, transposed(inverse, self.n), self.n))
+        moved = product(d, transposed(g, self.n), self.dual_hat(d, mu), self.n)
+        return self.dual_vee(d, product(d, moved, transposed(inverse, self.n), self.n))
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_g mu: <Ad*_g mu, y> = <mu, Ad_g y>. With the matrix M of mu it is g^T M g^-T."""
@@ -145,7 +155,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
             return self._dual_series(d, x, mu)
         a: Vector[S] = tuple(-t for t in self.hat(d, x))
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, mu), self.n))
-        result = matmul(slope, self.opposite_exponential(d, a, exponential), self.n)
+        result = product(d, slope, self.opposite_exponential(d, a, exponential), self.n)
         return self.dual_vee(d, transposed(result, self.n))
 
     def _dual_series(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -168,18 +178,18 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
             return super().transport(d, x, n, mu)
         a = self.hat(d, x)
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, n), self.n))
-        moved = matmul(exponential, transposed(self.dual_hat(d, mu), self.n), self.n)
+        moved = product(d, exponential, transposed(self.dual_hat(d, mu), self.n), self.n)
         total = tuple(s + t for s, t in zip(moved, slope, strict=True))
-        result = matmul(total, self.opposite_exponential(d, a, exponential), self.n)
+        result = product(d, total, self.opposite_exponential(d, a, exponential), self.n)
         return self.dual_vee(d, transposed(result, self.n))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return hat(x) g."""
+        """Return hat(x) g, without a vector function: velocities are part of the formulas of scenes."""
         return matmul(self.hat(d, x), g, self.n)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return the coordinates of v g^-1."""
-        return self.vee(d, matmul(v, self.inverse(d, g), self.n))
+        return self.vee(d, product(d, v, self.inverse(d, g), self.n))
 
 
 class IsometryGroup(MatrixGroup, Projection):
@@ -219,6 +229,18 @@ class IsometryGroup(MatrixGroup, Projection):
         unit: Vector[S] = self.identity(d)
         pairs = zip(matmul(self.inverse(d, g), g, self.n), unit, strict=True)
         return tuple((name, x - e) for x, e in pairs)
+
+
+class RotationGroup(IsometryGroup, Rotations):
+    """A group of orthogonal matrices: g^T g = 1."""
+
+    def __init__(self, name: str, basis: Sequence[Rows]) -> None:
+        super().__init__(name, basis)
+        self.form = tuple((i, 1) for i in range(self.n))
+
+    def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return exp(x) y."""
+        return matvec(self.exp(d, x), y)
 
 
 def _weighted(d: Domain, rows: Sequence[Sparse], values: Sequence[S]) -> Vector[S]:

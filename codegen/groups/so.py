@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from codegen.groups.linear_algebra import S, Vector, determinant
-from codegen.groups.matrix import IsometryGroup
+from codegen.groups.matrix import RotationGroup
 from codegen.groups.unit_matrices import difference
 from codegen.ir.domain import Domain
 
 
-class SO(IsometryGroup):
+class SO(RotationGroup):
     """Rotations of R^n, n >= 2; the algebra has the skew matrices E_ji - E_ij with i < j as its basis, row by
     row.
     """
 
     def __init__(self, n: int) -> None:
         pairs = [(i, j) for i in range(n) for j in range(i + 1, n)]
-        self.form = tuple((i, 1) for i in range(n))
         super().__init__(f"SO({n})", [difference(n, (j, i), (i, j)) for i, j in pairs])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:

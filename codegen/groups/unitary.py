@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from codegen.groups.linear_algebra import S, Vector
-from codegen.groups.matrix import IsometryGroup
+from codegen.groups.matrix import RotationGroup
 from codegen.ir.domain import Domain
 
 
-class Unitary(IsometryGroup):
+class Unitary(RotationGroup):
     """Unitary n x n matrices A + i B as real 2n x 2n matrices with the rows (A, -B) and (B, A).
 
     The basis of the algebra: for j < k, row by row, the matrices E_jk - E_kj and i (E_jk + E_kj); then the
@@ -26,8 +26,7 @@ class Unitary(IsometryGroup):
         for j, k in pairs:
             basis += [_real(n, {(j, k): 1, (k, j): -1}, {}), _real(n, {}, {(j, k): 1, (k, j): 1})]
         self.rows = n
-        self.form = tuple((i, 1) for i in range(2 * n))
-        IsometryGroup.__init__(self, name, [*basis, *(_real(n, {}, imaginary) for imaginary in diagonal)])
+        RotationGroup.__init__(self, name, [*basis, *(_real(n, {}, imaginary) for imaginary in diagonal)])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return g^T g = 1, and the equality of the blocks."""

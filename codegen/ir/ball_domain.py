@@ -20,9 +20,11 @@ from typing import TYPE_CHECKING
 from flint import arb, arb_mat
 
 from codegen.ir.domain import LARGEST_BITS, NotConverged, Scalar, Value
+from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
+from codegen.ir.matrix_product import BilinearFunction
 from codegen.ir.number import Number
 from codegen.ir.selection import selected, selects, sign_of_number
-from codegen.ir.vector_function import MatrixExponential, MatrixInverse, vector_function
+from codegen.ir.vector_calls import vector_function
 from orderconds.ring.precision import precision
 
 if TYPE_CHECKING:
@@ -137,6 +139,8 @@ class BallDomain:
             with precision(2 * self.bits):
                 inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
+        if isinstance(called, BilinearFunction):
+            return tuple(x.mid() for x in called.arithmetic(numbers))
         raise ValueError(f"unknown vector function {function}")
 
     def _stumpff(self, k: int, z: arb) -> arb:

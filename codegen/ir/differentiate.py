@@ -10,7 +10,7 @@ from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 from codegen.ir.selection import ABSOLUTE, CHOOSE
 from codegen.ir.table import PiecewisePolynomial
-from codegen.ir.vector_function import component, partial
+from codegen.ir.vector_calls import component, partial
 
 
 class NotDifferentiable(ValueError):

@@ -17,7 +17,7 @@ from codegen.ir.elementary import ANGLE
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
 from codegen.ir.selection import Kink, selected, selects, sign_of_number
-from codegen.ir.vector_function import VectorFunction, vector_function
+from codegen.ir.vector_calls import named
 from orderconds.ring import PowerSeries
 from orderconds.ring.protocol import Ring
 
@@ -142,14 +142,6 @@ def curvature(k: int, z: float) -> float:
     return total
 
 
-def _vector(name: str) -> VectorFunction:
-    """Return a vector function; ValueError for an unknown name."""
-    function = vector_function(name)
-    if function is None:
-        raise ValueError(f"unknown vector function {name}")
-    return function
-
-
 class FloatDomain:
     """IEEE double precision.
 
@@ -186,7 +178,7 @@ class FloatDomain:
 
     def vector(self, function: str, args: Sequence[float]) -> tuple[float, ...]:
         """Return the results of a vector function, with the operations of emitted code."""
-        return _vector(function).in_doubles(args)
+        return named(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Return whether the changes are at rounding level, and the size of the last change."""
@@ -285,7 +277,7 @@ class PreciseDomain:
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the results of a vector function."""
-        return _vector(function).in_digits(self.context, self.digits, args)
+        return named(function).in_digits(self.context, self.digits, args)
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
         """Return c_k'(z): by its series for abs(z) up to 1, else by c_{k-1} and c_k."""
@@ -413,7 +405,7 @@ class SeriesDomain:
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the results of a vector function, exactly."""
-        return _vector(function).over_series(self.ring, args)
+        return named(function).over_series(self.ring, args)
 
     def _arc(self, function: str, z: Scalar) -> Scalar:
         """Return atan z = sum (-1)^j z^(2j+1)/(2j+1) or asin z = sum binom(2j, j)/4^j z^(2j+1)/(2j+1)."""
@@ -482,7 +474,7 @@ class ExprDomain:
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return a call node for each result, or the results themselves if they are short."""
-        expanded = _vector(function).expanded(args)
+        expanded = named(function).expanded(args)
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:

@@ -19,7 +19,7 @@ from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.number import Number
 from codegen.ir.selection import ABSOLUTE, CHOOSE, SELECTING
 from codegen.ir.table import PiecewisePolynomial
-from codegen.ir.vector_function import component
+from codegen.ir.vector_calls import component, named
 
 if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
@@ -285,8 +285,8 @@ class Space:
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`), one node each."""
-        given = tuple(args)
-        return tuple(self._make("call", given, f"{function}.{k}") for k in range(len(given)))
+        given, size = tuple(args), named(function).size
+        return tuple(self._make("call", given, f"{function}.{k}") for k in range(size))
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from codegen.ir.differentiate import partials
 from codegen.ir.expr import Expr, walk
-from codegen.ir.vector_function import component
+from codegen.ir.vector_calls import component
 
 
 def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ...]:

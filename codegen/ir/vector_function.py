@@ -1,35 +1,22 @@
-"""Vector functions: functions of an array whose result is an array, for example the matrix exponential.
+"""Vector functions: functions of arrays whose result is an array, for example the matrix exponential.
 
-In expressions each result is a node: a call of ``NAME.k`` with all scalars of the array as arguments is the
-k-th result. Nodes with the same arguments share one call in emitted code. The name determines the function:
-``expm3`` is the exponential of a 3 x 3 matrix, ``expm3_d1`` its derivative, ``inverse5`` the inverse of a 5 x
-5 matrix.
+In expressions each result is a node: a call of ``NAME.k`` with all scalars of the arrays as arguments is the
+k-th result (:mod:`codegen.ir.vector_calls`). Nodes with the same arguments share one call in emitted code.
 """
 
 from __future__ import annotations
 
-import math
-import re
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING, Any
-
-from codegen.ir import matrix_exponential, matrix_inverse
 
 if TYPE_CHECKING:
     from codegen.ir.domain import Scalar
     from codegen.ir.expr import Expr
 
-EXPANDED = 4
-"""The exponential of a matrix A of expressions is expanded as a polynomial if the positions of the zeros in A
-imply that A^EXPANDED = 0.
-"""
-
 
 class VectorFunction(ABC):
-    """A function of ``size`` scalars with ``size`` results; ``n`` is the number of rows of its matrices."""
+    """A function of arrays of scalars with ``size`` results; ``n`` is the number of rows of its matrices."""
 
     n: int
 
@@ -41,7 +28,12 @@ class VectorFunction(ABC):
     @property
     @abstractmethod
     def size(self) -> int:
-        """The number of arguments and of results."""
+        """The number of results."""
+
+    @property
+    def arrays(self) -> tuple[int, ...]:
+        """The lengths of the arrays of arguments; by default there is one array, as long as the result."""
+        return (self.size,)
 
     @property
     @abstractmethod
@@ -51,6 +43,11 @@ class VectorFunction(ABC):
     @abstractmethod
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the derivative of the results if the arguments change at these rates."""
+
+    def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
+        """Return the derivatives of the results with respect to one argument."""
+        space = args[0].space
+        return self.tangent(args, [space.one if k == argument else space.zero for k in range(len(args))])
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
@@ -68,194 +65,3 @@ class VectorFunction(ABC):
     @abstractmethod
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the results for power series of a ring, exactly."""
-
-
-@dataclass(frozen=True)
-class MatrixExponential(VectorFunction):
-    """The exponential of a jet of n x n matrices (:mod:`codegen.ir.matrix_exponential`).
-
-    Level 0 is the exponential of a matrix. The arguments of level l + 1 are the arguments of level l followed
-    by their rates, and its results are the results of level l followed by their rates.
-    """
-
-    n: int
-    level: int = 0
-
-    @property
-    def name(self) -> str:
-        """The name in expressions and in emitted code."""
-        return f"expm{self.n}" + (f"_d{self.level}" if self.level else "")
-
-    @property
-    def size(self) -> int:
-        """The number of arguments and of results."""
-        return (1 << self.level) * self.n**2
-
-    @property
-    def operations(self) -> dict[str, int]:
-        """The number of operations for a polynomial of degree 12, without squarings."""
-        products = 5 * 3**self.level * self.n**3
-        return {"add": products, "mul": products}
-
-    def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the rates of the results: the second half of the results of the next level."""
-        space, both = args[0].space, (*args, *rates)
-        next_level = MatrixExponential(self.n, self.level + 1)
-        expanded = next_level.expanded(both)
-        results = space.vector(next_level.name, both) if expanded is None else expanded
-        return tuple(results[self.size :])
-
-    def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return the sum 1 + A + A^2/2 + ... if the positions of the zeros in A imply that only few terms are
-        non-zero; otherwise None."""
-        pattern = power = [int(not x.is_zero) for x in args]
-        if not is_nilpotent(self.n, pattern):
-            return None
-        count = 1
-        # The powers are first computed for a pattern of zeros and ones, so that no long expressions are
-        # created in vain.
-        while any(power):
-            count += 1
-            if count > EXPANDED:
-                return None
-            power = matrix_exponential.product(self.n, self.level, power, pattern)
-        space, size = args[0].space, self.n**2
-        diagonal = range(0, size, self.n + 1)
-        total = [space.one if k in diagonal else space.zero for k in range(self.size)]
-        term = list(args)
-        for k in range(1, count):
-            total = [x + y for x, y in zip(total, term, strict=True)]
-            divisor = space.coerce(k + 1)
-            term = [x / divisor for x in matrix_exponential.product(self.n, self.level, term, args)]
-        return tuple(total)
-
-    def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the exponential in doubles."""
-        return matrix_exponential.in_doubles(self.n, self.level, args)
-
-    def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential for mpmath numbers."""
-        return matrix_exponential.in_digits(context, digits, self.n, self.level, args)
-
-    def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential of power series without constant terms."""
-        # A product of more factors than this is zero, because each factor contains a power of h or is
-        # nilpotent.
-        longest = (self.n + self.level) * (ring.order + 2)
-        return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
-
-
-@dataclass(frozen=True)
-class MatrixInverse(VectorFunction):
-    """The inverse of an n x n matrix."""
-
-    n: int
-
-    @property
-    def name(self) -> str:
-        """The name in expressions and in emitted code."""
-        return f"inverse{self.n}"
-
-    @property
-    def size(self) -> int:
-        """The number of arguments and of results."""
-        return self.n**2
-
-    @property
-    def operations(self) -> dict[str, int]:
-        """The number of operations of an elimination."""
-        return {"add": self.n**3, "mul": self.n**3}
-
-    def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return -g^-1 r g^-1 for the rate r of g."""
-        inverse = args[0].space.vector(self.name, args)
-        inner = matrix_exponential.product(self.n, 0, rates, inverse)
-        return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
-
-    def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return None."""
-        return None
-
-    def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the inverse in doubles; NaN for a singular matrix."""
-        return matrix_inverse.inverse(self.n, args, 1.0, abs) or (math.nan,) * self.size
-
-    def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the inverse for mpmath numbers; ZeroDivisionError for a singular matrix."""
-        return self._invertible(matrix_inverse.inverse(self.n, args, context.mpf(1), abs))
-
-    def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the inverse for power series; ZeroDivisionError if its constant terms are singular."""
-
-        def size(x: Scalar) -> int:
-            return int(ring.valuation(x) == 0)
-
-        return self._invertible(matrix_inverse.inverse(self.n, args, ring.one, size))
-
-    def _invertible(self, result: tuple[Scalar, ...] | None) -> tuple[Scalar, ...]:
-        if result is None:
-            raise ZeroDivisionError("the inverse of a singular matrix")
-        return result
-
-
-_NAME = re.compile(r"(expm|inverse)(\d+)(?:_d(\d+))?")
-
-
-@cache
-def vector_function(name: str) -> VectorFunction | None:
-    """Return the vector function called name; None for any other name.
-
-    >>> vector_function("expm3_d1"), vector_function("sin")
-    (MatrixExponential(n=3, level=1), None)
-    """
-    match = _NAME.fullmatch(name)
-    if match is None:
-        return None
-    kind, n, level = match.groups(default="0")
-    return MatrixExponential(int(n), int(level)) if kind == "expm" else MatrixInverse(int(n))
-
-
-@cache
-def component(payload: str) -> tuple[VectorFunction, int] | None:
-    """Return the vector function and the index of the result that a call node denotes; None for other calls.
-
-    >>> component("inverse5.7"), component("sin")
-    ((MatrixInverse(n=5), 7), None)
-    """
-    name, dot, index = payload.partition(".")
-    function = vector_function(name) if dot else None
-    return None if function is None else (function, int(index))
-
-
-def of_node(node: Expr) -> tuple[VectorFunction, int] | None:
-    """Return :func:`component` of a node; None if the node is no call."""
-    return component(node.payload) if node.op == "call" else None
-
-
-def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
-    """Return True if an n x n matrix with given positions of zeros is nilpotent for all values of its other
-    entries.
-
-    This is the case if the graph with an edge from i to j for each other entry (i, j) has no cycle.
-
-    >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
-    (True, False)
-    """
-    left = set(range(n))
-    while left:
-        ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
-        if not ends:
-            return False
-        left -= ends
-    return True
-
-
-def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
-    """Return the derivative of the result with this index with respect to one argument."""
-    space = node.space
-    # The derivatives of all results of a call are computed together.
-    key = function.name, tuple(a.id for a in node.args), argument
-    if key not in space.derivatives:
-        unit = [space.one if i == argument else space.zero for i in range(len(node.args))]
-        space.derivatives[key] = function.tangent(node.args, unit)
-    return space.derivatives[key][index]

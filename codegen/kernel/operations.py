@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import Kernel
-from codegen.ir.vector_function import vector_function
+from codegen.ir.vector_calls import vector_function
 from codegen.kernel.schedule import (
     Arrangement,
     Beginning,

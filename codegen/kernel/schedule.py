@@ -8,12 +8,13 @@ No statement after a loop reads the names that this module adds inside the loop.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON, Function, Kernel, Let, Loop, Start
-from codegen.ir.vector_function import component, vector_function
+from codegen.ir.vector_calls import component, vector_function
 
 METHODS = {
     FIXED_POINT: "fixed point",
@@ -64,9 +65,23 @@ class Invocation:
         return tuple(f"{self.name}.{k}" for k in range(self.results))
 
     @property
-    def in_array(self) -> bool:
-        """True if the arguments are passed in one array."""
-        return vector_function(self.function) is not None
+    def arrays(self) -> tuple[int, ...]:
+        """The lengths of the arrays of arguments of a vector function; () for an outlined function."""
+        function = vector_function(self.function)
+        return () if function is None else function.arrays
+
+
+_RESULT = re.compile(r"(v_\d+)\.(\d+)")
+
+
+def result_of(symbol: str) -> tuple[str, int] | None:
+    """Return the name of the call and the index of the result that a symbol denotes; None for other symbols.
+
+    >>> result_of("v_12.3"), result_of("vary.3")
+    (('v_12', 3), None)
+    """
+    match = _RESULT.fullmatch(symbol)
+    return None if match is None else (match[1], int(match[2]))
 
 
 Simple = Assignment | SharedCall | Invocation

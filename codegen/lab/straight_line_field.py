@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.ir.vector_calls import component
 from codegen.lab.number_functions import Functions, chosen
 from codegen.lab.number_types import Evaluate, Scalar
 from codegen.printers.expression import number
@@ -77,8 +78,18 @@ def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) ->
     lines: list[tuple[str, str]] = []
     functions: set[str] = set()
     places = {s: f"y[{i}]" for i, s in enumerate(symbols)}
+    calls: dict[str, str] = {}
     for node in walk(roots):
-        if node.op == "sym":
+        vector = component(node.payload) if node.op == "call" else None
+        if vector is not None:
+            # One call returns all results of a vector function.
+            text = f"{vector[0].name}({', '.join(names[a.id] for a in node.args)})"
+            if text not in calls:
+                calls[text] = f"w{node.id}"
+                lines.append((calls[text], text))
+                functions.add(vector[0].name)
+            names[node.id] = f"{calls[text]}[{vector[1]}]"
+        elif node.op == "sym":
             names[node.id] = places.get(node.payload, str(node.payload))
         elif node.op == "const":
             names[node.id] = f"c{len(constants)}"

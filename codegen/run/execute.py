@@ -21,12 +21,13 @@ import math
 import operator
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from itertools import chain
 from types import SimpleNamespace
 from typing import Any
 
 from codegen.ir.domain import Domain
 from codegen.ir.expr import Expr, power
-from codegen.ir.vector_function import vector_function
+from codegen.ir.vector_calls import vector_function
 from codegen.run.identifiers import Identifiers, identify
 from codegen.run.language import (
     RAISES_STATUS,
@@ -459,7 +460,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
         # The domain computes the function with the same operations as the function of the unit, but faster.
-        return lambda x, results: operator.setitem(results, slice(None), domain.vector(function, x)) or ()
+        return lambda *x: x[-1].__setitem__(slice(None), domain.vector(function, [*chain(*x[:-1])])) or ()
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]
         together = getattr(domain, "together", None)

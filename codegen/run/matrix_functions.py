@@ -12,8 +12,11 @@ from fractions import Fraction
 from math import factorial
 
 from codegen.ir.matrix_exponential import DEGREES, LEAST_DIGITS, largest_norms, pairs
+from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
+from codegen.ir.matrix_product import MatrixCommutator, MatrixProduct
 from codegen.ir.precision import Precision
-from codegen.ir.vector_function import MatrixExponential, MatrixInverse, VectorFunction, vector_function
+from codegen.ir.vector_calls import vector_function
+from codegen.ir.vector_function import VectorFunction
 from codegen.run.language import (
     Array,
     Assign,
@@ -62,11 +65,16 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
     """Return the functions of a unit for these vector functions, callees first."""
     listed: dict[str, Function] = {}
     for function in functions:
-        if isinstance(function, MatrixExponential):
-            own = _Exponential(function, precision).functions()
-        else:
-            assert isinstance(function, MatrixInverse)
-            own = [_inverse(function)]
+        match function:
+            case MatrixExponential():
+                own = _Exponential(function, precision).functions()
+            case MatrixProduct():
+                own = [_Exponential(MatrixExponential(function.n), precision).product_of(function.name)]
+            case MatrixCommutator():
+                own = [_commutator(function)]
+            case _:
+                assert isinstance(function, MatrixInverse)
+                own = [_inverse(function)]
         # Exponentials of matrices of one size use one function for the norm.
         listed |= {f.name: f for f in own}
     return list(listed.values())
@@ -98,7 +106,7 @@ class _Exponential:
 
     def functions(self) -> list[Function]:
         """Return the functions, callees first."""
-        return [self._norm(), self._product(), self._exponential()]
+        return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
         """Return an entry of a matrix of a jet."""
@@ -123,7 +131,8 @@ class _Exponential:
         """Return the statement result = a b."""
         return Call(f"{self.name}_product", (a, b, result))
 
-    def _product(self) -> Function:
+    def product_of(self, name: str) -> Function:
+        """Return the function that multiplies two jets."""
         a, b, result = (real(x, self.size) for x in ("a", "b", "result"))
         inner: list[Statement] = []
         for part, factors in enumerate(pairs(self.level)):
@@ -131,7 +140,7 @@ class _Exponential:
             inner += self._sum(a, b, factors, entry, part)
         rows = For(_ROW, whole(self.n), (For(_COLUMN, whole(self.n), tuple(inner)),))
         about = f"result = a b for {self.n} x {self.n} matrices{' with derivatives' if self.level else ''}."
-        return Function(f"{self.name}_product", about, (a, b, result), (rows,))
+        return Function(name, about, (a, b, result), (rows,))
 
     def _sum(
         self, a: Term, b: Term, factors: Sequence[tuple[int, int]], entry: Term, part: int
@@ -258,6 +267,25 @@ class _Exponential:
             self.norm(result, bound),
             If(error > 2.0**-LEAST_DIGITS * bound, (_is_lost(result),)),
         ]
+
+
+def _commutator(function: MatrixCommutator) -> Function:
+    """Return the function that computes a b - b a."""
+    n, k, i, j = function.n, _TERM, _ROW, _COLUMN
+    a, b, result = (real(x, function.size) for x in ("a", "b", "result"))
+    forward, backward = real("forward"), real("backward")
+    terms = (
+        Assign(forward, forward + a[n * i + k] * b[n * k + j]),
+        Assign(backward, backward + b[n * i + k] * a[n * k + j]),
+    )
+    entry = (
+        Assign(forward, number(0.0)),
+        Assign(backward, number(0.0)),
+        For(k, whole(n), terms),
+        Assign(result[n * i + j], forward - backward),
+    )
+    body = For(i, whole(n), (For(j, whole(n), entry),))
+    return Function(function.name, f"result = a b - b a for {n} x {n} matrices.", (a, b, result), (body,))
 
 
 def _inverse(function: MatrixInverse) -> Function:

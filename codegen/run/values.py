@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from codegen.kernel.schedule import Assignment, Invocation, Simple
+from collections.abc import Sequence
+
+from codegen.ir.expr import Expr
+from codegen.kernel.schedule import Assignment, Invocation, Simple, result_of
 from codegen.run.language import Array, Assign, Call, Statement
-from codegen.run.terms import own, value
+from codegen.run.terms import Term, own, value
 
 
 def simple(statement: Simple) -> list[Statement]:
@@ -13,12 +16,8 @@ def simple(statement: Simple) -> list[Statement]:
         return [Assign(own(statement.name), value(statement.value))]
     if isinstance(statement, Invocation):
         given = tuple(map(value, statement.arguments))
-        if statement.in_array:
-            # No name of the kernel contains a space, so the name of the array differs from all names of the
-            # kernel.
-            array = own(f"{statement.name} given", len(given))
-            outputs = own(statement.name, statement.results)
-            return [Array(array, given), Array(outputs), Call(statement.function, (array, outputs))]
+        if statement.arrays:
+            return _in_arrays(statement)
         # A single result is returned by value, because an array of one entry would cost a store and a load.
         if statement.results == 1:
             return [Call(statement.function, given, (own(statement.names[0]),))]
@@ -28,3 +27,34 @@ def simple(statement: Simple) -> list[Statement]:
     # cosine.
     names = tuple(map(own, statement.names))
     return [Call(statement.function, (value(statement.argument),), names)]
+
+
+def _in_arrays(statement: Invocation) -> list[Statement]:
+    """Return the statements of a call of a vector function."""
+    declared: list[Statement] = []
+    given: list[Term] = []
+    first = 0
+    for number, size in enumerate(statement.arrays):
+        arguments = statement.arguments[first : first + size]
+        first += size
+        array = _part(arguments)
+        if array is None:
+            # No name of the kernel contains a space, so the name of the array differs from all names of the
+            # kernel.
+            array = own(f"{statement.name} given {number}", size)
+            declared.append(Array(array, tuple(map(value, arguments))))
+        given.append(array)
+    results = own(statement.name, statement.results)
+    return [*declared, Array(results), Call(statement.function, (*given, results))]
+
+
+def _part(arguments: Sequence[Expr]) -> Term | None:
+    """Return the part of the results of an earlier call that consists of these values, or None."""
+    results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
+    # A single result of an outlined function is no array.
+    if results[0] is None or len(results) == 1:
+        return None
+    name, start = results[0]
+    if any(x != (name, start + k) for k, x in enumerate(results)):
+        return None
+    return Term("part", (own(name, 0),), number=start, shape=(len(arguments),))

@@ -8,6 +8,7 @@ from codegen.groups.actions import LeftMultiplication
 from codegen.groups.rn import Rn
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, evaluate
+from codegen.ir.formulas import Formulas
 from codegen.ir.values import Kind
 from codegen.scene.problem import TIME, Problem, StateField
 
@@ -25,7 +26,7 @@ def ambient(problem: Problem) -> Problem:
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
         f = tuple(evaluate(roots, domain, values))
-        return field.action.velocity(domain, field.group, f, state)
+        return field.action.velocity(Formulas(domain), field.group, f, state)
 
     initial = tuple(x for block in problem.state for x in block.initial)
     return replace(

@@ -14,6 +14,7 @@ from codegen.groups.linear_algebra import units
 from codegen.ir.differentiate import gradient
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space
+from codegen.ir.formulas import Formulas
 
 
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
@@ -38,7 +39,7 @@ def velocity(group: LieGroup, qs: Sequence[str], mus: Sequence[str], H: Expr) ->
     slopes = gradient(H, names)
     field = (*slopes[len(qs) :], *force(space, group, qs, slopes[: len(qs)]))
     state = tuple(space.sym(name) for name in names)
-    return Cotangent(group).velocity(ExprDomain(space), field, state)
+    return Cotangent(group).velocity(Formulas(ExprDomain(space)), field, state)
 
 
 def poisson_bracket(group: LieGroup, qs: Sequence[str], mus: Sequence[str], F: Expr, H: Expr) -> Expr:

@@ -22,6 +22,7 @@ from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.ad_series import Word
 from codegen.ir.domain import Domain, ExprDomain, Values
 from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.formulas import Formulas
 from codegen.ir.number import Number
 from codegen.ir.values import Kind
 from codegen.scene import energy
@@ -223,6 +224,8 @@ class Problem:
         """Return the time derivatives of the state's coordinates: f(y).y."""
         problem = self.as_field()
         f: Vector[S] = tuple(evaluate(problem.roots, domain, problem.values(domain, state, t)))
+        if isinstance(domain, ExprDomain):
+            domain = Formulas(domain)
         return problem.action.velocity(domain, problem.group, f, tuple(state))
 
     def initial(self, domain: Domain) -> Values:

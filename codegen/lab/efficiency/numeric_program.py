@@ -17,6 +17,7 @@ from codegen.ir.operations import Linear, Operation
 from codegen.ir.operations import Problem as Evaluated
 from codegen.ir.program import Assign, Program, Statement
 from codegen.ir.values import Kind, Var
+from codegen.ir.vector_calls import vector_function
 from codegen.lab.number_types import Evaluate, Scalar
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
@@ -57,10 +58,12 @@ def symbolic(assign: Assign, problem: Problem, shape: Shape) -> Symbolic:
     return Symbolic(tuple(x for part in flat for x in part), tuple(map(len, flat)), (*names, "h"))
 
 
-def _called(name: str) -> Callable[..., float]:
+def _called(name: str) -> Callable[..., float | tuple[float, ...]]:
     """Return a function of the math library, or another function of :class:`FloatDomain`."""
     known: Callable[..., float] | None = getattr(math, name, None)
     domain = FloatDomain(0.0)
+    if vector_function(name) is not None:
+        return lambda *args: domain.vector(name, args)
     return known or (lambda *args: domain.call(name, *args))
 
 

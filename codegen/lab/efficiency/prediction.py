@@ -19,6 +19,7 @@ from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.program import Assign, Program, Solve
 from codegen.ir.values import Var
+from codegen.ir.vector_calls import component
 from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.numeric_program import NumericPrograms, symbolic
 from codegen.lab.number_types import Scalar, Vector
@@ -270,7 +271,13 @@ def amounts(roots: Sequence[Expr]) -> Amounts:
         if node.op in ("add", "sub", "mul", "pow"):
             arithmetic += 1
         divisions += node.op == "div"
-        calls += node.op == "call"
+        vector = component(node.payload) if node.op == "call" else None
+        if vector is not None:
+            # The results of one call of a vector function are computed together.
+            function, index = vector
+            arithmetic += sum(function.operations.values()) if index == 0 else 0
+        else:
+            calls += node.op == "call"
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
 
 

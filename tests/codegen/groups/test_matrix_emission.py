@@ -13,6 +13,7 @@ from sympy import Matrix, Rational, Symbol, eye
 
 from codegen import scenes
 from codegen.emitter import compile_method, emit_compiled
+from codegen.errors import MethodError
 from codegen.groups import GL, SO, SU, Affine, Heisenberg, LeftMultiplication, Sp
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
@@ -22,7 +23,10 @@ from codegen.scene import FieldScene, HamiltonianScene
 from orderconds.cli import program
 from orderconds.ring import QQ
 from tests.codegen.commands.conftest import registered as registered
-from tests.promises import ulps
+from tests.codegen.family_cases import CASES as FAMILIES
+from tests.codegen.test_stack import LIBRARY, stated
+from tests.painted_stack import painted
+from tests.promises import clean_c, clean_python, ulps
 from tests.strategies import quadratic
 
 GROUPS = {
@@ -87,7 +91,7 @@ MORE = [
 ]
 MORE += [
     ("hamiltonian", name, method)
-    for name in ("SO(4)", "SU(2)", "Sp(2)", "GL(2)", "Aff(1)", "H(3)")
+    for name in ("SO(4)", "SO(5)", "SU(2)", "Sp(2)", "GL(2)", "Aff(1)", "H(3)")
     for method in (
         *("rkmk:rk4", "cg:cg3", "cf:cf4", "vcg:midpoint", "vcg:triple_jump", "vrkmk:gauss2", "vcf:cf4"),
         *("slgi:midpoint", "rkmk(0):midpoint"),
@@ -105,6 +109,49 @@ def test_emitted_steps_are_those_of_the_interpreter(kind, name, method):
         assert ulps(load(emit_compiled(made, target)).step(state, 1 / 64), expected) <= 64
 
 
+ON_GROUPS = {"rkmk", "cg", "cf", "ambient", "taylor"}
+ON_BUNDLES = ON_GROUPS | {"vcg", "vrkmk", "vcf", "vrkmk_pade", "slgi", "discrete_gradient"}
+PROMISED = [("field", "SO(5)", "cf:cf4"), ("hamiltonian", "SO(4)", "vcg:midpoint")]
+METHODS = [(family, case.method) for family, cases in FAMILIES.items() for case in cases]
+
+
+@slow
+@pytest.mark.parametrize(("family", "method"), METHODS)
+@pytest.mark.parametrize(("kind", "families"), [("field", ON_GROUPS), ("hamiltonian", ON_BUNDLES)])
+@pytest.mark.parametrize("name", ["SO(4)", "Aff(1)"])
+def test_every_family_emits_or_names_the_families_that_do(name, kind, families, family, method):
+    if family not in families:
+        with pytest.raises(MethodError, match=rf"family {family} on this scene; expected one of (\w+, )+"):
+            compiled(kind, name, method)
+        return
+    steps = []
+    for target in ("c", "python"):
+        emission = emit_compiled(compiled(kind, name, method), target)
+        steps.append(load(emission).step(emission.manifest["initial"], 1 / 64))
+    assert ulps(*steps) <= 4
+
+
+@slow
+@pytest.mark.parametrize("level", ["-O0", "-O2", "-O3"])
+@pytest.mark.parametrize(
+    ("kind", "name", "method"), [("field", "SO(5)", "cf:cf4"), ("hamiltonian", "SO(4)", "vcg:midpoint")]
+)
+def test_calls_stay_within_the_stated_stack(compiler, level, kind, name, method, tmp_path):
+    artifact = emit_compiled(compiled(kind, name, method), "c")
+    assert max(painted(artifact, compiler, level, tmp_path).values()) <= stated(artifact) + LIBRARY
+
+
+@slow
+@pytest.mark.parametrize(
+    ("kind", "name", "method"), [("field", "SO(5)", "cf:cf4"), ("hamiltonian", "GL(2)", "vcg:midpoint")]
+)
+def test_the_module_keeps_the_promises_of_emitted_code(compiler, kind, name, method, tmp_path):
+    made = compiled(kind, name, method)
+    in_c = clean_c(emit_compiled(made, "c"), compiler, tmp_path)
+    in_python = clean_python(emit_compiled(made, "python"), tmp_path)
+    assert in_c[-len(in_python) :] == pytest.approx(in_python[-len(in_c) :], rel=1e-12)
+
+
 ORDERS = [
     *(
         ("field", name, method)
@@ -112,6 +159,11 @@ ORDERS = [
         for method in ("rkmk:rk4", "cf:cf4", "cg:cg4")
     ),
     *(("hamiltonian", "SO(4)", method) for method in ("vcg:triple_jump", "vrkmk:gauss2", "vcf:cf4")),
+    *(
+        (kind, "SO(5)", method)
+        for kind in ("field", "hamiltonian")
+        for method in ("taylor(4)", "ambient:rk4")
+    ),
 ]
 
 

@@ -6,7 +6,7 @@ from math import factorial, isqrt
 
 import pytest
 
-from codegen.groups import GL, SL, SO, SU, Affine, Heisenberg, Sp, Unitary, Unitriangular
+from codegen.groups import GL, SL, SO, SU, Affine, Heisenberg, Rotation, Sp, Unitary, Unitriangular
 from codegen.groups.capabilities import Projection
 from codegen.groups.linear_algebra import matmul
 from tests.codegen.groups.test_laws import (
@@ -176,3 +176,19 @@ def test_a_projection_leaves_a_quadratic_error(group):
 )
 def test_the_dimension_is_that_of_the_group(group, dim, rows):
     assert (group.dim, group.size) == (dim, rows**2)
+
+
+def test_the_symbols_of_the_entries_differ():
+    for group in (SO(10), SO(12)):
+        assert len(set(group.symbols("q"))) == group.size
+
+
+@pytest.mark.parametrize("group", [SO(4), SO(5), SU(2)], ids=lambda g: g.name)
+def test_a_rotation_preserves_the_length_of_a_point(group):
+    s = sampler(group, DIGITS)
+    d, y = s.domain, tuple(s.scalar() for _ in range(group.n))
+    moved = Rotation().actexp(d, group, s.vector(), y)
+    assert s.equal(pairing(moved, moved), pairing(y, y))
+    drifted = tuple(x * (1 + d.rational(1, 10**8)) for x in y)
+    back = Rotation().to_orbit(d, group, drifted, y)
+    assert abs(pairing(back, back)[0] - pairing(y, y)[0]) < 1e-20

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+from itertools import accumulate
 
 import mpmath
 import pytest
@@ -11,8 +12,9 @@ from cffi import FFI
 
 from codegen.build import build
 from codegen.ir.domain import FloatDomain, PreciseDomain
+from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
+from codegen.ir.matrix_product import MatrixCommutator, MatrixProduct
 from codegen.ir.precision import DOUBLE
-from codegen.ir.vector_function import MatrixExponential, MatrixInverse
 from codegen.printers.c.functions import FunctionPrinter as InC
 from codegen.printers.c.words import RESERVED as WORDS_OF_C
 from codegen.printers.python.functions import FunctionPrinter as InPython
@@ -143,19 +145,26 @@ def test_cancellation_in_the_squarings_is_seen():
     assert any(map(math.isnan, found)) or error <= 1e-3 * frobenius(expected)
 
 
+def arrays(function, a):
+    """The arguments as one list for each array."""
+    ends = list(accumulate(function.arrays))
+    return [list(a[end - size : end]) for end, size in zip(ends, function.arrays, strict=True)]
+
+
 def in_c(unit, function):
     printer = InC(unit, identify(unit, WORDS_OF_C), DOUBLE, "")
     lines = [line for table in unit.tables for line in printer.table(table)]
     lines += [line for f in unit.functions for line in (*printer.definition(f), "")]
     head = "void entry(const double *a, double *result)"
-    entry = [f"{head};", f"{head} {{ {function.name}(a, result); }}"]
+    given = [f"a + {sum(function.arrays[:k])}" for k in range(len(function.arrays))]
+    entry = [f"{head};", f"{head} {{ {function.name}({', '.join(given)}, result); }}"]
     source = "\n".join(["#include <math.h>", "#include <string.h>", *lines, *entry])
     ffi = FFI()
     ffi.cdef(f"{head};")
     library = ffi.dlopen(str(build({"probe.c": source})))
 
     def call(a):
-        result = ffi.new("double[]", len(a))
+        result = ffi.new("double[]", function.size)
         library.entry(ffi.new("double[]", list(a)), result)
         return list(result)
 
@@ -171,8 +180,8 @@ def in_python(unit, function):
         exec("\n".join(printer.definition(each)), namespace)
 
     def call(a):
-        result = [0.0] * len(a)
-        namespace[f"_{function.name}"](list(a), result)
+        result = [0.0] * function.size
+        namespace[f"_{function.name}"](*arrays(function, a), result)
         return result
 
     return call
@@ -182,8 +191,8 @@ def by_executor(unit, function):
     machine = Machine(unit, FloatDomain(0.0))
 
     def call(a):
-        result = [0.0] * len(a)
-        machine.call(function.name, list(a), result)
+        result = [0.0] * function.size
+        machine.call(function.name, *arrays(function, a), result)
         return result
 
     return call
@@ -195,14 +204,23 @@ def same(found, expected):
 
 @pytest.mark.parametrize("carried_out", [by_executor, in_python, in_c])
 @pytest.mark.parametrize(
-    "function", [MatrixExponential(3), MatrixExponential(5, 1), MatrixInverse(5)], ids=lambda f: f.name
+    "function",
+    [
+        MatrixExponential(3),
+        MatrixExponential(5, 1),
+        MatrixInverse(5),
+        MatrixProduct(3),
+        MatrixProduct(5),
+        MatrixCommutator(6),
+    ],
+    ids=lambda f: f.name,
 )
 def test_emitted_functions_agree_with_the_domain_in_every_bit(function, carried_out):
     listed = matrix_functions([function], DOUBLE)
     call = carried_out(Unit((), (), matrix_tables([function], DOUBLE), tuple(listed)), function)
     rng = random.Random(1)
     for scale in (1e-300, 1e-5, 1e-2, 0.1, 1.0, 30.0, 1e20):
-        a = [rng.gauss(0, 1) * scale for _ in range(function.size)]
+        a = [rng.gauss(0, 1) * scale for _ in range(sum(function.arrays))]
         assert same(call(a), function.in_doubles(a)), scale
 
 
@@ -223,7 +241,7 @@ def test_a_singular_matrix_has_no_inverse():
 def test_the_text_of_the_functions_does_not_grow_with_the_matrix():
     lengths = set()
     for n in (5, 9):
-        functions = [MatrixExponential(n, 1), MatrixInverse(n)]
+        functions = [MatrixExponential(n, 1), MatrixInverse(n), MatrixProduct(n), MatrixCommutator(n)]
         unit = Unit((), (), matrix_tables(functions, DOUBLE), tuple(matrix_functions(functions, DOUBLE)))
         printer = InC(unit, identify(unit, WORDS_OF_C), DOUBLE, "")
         lengths.add(sum(len(printer.definition(f)) for f in unit.functions))

@@ -1,0 +1,30 @@
+"""The domain of the formulas of scenes: expressions without products of matrices."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr
+from codegen.ir.matrix_product import BilinearFunction
+from codegen.ir.vector_calls import named
+
+
+class Formulas(ExprDomain):
+    """The expressions of a domain, in which sums of terms replace products and commutators of
+    matrices.
+
+    The formulas of a scene are differentiated, expanded in series, and evaluated by functions of other
+    libraries, none of which calls vector functions for them.
+    """
+
+    def __init__(self, domain: ExprDomain) -> None:
+        super().__init__(domain.space)
+        self.samples = domain.samples
+
+    def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return the terms of a product or commutator, and a call node for each result of other functions."""
+        called = named(function)
+        if isinstance(called, BilinearFunction):
+            return called.arithmetic(args)
+        return super().vector(function, args)

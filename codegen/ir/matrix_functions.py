@@ -1,0 +1,166 @@
+"""The exponential and the inverse of a matrix as vector functions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from codegen.ir import matrix_exponential, matrix_inverse
+from codegen.ir.vector_function import VectorFunction
+
+if TYPE_CHECKING:
+    from codegen.ir.domain import Scalar
+    from codegen.ir.expr import Expr
+
+EXPANDED = 4
+"""The exponential of a matrix A of expressions is expanded as a polynomial if the positions of the zeros in A
+imply that A^EXPANDED = 0.
+"""
+
+
+@dataclass(frozen=True)
+class MatrixExponential(VectorFunction):
+    """The exponential of a jet of n x n matrices (:mod:`codegen.ir.matrix_exponential`).
+
+    Level 0 is the exponential of a matrix. The arguments of level l + 1 are the arguments of level l followed
+    by their rates, and its results are the results of level l followed by their rates.
+    """
+
+    n: int
+    level: int = 0
+
+    @property
+    def name(self) -> str:
+        """The name in expressions and in emitted code."""
+        return f"expm{self.n}" + (f"_d{self.level}" if self.level else "")
+
+    @property
+    def size(self) -> int:
+        """The number of arguments and of results."""
+        return (1 << self.level) * self.n**2
+
+    @property
+    def operations(self) -> dict[str, int]:
+        """The number of operations for a polynomial of degree 12, without squarings."""
+        products = 5 * 3**self.level * self.n**3
+        return {"add": products, "mul": products}
+
+    def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return the rates of the results: the second half of the results of the next level."""
+        space, both = args[0].space, (*args, *rates)
+        next_level = MatrixExponential(self.n, self.level + 1)
+        expanded = next_level.expanded(both)
+        results = space.vector(next_level.name, both) if expanded is None else expanded
+        return tuple(results[self.size :])
+
+    def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
+        """Return the sum 1 + A + A^2/2 + ... if the positions of the zeros in A imply that only few terms are
+        non-zero; otherwise None."""
+        pattern = power = [int(not x.is_zero) for x in args]
+        if not is_nilpotent(self.n, pattern):
+            return None
+        count = 1
+        # The powers are first computed for a pattern of zeros and ones, so that no long expressions are
+        # created in vain.
+        while any(power):
+            count += 1
+            if count > EXPANDED:
+                return None
+            power = matrix_exponential.product(self.n, self.level, power, pattern)
+        space, size = args[0].space, self.n**2
+        diagonal = range(0, size, self.n + 1)
+        total = [space.one if k in diagonal else space.zero for k in range(self.size)]
+        term = list(args)
+        for k in range(1, count):
+            total = [x + y for x, y in zip(total, term, strict=True)]
+            divisor = space.coerce(k + 1)
+            term = [x / divisor for x in matrix_exponential.product(self.n, self.level, term, args)]
+        return tuple(total)
+
+    def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
+        """Return the exponential in doubles."""
+        return matrix_exponential.in_doubles(self.n, self.level, args)
+
+    def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the exponential for mpmath numbers."""
+        return matrix_exponential.in_digits(context, digits, self.n, self.level, args)
+
+    def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the exponential of power series without constant terms."""
+        # A product of more factors than this is zero, because each factor contains a power of h or is
+        # nilpotent.
+        longest = (self.n + self.level) * (ring.order + 2)
+        return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
+
+
+@dataclass(frozen=True)
+class MatrixInverse(VectorFunction):
+    """The inverse of an n x n matrix."""
+
+    n: int
+
+    @property
+    def name(self) -> str:
+        """The name in expressions and in emitted code."""
+        return f"inverse{self.n}"
+
+    @property
+    def size(self) -> int:
+        """The number of arguments and of results."""
+        return self.n**2
+
+    @property
+    def operations(self) -> dict[str, int]:
+        """The number of operations of an elimination."""
+        return {"add": self.n**3, "mul": self.n**3}
+
+    def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return -g^-1 r g^-1 for the rate r of g."""
+        inverse = args[0].space.vector(self.name, args)
+        inner = matrix_exponential.product(self.n, 0, rates, inverse)
+        return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
+
+    def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
+        """Return None."""
+        return None
+
+    def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
+        """Return the inverse in doubles; NaN for a singular matrix."""
+        return matrix_inverse.inverse(self.n, args, 1.0, abs) or (math.nan,) * self.size
+
+    def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the inverse for mpmath numbers; ZeroDivisionError for a singular matrix."""
+        return self._invertible(matrix_inverse.inverse(self.n, args, context.mpf(1), abs))
+
+    def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the inverse for power series; ZeroDivisionError if its constant terms are singular."""
+
+        def size(x: Scalar) -> int:
+            return int(ring.valuation(x) == 0)
+
+        return self._invertible(matrix_inverse.inverse(self.n, args, ring.one, size))
+
+    def _invertible(self, result: tuple[Scalar, ...] | None) -> tuple[Scalar, ...]:
+        if result is None:
+            raise ZeroDivisionError("the inverse of a singular matrix")
+        return result
+
+
+def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
+    """Return True if an n x n matrix with given positions of zeros is nilpotent for all values of its other
+    entries.
+
+    This is the case if the graph with an edge from i to j for each other entry (i, j) has no cycle.
+
+    >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
+    (True, False)
+    """
+    left = set(range(n))
+    while left:
+        ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
+        if not ends:
+            return False
+        left -= ends
+    return True

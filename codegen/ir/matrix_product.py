@@ -1,0 +1,115 @@
+"""Products and commutators of n x n matrices as vector functions."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from codegen.ir.matrix_exponential import product
+from codegen.ir.vector_function import VectorFunction
+
+if TYPE_CHECKING:
+    from codegen.ir.domain import Scalar
+    from codegen.ir.expr import Expr
+
+
+class BilinearFunction(VectorFunction):
+    """A bilinear function of two n x n matrices, which only adds and multiplies: the same in all domains."""
+
+    @property
+    def size(self) -> int:
+        """The number of results."""
+        return self.n**2
+
+    @property
+    def arrays(self) -> tuple[int, ...]:
+        """The lengths of the two matrices."""
+        return (self.n**2, self.n**2)
+
+    @abstractmethod
+    def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results in any domain."""
+
+    def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return f(a', b) + f(a, b')."""
+        space, size = args[0].space, self.size
+        total = (space.zero,) * size
+        for pair in ((*rates[:size], *args[size:]), (*args[:size], *rates[size:])):
+            changing = rates[:size] if pair[:size] == tuple(rates[:size]) else rates[size:]
+            if not all(x.is_zero for x in changing):
+                term = space.vector(self.name, pair)
+                total = tuple(x + y for x, y in zip(total, term, strict=True))
+        return total
+
+    def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
+        """Return the derivatives of the results with respect to one argument: entries of the other matrix."""
+        space = args[0].space
+        unit = [space.one if k == argument else space.zero for k in range(len(args))]
+        half = slice(0, self.size) if argument < self.size else slice(self.size, None)
+        changed = list(args)
+        changed[half] = unit[half]
+        return self.arithmetic(changed)
+
+    def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
+        """Return zeros if one matrix is zero, otherwise None."""
+        if all(x.is_zero for x in args[: self.size]) or all(x.is_zero for x in args[self.size :]):
+            return (args[0].space.zero,) * self.size
+        return None
+
+    def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
+        """Return the results in doubles."""
+        return self.arithmetic(args)
+
+    def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results for mpmath numbers."""
+        return self.arithmetic(args)
+
+    def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results for power series."""
+        return self.arithmetic(args)
+
+
+@dataclass(frozen=True)
+class MatrixProduct(BilinearFunction):
+    """The product a b."""
+
+    n: int
+
+    @property
+    def name(self) -> str:
+        """The name in expressions and in emitted code."""
+        return f"product{self.n}"
+
+    @property
+    def operations(self) -> dict[str, int]:
+        """The operations of a product."""
+        return {"add": self.n**3 - self.n**2, "mul": self.n**3}
+
+    def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return a b."""
+        return tuple(product(self.n, 0, args[: self.size], args[self.size :]))
+
+
+@dataclass(frozen=True)
+class MatrixCommutator(BilinearFunction):
+    """The commutator a b - b a."""
+
+    n: int
+
+    @property
+    def name(self) -> str:
+        """The name in expressions and in emitted code."""
+        return f"commutator{self.n}"
+
+    @property
+    def operations(self) -> dict[str, int]:
+        """The operations of two products and a difference."""
+        return {"add": 2 * self.n**3 - self.n**2, "mul": 2 * self.n**3}
+
+    def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return a b - b a."""
+        a, b = args[: self.size], args[self.size :]
+        pairs = zip(product(self.n, 0, a, b), product(self.n, 0, b, a), strict=True)
+        return tuple(x - y for x, y in pairs)

@@ -1,0 +1,71 @@
+"""Calls of vector functions in expressions, by their names.
+
+The name determines the function: ``expm3`` is the exponential of a 3 x 3 matrix, ``expm3_d1`` the exponential
+with its derivative, ``inverse5`` the inverse of a 5 x 5 matrix, ``product5`` the product of two 5 x 5
+matrices and ``commutator5`` their commutator.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import cache
+from typing import TYPE_CHECKING
+
+from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
+from codegen.ir.matrix_product import MatrixCommutator, MatrixProduct
+from codegen.ir.vector_function import VectorFunction
+
+if TYPE_CHECKING:
+    from codegen.ir.expr import Expr
+
+_OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
+    "inverse": MatrixInverse,
+    "product": MatrixProduct,
+    "commutator": MatrixCommutator,
+}
+_NAME = re.compile(r"(expm|inverse|product|commutator)(\d+)(?:_d(\d+))?")
+
+
+@cache
+def vector_function(name: str) -> VectorFunction | None:
+    """Return the vector function called name; None for any other name.
+
+    >>> vector_function("expm3_d1"), vector_function("sin")
+    (MatrixExponential(n=3, level=1), None)
+    """
+    match = _NAME.fullmatch(name)
+    if match is None:
+        return None
+    kind, n, level = match.groups(default="0")
+    return _OF_MATRICES[kind](int(n)) if kind in _OF_MATRICES else MatrixExponential(int(n), int(level))
+
+
+def named(name: str) -> VectorFunction:
+    """Return the vector function called name; ValueError for any other name."""
+    function = vector_function(name)
+    if function is None:
+        raise ValueError(f"unknown vector function {name}")
+    return function
+
+
+@cache
+def component(payload: str) -> tuple[VectorFunction, int] | None:
+    """Return the vector function and the index of the result that a call node denotes; None for other calls.
+
+    >>> component("inverse5.7"), component("sin")
+    ((MatrixInverse(n=5), 7), None)
+    """
+    name, dot, index = payload.partition(".")
+    function = vector_function(name) if dot else None
+    return None if function is None else (function, int(index))
+
+
+def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
+    """Return the derivative of the result with this index with respect to one argument."""
+    # The derivatives of all results of a call are computed together.
+    key = function.name, tuple(a.id for a in node.args), argument
+    known = node.space.derivatives
+    if key not in known:
+        known[key] = function.derivative(node.args, argument)
+    return known[key][index]
