@@ -294,7 +294,7 @@ def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
                 yield variant.claim(order.order)
 
 
-def family_in(given: Method | str) -> str:
+def family_in(given: object) -> str:
     """Return the family that an argument names; '' if it names none.
 
     >>> family_in("rkmk(2):rk4"), family_in("taylor(12)"), family_in("rk4")
@@ -302,6 +302,8 @@ def family_in(given: Method | str) -> str:
     """
     if isinstance(given, Method):
         return given.family
+    if not isinstance(given, str):
+        return ""
     alone, match = ALONE.fullmatch(given.strip()), PATTERN.fullmatch(given.strip())
     if alone is not None and alone["family"] in names() and not family_class(alone["family"]).has_tableau:
         return alone["family"]

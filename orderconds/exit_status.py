@@ -55,8 +55,12 @@ class Stopped(Exception):
 
 
 def json_text(value: Any) -> str:
-    """Return a JSON document as text. The text is indented and contains ASCII characters only; the keys keep
-    their order."""
+    r"""Return a JSON document as text. The text is indented and contains ASCII characters only; the keys keep
+    their order.
+
+    >>> json_text(["\u00fc"]).split()
+    ['[', '"\\u00fc"', ']']
+    """
     import json
 
     return json.dumps(value, indent=2, allow_nan=False)

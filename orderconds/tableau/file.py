@@ -215,7 +215,13 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
 
 
 def verify_name(name: str, where: str) -> None:
-    """Raise :class:`TableauError` if ``name`` cannot be the name of a tableau."""
+    """Raise :class:`TableauError` if ``name`` cannot be the name of a tableau.
+
+    >>> verify_name("two words", "--name")
+    Traceback (most recent call last):
+        ...
+    orderconds.errors.TableauError: --name: name = 'two words'; expected letters, digits, _ . + -
+    """
     if len(name) > MAX_NAME:
         raise TableauError(
             f"a name of {len(name)} characters, {name[:20]!r} ...",

@@ -121,7 +121,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     ),
     "recommend backwards": (
         lambda: codegen.recommend(RIGID, 1e-3, span=(1, 0)),
-        "span: 1, 0; expected an end after",
+        "span: 1, 0; expected an end that is later than the beginning",
     ),
     "recommend one tableau": (
         lambda: codegen.recommend(RIGID, 1e-3, tableaux="rk4"),

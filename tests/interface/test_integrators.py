@@ -242,7 +242,7 @@ def test_wrong_times_have_a_message() -> None:
         rigid("python").trajectory(START, 0.1, t_eval=[0, 1, 0.5])
     with pytest.raises(TypeError, match="either steps or t_eval"):
         rigid("python").trajectory(START, 0.1)
-    with pytest.raises(TypeError, match="expected end"):
+    with pytest.raises(TypeError, match="expected the argument end"):
         rigid("python", True).adaptive(START)
 
 
