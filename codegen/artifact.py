@@ -67,8 +67,8 @@ class Artifact:
         """Raise an InputError if this module would overwrite the files of an entry that belongs to another
         method.
 
-        Methods such as ``a.b`` and ``a-b`` have the same default name. A module with a prefix that the user
-        chose may be overwritten.
+        Two methods such as ``a.b`` and ``a-b`` have the same default module name. If the user chose the
+        prefix of one of the two modules, the files may be overwritten.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))

@@ -69,10 +69,11 @@ def _require_private(folder: Path) -> None:
 
 @cache
 def temporary_directory(why: str) -> Path:
-    """Return a folder for this process alone, removed at its end; ``why`` is logged once."""
+    """Return a temporary folder for this process alone. It is removed when the process ends. The reason
+    ``why`` is logged once."""
     logging.getLogger("orderconds").warning(
         "orderconds: the cache cannot be used (%s); compiled modules are kept in a temporary folder until "
-        "the end; set XDG_CACHE_HOME to a folder that you own",
+        "the process ends; set XDG_CACHE_HOME to a folder that you own",
         why,
     )
     folder = Path(tempfile.mkdtemp(prefix="orderconds-"))

@@ -27,8 +27,8 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # The library is closed. Otherwise loading a rebuilt library of the same name would return the old
-            # library.
+            # The library has no such function and is closed. If it stayed open, loading a rebuilt library of
+            # the same name would return the old library.
             self._ffi.dlclose(self._library)
             raise
 
@@ -72,7 +72,7 @@ class CompiledIntegrator(Integrator):
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
         """Yield the arguments for inputs and statistics. After the call, raise the error that an input
-        function has raised in it, if any."""
+        function has raised during the call, if any."""
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
         counted = [self._ffi.new(f"{prefix}statistics *")] if blocks else []

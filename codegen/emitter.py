@@ -50,7 +50,7 @@ from orderconds.tableau import Tableau
 SINGLE_IS = "single: constants are rounded once, implicit stages converge to single precision"
 
 NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
-"""A remark in the header of a scene whose field is not smooth."""
+"""A remark in the header of emitted code, for a scene whose field is not smooth."""
 
 COUNTED = "; the numbers of sweeps above are for double precision"
 """A remark in the header if the solvers were compared in double precision."""
@@ -85,7 +85,8 @@ class Compiled(Optimised):
     """A method on a scene, ready to be printed: the optimised program with its kernel.
 
     ``solvers`` are the solvers of the implicit blocks; ``asked`` is the value of the option ``--solver``.
-    ``form`` is the classical form whose equations ``scene`` contains, None for the equations as printed.
+    ``form`` is the classical form whose equations ``scene`` contains. None means that ``scene`` contains its
+    own equations.
     """
 
     kernel: Kernel
@@ -95,8 +96,8 @@ class Compiled(Optimised):
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
-    """Return the optimised step program of a method on a scene. The group need not have closed forms, because
-    no kernel is built."""
+    """Return the optimised step program of a method on a scene. The group need not have closed forms of
+    its operations, because no kernel is built."""
     problem, lowered = problem_for(scene, method), lower(scene, method)
     program, trace = optimise(lowered, problem, composed=lower_composed(scene, method))
     return Optimised(scene, method, problem, lowered, program, trace)
@@ -235,7 +236,7 @@ def emit_compiled(
 ) -> Artifact:
     """Return a compiled method as a module of a target.
 
-    ``named`` contains the names of scene and method that the header's command uses. ``order`` is the result
+    ``named`` contains the names of scene and method in the header's command. ``order`` is the result
     of :func:`certified_order`, if the caller has computed it already.
     """
     scene, method = compiled.scene, compiled.method

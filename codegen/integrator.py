@@ -224,13 +224,13 @@ class Integrator(ABC):
     def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
         """Return the states at these times, reached with equal steps of at most h between two times."""
         if not math.isfinite(h) or h == 0:
-            raise ValueError(f"expected a step size, found {h}")
+            raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
         for time in monotone(t, times):
             # A quotient such as 0.3/0.1 is not an integer because of rounding.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
-                raise ValueError(f"expected a longer step size, found {h}")
+                raise ValueError(f"expected a step size that needs finitely many steps, found {h}")
             steps = count(math.ceil(quotient), "steps")
             if steps:
                 final, _ = self._call(begun, t, (time - t) / steps, steps, 0)

@@ -1,4 +1,4 @@
-"""``orderconds recommend``: find the fastest method of the library for a scene, an error and needs."""
+"""``orderconds recommend``: find the fastest method for a scene that reaches an error and satisfies needs."""
 
 from __future__ import annotations
 
@@ -121,12 +121,15 @@ def control(asked: Request, place: Result) -> str:
 
 def searched(result: Recommendation) -> str:
     """Return a sentence on the extent of the search."""
-    text = f"{result.predicted} methods predicted, {result.raced} raced in {result.seconds:.0f} s"
+    text = (
+        f"{result.predicted} methods compared by prediction, {result.raced} by measurement, "
+        f"in {result.seconds:.0f} s"
+    )
     if result.kinks:
         text += (
-            f"; the solution crosses {result.kinks} points where the field is not smooth, so the order of a "
+            f"; the solution crosses {result.kinks} points where the field is not smooth, so methods lose "
         )
-        text += "method is lost there: errors were measured, but other spans may need other steps"
+        text += "their order there; errors were measured for this span, other spans may need other steps"
     text += "" if result.complete else "; the budget ended the search, --budget S allows more"
     if result.referred >= NOTICED:
         text += f"; the reference solution took {result.referred:.0%} of the budget"

@@ -98,7 +98,7 @@ def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequenc
 
 
 def _times_stumpff(d: Domain, factor: S, k: int, argument: S | None) -> S:
-    """Return factor times c_k(argument). If ``argument`` is None, it means zero, where c_k = 1/k!."""
+    """Return factor times c_k(argument). The argument None means zero, where c_k = 1/k!."""
     value: S = d.rational(1, max(k, 1)) if argument is None else d.call(f"stumpff{k}", argument)
     return factor * value
 

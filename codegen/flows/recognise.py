@@ -2,7 +2,7 @@
 
 Each kind of flow has a function that examines the formula of a part. It returns the part with its flows, the
 part with the reason why no flow is known, or None if another kind of flow may apply. V(q) is a kick. On T*R^n
-a function of the momentum alone is a drift, and a quadratic function of both is a linear flow if the square
+a function of the momentum alone is a drift. A quadratic function of q and mu is a linear flow if the square
 of its matrix is diagonal. On other groups a quadratic function of the momentum, in the body frame or in the
 space frame, is a sum of rotations (:mod:`codegen.flows.top`).
 """

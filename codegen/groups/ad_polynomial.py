@@ -17,8 +17,9 @@ from codegen.ir.domain import Domain
 
 
 def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = False) -> tuple[S, S]:
-    """Return b and c such that the product of the word's functions of t is 1 + b t + c t^2, where t^3 = -z t.
+    """Return b and c such that the word equals 1 + b t + c t^2, where t^3 = -z t.
 
+    A word is a product of functions of t (:mod:`codegen.ir.ad_series`).
     If ``signed`` is true, z may be negative.
 
     The product exp(a t) dexp(s t) is formed directly, as (exp((a + s) t) - exp(a t))/(s t). Other factors are
@@ -70,7 +71,7 @@ def _exponentials(
 
 
 def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
-    """Return b and c of dexp or of the truncated dexpinv, without the power of the factor."""
+    """Return b and c of dexp or of the truncated dexpinv; the exponent ``power`` of the factor is ignored."""
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)

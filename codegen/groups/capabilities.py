@@ -278,8 +278,8 @@ class Covered(LieGroup):
 
     @abstractmethod
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of q under the covering map, by the shortest polynomials. They are valid for q
-        that satisfies the equations of the cover."""
+        """Return the image of q under the covering map. The result is computed by the shortest polynomials,
+        which are valid only if q satisfies the equations of the cover."""
 
     @abstractmethod
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
@@ -376,7 +376,7 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return sets of coordinates, each of which all other coordinates determine."""
+        """Return sets of coordinates. Each set can be computed from the coordinates outside the set."""
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:

@@ -56,7 +56,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.expmul(d, xi, q) + self.base.transport(d, xi, n, mu)
 
     def variants(self) -> Sequence[Cotangent]:
-        """Return the bundles over the variants of the base."""
+        """Return T*G for each implementation of the base group G."""
         return tuple(Cotangent(base) for base in self.base.variants())
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -77,9 +77,9 @@ class DualDomain:
         return Dual(d.call(function, x.real), slope * x.rate)
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Raise ArithmeticError: groups with closed forms call no vector functions."""
+        """Raise ArithmeticError, because vector functions of dual numbers are not implemented."""
         raise ArithmeticError(f"{function} of dual numbers; expected a Stumpff function")
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise ArithmeticError, because no iteration runs over dual numbers."""
-        raise ArithmeticError("dual numbers are not iterated")
+        raise ArithmeticError("iterations over dual numbers are not supported")

@@ -32,7 +32,7 @@ class Galilean(Semidirect):
 
 
 class _Events(MatrixColumns):
-    """Events (position, time) with rotations and boosts."""
+    """The representation of rotations and boosts on events (position, time)."""
 
     def _inverse(self, d: Domain, group: LieGroup, g: Vector[S]) -> Vector[S]:
         columns, velocity = [g[j:9:3] for j in range(3)], g[9:]

@@ -102,7 +102,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
 
     def opposite_exponential(self, d: Domain, a: Vector[S], exponential: Vector[S]) -> Vector[S]:
         """Return exp(-a) for a matrix a of the algebra, given exp(a)."""
-        # An inversion would lose the digits in which the largest and the least singular value differ.
+        # An inversion would lose log10(c) digits, where the condition number c is the ratio of the largest to
+        # the least singular value.
         return self._exponential(d, tuple(-x for x in a))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -142,7 +143,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self.dual_vee(d, product(d, moved, transposed(inverse, self.n), self.n))
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_g mu: <Ad*_g mu, y> = <mu, Ad_g y>. With the matrix M of mu it is g^T M g^-T."""
+        """Return Ad*_g mu: <Ad*_g mu, y> = <mu, Ad_g y>. If mu has the matrix M, the
+        result has the matrix g^T M g^-T."""
         return self._dual_conjugated(d, g, mu, self.inverse(d, g))
 
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -224,7 +226,7 @@ class IsometryGroup(MatrixGroup, Projection):
         return matmul(g, defect, self.n)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations g^-1 g = 1, where g^-1 is the transpose of the form."""
+        """Return the equations g^-1 g = 1, where g^-1 is computed as J^-1 g^T J."""
         name = "g^T g = 1" if all(p == (i, 1) for i, p in enumerate(self.form)) else "g^T J g = J"
         unit: Vector[S] = self.identity(d)
         pairs = zip(matmul(self.inverse(d, g), g, self.n), unit, strict=True)

@@ -31,19 +31,21 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """The entries of each place of a matrix: pairs of the index of a basis matrix and its entry."""
+        """For each place (row, column), the basis matrices with a non-zero entry at this place: pairs of the
+        index of the basis matrix and the entry."""
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """The entries of each place of a matrix: pairs of the index of a matrix of the dual basis and its
-        entry."""
+        """For each place (row, column), the matrices of the dual basis with a non-zero entry at this place:
+        pairs of the index of the matrix and the entry."""
         return _by_place(self.dual, self.n**2)
 
     @cached_property
     def nilpotency(self) -> int:
-        """The least k such that all products of k matrices with the zeros of the basis vanish; 0 if no such k
-        exists."""
+        """The least k such that all products of k matrices vanish; 0 if no such k exists.
+
+        The matrices are all matrices that are zero at each place where every basis matrix is zero."""
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
         paths, k = {(i, i) for i in range(n)}, 0

@@ -31,7 +31,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         large coordinates. A component of x^3 outside the algebra that does not vanish identically vanishes at
         most on a fraction 3/2^61 of such points.
         """
-        # Powers modulo the prime 2^61 - 1 are irregular integers without a random seed.
+        # The coordinates are powers modulo the prime 2^61 - 1: integers without a pattern, and the same
+        # integers in each run.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)

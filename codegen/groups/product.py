@@ -57,7 +57,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def offers(self, capability: type[C]) -> C | None:
         """Return this product as a group with a capability; None if a factor lacks the capability."""
         own = super().offers(capability)
-        if issubclass(DirectProduct, capability):  # the product has this capability for all factors
+        if issubclass(DirectProduct, capability):  # every product has this capability
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 

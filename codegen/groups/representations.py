@@ -40,7 +40,7 @@ class Representation(ABC):
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """Whether rho is Ad, which covering groups share."""
+    """True if rho is Ad, which is the same for a group and its cover."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:

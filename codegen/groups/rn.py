@@ -71,7 +71,7 @@ class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation, Projection,
         return tuple(-a for a in g)
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return x: the matrix of a translation minus the unit matrix has the square zero."""
+        """Return x. The matrix X of x has X^2 = 0, so cay(X) = 1 + X, which is the translation by x."""
         return x
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -126,7 +126,7 @@ class Semidirect(
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return (exp(x) g, rho(exp x) a + phi(x) u)."""
         q, y = self._element(g)[0], self._split(x)[0]
-        # A variant of the linear factor may have a shorter formula for the first part.
+        # A variant of the linear factor may have a shorter formula for exp(x) g.
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

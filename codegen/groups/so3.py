@@ -261,8 +261,8 @@ class SO3(
         return matmul(g, defect, 3)
 
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return the indices of the rows and of the columns. Each row is the cross product of the next two
-        rows, in cyclic order, and each column of the next two columns."""
+        """Return the indices of the rows and of the columns. In cyclic order, each row is the cross
+        product of the next two rows, and each column is the cross product of the next two columns."""
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
 

@@ -40,7 +40,7 @@ class BallDomain:
     """Midpoints of Arb balls with a given number of decimal digits.
 
     ``h`` is an mpmath number, a float or a Fraction; :meth:`scalar` converts numbers of these types, and
-    :meth:`mpf` converts a scalar back. OverflowError is raised for the function of an argument of
+    :meth:`mpf` converts a scalar back. OverflowError is raised if an argument of a function is
     2^:data:`codegen.ir.domain.LARGEST_BITS` or more.
     """
 
@@ -129,7 +129,7 @@ class BallDomain:
         if isinstance(called, MatrixExponential):
             first = numbers[: called.n**2]
             if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
-                raise OverflowError("the exponential of a matrix of this norm")
+                raise OverflowError("the exponential of a matrix needs finite entries of at most 2^40")
             # The exponential may be smaller than the terms of its series by a factor exp(-2 norm).
             norm = float(called.n * max(abs(x) for x in first))
             with precision(self.bits + 64 + min(2**13, 3 * int(norm))):

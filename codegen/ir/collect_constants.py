@@ -134,7 +134,7 @@ class _Gathering:
         return self.written[node.id]
 
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
-        """Return c (1/y) as d (e/y), where e is |c| of the first term that reads 1/y."""
+        """Return c (1/y) as the pair (d, e/y) with d = c/e; e is |c| of the first term that reads 1/y."""
         if not _is_inverse(atom):
             return c, atom
         # A numerator other than 1 costs no more than the numerator 1, and saves the product of the first

@@ -45,7 +45,10 @@ def always(yes: Expr, no: Expr) -> Expr:
 
 
 def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], where: str) -> Condition:
-    """Return a condition of sympy; ``node`` reads a formula. :class:`SceneError` for any other condition."""
+    """Return a condition that sympy represents; ``node`` reads the formulas in the condition.
+
+    :class:`SceneError` is raised for a condition that is no comparison and is not joined by And, Or or Not.
+    """
     import sympy
 
     def inner(e: sympy.Basic) -> Condition:

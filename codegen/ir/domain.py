@@ -214,7 +214,7 @@ LARGEST_BITS = 16384
 class PreciseDomain:
     """mpmath numbers with a given number of decimal digits; each domain has its own mpmath context.
 
-    OverflowError is raised for the function of an argument of 2^:data:`LARGEST_BITS` or more. mpmath numbers
+    OverflowError is raised if an argument of a function is 2^:data:`LARGEST_BITS` or more. mpmath numbers
     do not overflow: without this bound, an iteration that diverges would compute the sine of a number with
     millions of digits.
     """
@@ -371,7 +371,7 @@ class SeriesDomain:
             return (k * c - d) * self.ring.rational(1, 2)
         if "curvature" in function:
             k = int(function[-1])
-            # The rule for c_k', applied twice.
+            # The formula follows from the rule for c_k', applied twice.
             c, d, e = (self.call(f"stumpff{k + i}", z) for i in (4, 3, 2))
             return (k * (k + 2) * c - (2 * k + 1) * d + e) * self.ring.rational(1, 4)
         if "stumpff" in function:
@@ -425,7 +425,7 @@ class SeriesDomain:
             return self.ring.zero
         if self.ring.valuation(a) < power:
             raise ArithmeticError("a quotient of power series has a pole at h = 0")
-        # Both are divided by h^valuation, after which the divisor is a unit of the ring.
+        # Both series are divided by h^power; the divisor is then a unit of the ring.
         shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
         return next(shifted) / next(shifted)
 

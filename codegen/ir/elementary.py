@@ -75,8 +75,8 @@ ELEMENTARY = {
 """The functions by name."""
 
 MATHEMATICAL = ("sqrt", "sin", "cos", "exp", "log", *ELEMENTARY)
-"""All functions of one argument with this name in the mathematical libraries of C, Python, mpmath and
-python-flint."""
+"""The functions of one argument that have the same name in the mathematical libraries of C, Python, mpmath
+and python-flint."""
 
 ANGLE = "atan2"
 """The angle of the point (x, y), from -pi to pi, as a function of y and x."""

@@ -171,8 +171,8 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # The extrapolation of degree 0 is u1, and its error is the change of the unknowns. A start with half of
-    # this error is hardly better.
+    # The extrapolation of degree 0 is u1, and its error is the change of the unknowns. An extrapolation of a
+    # higher degree whose error exceeds half of this change is hardly better than u1.
     ROUGH: ClassVar[float] = 0.5
     # This limit is hardly ever reached. Until a step converges, each try halves the step, so 100 tries reach
     # 2^-100 h. After that, each failure replaces the factor between step sizes by its square root, and nine

@@ -171,7 +171,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])
-        # c_k is expanded at 0 only: its derivatives are rational there, and the angles vanish with h.
+        # c_k is expanded at 0 only, because its derivatives are rational there. The angles tend to 0 with h.
         if not low.is_zero:
             raise NotLinearised("the argument of a Stumpff function does not vanish at h = 0")
         # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so the second derivative is twice the last coefficient.

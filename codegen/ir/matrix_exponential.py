@@ -99,7 +99,7 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # The terms of all factors with the same inner index are neighbours in the sum.
+                # For each inner index, the terms of all pairs of factors are added one after the other.
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))

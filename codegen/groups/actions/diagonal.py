@@ -14,8 +14,9 @@ from codegen.ir.domain import Domain
 class DiagonalAction(Action):
     """The diagonal action of a group on a product of manifolds, g.(y1, y2, ...) = (g.y1, g.y2, ...).
 
-    The coordinates of the points follow one another, in the order of ``actions``. An example is a frame
-    beside the trajectory that carries it: left multiplication beside rotation or motion of points.
+    The coordinates of the points follow one another, in the order of ``actions``. An example is a pair
+    of a frame and a point: the group acts on the frame by left multiplication, and on the point by a rotation
+    or a rigid motion.
     """
 
     def __init__(self, *actions: Action) -> None:

@@ -31,8 +31,8 @@ class FactorwiseAction(Action):
         self.name = " x ".join(action.name for action in actions)
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` unless there is one action for each factor, which the
-        factor admits."""
+        """Raise :class:`codegen.errors.SceneError` unless there is one action for each factor, and each
+        factor admits its action."""
         self.require(group, DirectProduct, where)
         factors = group.require(DirectProduct).factors
         if len(factors) != len(self.actions):

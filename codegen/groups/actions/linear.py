@@ -37,7 +37,7 @@ class Linear(Action):
         if group.offers(Rotations) is None:
             return y
         squared = dot(start, start)
-        # The quotient is zero where the orbit is the origin alone.
+        # If ``start`` is zero, the orbit is the origin alone, and the function ``quotient`` returns 0.
         defect = d.call("quotient", squared - dot(y, y), squared)
         return rescaled(d, y, defect)
 
