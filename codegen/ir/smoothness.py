@@ -22,7 +22,8 @@ Sides = tuple[int, ...]
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
-    """Return the selections in expressions, arguments before users."""
+    """Return the selections in expressions. A selection inside an argument of another selection comes
+    first."""
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
 
 
@@ -91,7 +92,7 @@ def features(roots: Sequence[Expr]) -> str:
 
 
 SHOWN = 3
-"""The number of selections that a text lists."""
+"""The largest number of selections that a text lists."""
 
 
 def _argument(node: Expr) -> str:
