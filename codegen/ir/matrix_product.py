@@ -46,8 +46,9 @@ class BilinearFunction(VectorFunction):
         return total
 
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
-        """Return the derivatives of the results with respect to one argument. They are linear in the entries of
-        the matrix that does not contain the argument.
+        """Return the derivatives of the results with respect to one argument.
+
+        They are linear in the entries of the matrix that does not contain the argument.
         """
         space = args[0].space
         unit = [space.one if k == argument else space.zero for k in range(len(args))]

@@ -80,7 +80,7 @@ def features(roots: Sequence[Expr]) -> str:
         if node.op != "call":
             continue
         if isinstance(node.payload, PiecewisePolynomial):
-            words.append(f"a table at {len(node.payload.knots)} points")
+            words.append(f"a table with {len(node.payload.knots)} knots")
         elif node.payload == ANGLE:
             words.append(f"{node} where it jumps from pi to -pi")
         elif node.payload == ABSOLUTE:

@@ -205,7 +205,7 @@ class _Chains:
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Return x + y or x - y for two terms c x and c y, or c x and -c y, with the same late value c."""
+        """Return the terms c x and c y of a sum as one term c (x + y) or c (x - y), for a late value c."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 

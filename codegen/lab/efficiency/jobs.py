@@ -99,7 +99,7 @@ class Jobs(Sequence[Job]):
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the delay of a queue: log2 of the ratio of its predicted time to the least predicted time."""
+        """Return the delay of a queue: log2 of its predicted time divided by the least predicted time."""
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
         ratios = [
