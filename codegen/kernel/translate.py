@@ -258,7 +258,7 @@ class _Translation:
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # Error estimates and outputs are ordered together, so that they share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # If flows are deferred, the core of the step and the final flows have a duration as an input.
+        # If flows are deferred, the duration of a joined flow or the time of all steps may be an input.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),

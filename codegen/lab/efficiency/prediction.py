@@ -54,7 +54,7 @@ of a method is much larger.
 """
 
 FAR = 10.0
-"""An error is far from another error if it is FAR times as large."""
+"""Methods do not come close to an error if their least error is more than FAR times as large."""
 
 CALL = 8.0
 """The time in nanoseconds of the loop around a step, which reads and writes the state."""

@@ -187,7 +187,9 @@ class Search:
     def _next(self) -> list[Recipe]:
         """Return the next recipes to emit: the recipes with the largest predicted gains for all goals.
 
-        The predicted gain for a goal is log(best measured time/predicted time).
+        The predicted gain for a goal is log(best measured time/predicted time). If no measured recipe
+        reaches the goal, the safety factor times the least predicted time replaces the best measured time.
+
         If no recipe of a kind was measured yet, only one recipe of this kind is returned.
         """
         gains: dict[Recipe, float] = defaultdict(float)
