@@ -89,7 +89,7 @@ class MatrixExponential(VectorFunction):
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the exponential of power series without constant terms."""
-        # A product of more factors than this is zero, because each factor contains a power of h or is
+        # A product of more than ``longest`` factors is zero, because each factor contains a power of h or is
         # nilpotent.
         longest = (self.n + self.level) * (ring.order + 2)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
@@ -149,10 +149,10 @@ class MatrixInverse(VectorFunction):
 
 
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
-    """Return True if an n x n matrix with given positions of zeros is nilpotent for all values of its other
-    entries.
+    """Return True if every n x n matrix with zeros at the zeros of ``pattern`` is nilpotent.
 
-    This is the case if the graph with an edge from i to j for each other entry (i, j) has no cycle.
+    This is the case if the graph with an edge from i to j for each non-zero entry (i, j) of ``pattern`` has
+    no cycle.
 
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 
 class BilinearFunction(VectorFunction):
-    """A bilinear function of two n x n matrices, which only adds and multiplies: the same in all domains."""
+    """A bilinear function of two n x n matrices. It only adds and multiplies, so it has one formula for all
+    domains.
+    """
 
     @property
     def size(self) -> int:
@@ -33,7 +35,7 @@ class BilinearFunction(VectorFunction):
         """Return the results in any domain."""
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return f(a', b) + f(a, b')."""
+        """Return f(a', b) + f(a, b'), the derivative of f(a, b) for rates a' and b' of the matrices."""
         space, size = args[0].space, self.size
         total = (space.zero,) * size
         for pair in ((*rates[:size], *args[size:]), (*args[:size], *rates[size:])):
@@ -44,7 +46,10 @@ class BilinearFunction(VectorFunction):
         return total
 
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
-        """Return the derivatives of the results with respect to one argument: entries of the other matrix."""
+        """Return the derivatives of the results with respect to one argument.
+
+        They are linear in the entries of the matrix that does not contain the argument.
+        """
         space = args[0].space
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)

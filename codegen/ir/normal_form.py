@@ -20,7 +20,7 @@ Monomial = tuple[tuple[int, int], ...]
 Polynomial = dict[Monomial, Number]
 
 Relation = tuple[tuple[str, str], Sequence[tuple[Number, tuple[str, ...]]]]
-"""A product of two symbols, and the terms (factor, symbols) that equal it."""
+"""A product of two symbols, and the terms (factor, symbols) of a sum that equals the product."""
 
 ONE = Number.rational(1)
 MOST_TERMS = 400
@@ -65,12 +65,13 @@ class NormalForms:
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
-        """Return an expression that equals root wherever the relations hold. If the expansion is too long,
-        root itself is returned."""
+        """Return an expression that equals the expression ``root`` wherever the relations hold. If the
+        expansion is too long, ``root`` itself is returned."""
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # Returning root is correct, because the caller only compares or emits the result.
+            # The result must only equal root wherever the relations hold, and root itself satisfies this
+            # condition.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:

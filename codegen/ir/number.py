@@ -162,8 +162,8 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
-        # The value is computed to 40 digits and then rounded to a double, which has 17. The first error is
-        # negligible.
+        # The value is computed to 40 digits and then rounded to a double, which has 17 digits. The error of
+        # the value with 40 digits is negligible.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:

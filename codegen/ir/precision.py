@@ -22,7 +22,8 @@ significand."""
 
 @dataclass(frozen=True)
 class Precision:
-    """A binary format of IEEE 754: ``bits`` of significand, its C type, and the suffix of C names.
+    """A binary format of IEEE 754: the number of ``bits`` of its significand, its C type, and the suffix of C
+    names.
 
     ``largest`` is the greatest finite number.
     """
@@ -49,7 +50,7 @@ class Precision:
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True
         """
-        # Both units are powers of two, so their quotient is exact.
+        # Both unit roundoffs are powers of two, so their quotient is exact.
         return tolerance * (self.unit / UNIT)
 
     def round(self, value: Number | Fraction | float) -> float:

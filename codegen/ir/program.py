@@ -2,7 +2,7 @@
 
 A value has one of five kinds (:class:`codegen.ir.values.Kind`). Each variable is assigned once. Equations
 that depend on one another form a :class:`Solve` block u = g(u). A block has unknowns u, a body that computes
-values from the unknowns, and the values g(u) of the body that must equal the unknowns, called images. A
+values from the unknowns, and images, which are the values g(u) of the body that must equal the unknowns. A
 method is lowered to *one* block with all its stages; the passes find the order in which stages can be solved
 one after the other.
 
@@ -73,8 +73,8 @@ class Solve:
 
     Statements after the block may read values of the body, which are then evaluated at the solution.
     ``starts`` are the first values of the unknowns: they have the kinds of the unknowns and are known before
-    the block. ``residuals`` may be empty. Otherwise there is one residual for each unknown, of the same size,
-    and the residuals vanish together exactly where unknowns and images agree.
+    the block. ``residuals`` may be empty. Otherwise there is one residual for each unknown, with the scale of
+    the unknown. All residuals are zero if and only if all unknowns equal their images.
     """
 
     label: str
@@ -112,8 +112,9 @@ class Program:
     """One step: inputs, statements, and the new state. An output has the name of the input that it replaces.
 
     With ``substeps`` a step executes the statements once for each substep, in order. In the ``frame``
-    :data:`BODY` the statements read m = Ad*_q mu in place of mu, and return the new m'. A step then computes
-    m first, and mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m last, where q' is the new q.
+    :data:`BODY` the statements read m = Ad*_q mu in place of mu, and return the new m'. A step then begins
+    with the computation of m. It ends with the computation of the new momentum mu + Ad*_{q'^-1} m' -
+    Ad*_{q^-1} m, where q' is the new q.
     """
 
     name: str
@@ -224,7 +225,7 @@ class Builder:
         return self.add(Field(bool(time)), target, y, *time)
 
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
-        """Append target = sum of coefficient * variable; an empty sum is ``zero``."""
+        """Append target = sum of coefficient * variable; an empty sum becomes the operation ``zero``."""
         var = self.fresh(target, kind)
         # Terms with coefficient zero are omitted, because passes assume that a stage depends on all arguments
         # of its sums.

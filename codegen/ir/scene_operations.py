@@ -70,7 +70,8 @@ class BodyVelocity(OfScene):
 
 @dataclass(frozen=True)
 class BodyForce(OfScene):
-    """N(q, P), the force in the body frame; a force and a :class:`BodyVelocity` count as one evaluation."""
+    """N(q, P), the force in the body frame. Together with a :class:`BodyVelocity` it counts as one
+    evaluation."""
 
     name = "force"
     evaluates_scene = True

@@ -47,5 +47,5 @@ def sign_of_number(x: Scalar) -> int | None:
     """Return the sign of a real number; None for a NaN or a complex number."""
     try:
         return 1 if x > 0 else -1 if x < 0 else 0 if x == 0 else None
-    except TypeError:  # in mpmath, the root of a negative number is complex
+    except TypeError:  # Complex numbers, such as mpmath roots of negative numbers, have no order.
         return None

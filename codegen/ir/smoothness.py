@@ -22,7 +22,8 @@ Sides = tuple[int, ...]
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
-    """Return the selections in expressions, arguments before users."""
+    """Return the selections in expressions. A selection inside an argument of another selection comes
+    first."""
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
 
 
@@ -79,7 +80,7 @@ def features(roots: Sequence[Expr]) -> str:
         if node.op != "call":
             continue
         if isinstance(node.payload, PiecewisePolynomial):
-            words.append(f"a table at {len(node.payload.knots)} points")
+            words.append(f"a table with {len(node.payload.knots)} knots")
         elif node.payload == ANGLE:
             words.append(f"{node} where it jumps from pi to -pi")
         elif node.payload == ABSOLUTE:
@@ -91,7 +92,7 @@ def features(roots: Sequence[Expr]) -> str:
 
 
 SHOWN = 3
-"""The number of selections that a text lists."""
+"""The largest number of selections that a text lists."""
 
 
 def _argument(node: Expr) -> str:

@@ -1,8 +1,8 @@
 """Piecewise polynomials of one variable: a table of numbers in a formula defines such a function.
 
-A piecewise polynomial is a name of a function, such as ``sin``, to which the data are added, so that
-expressions and domains need no other node for it. The name is a digest of the data: equal tables have equal
-names.
+Expressions call a piecewise polynomial like any named function, for example ``sin``. The object that serves
+as the name also contains the data, so expressions and domains need no further kind of node. The name is a
+digest of the data: equal tables have equal names.
 """
 
 from __future__ import annotations

@@ -47,9 +47,10 @@ class OrderLoop:
     """The code that computes order 0, and the code that computes every other order n.
 
     ``first`` are the values of ``names``, which later orders read. ``start`` are the coefficients 1 of the
-    coordinates, ``following`` the coefficients n + 1; they read the coefficients n, called ``coordinates``,
-    and the inner sums, called ``sums``. Inner sum k is formed from the coefficients of two series;
-    ``left[k]`` and ``right[k]`` are the coefficients n of these series.
+    coordinates. ``following`` are the coefficients n + 1 of the coordinates. The code of order n reads the
+    coefficients n of the coordinates as the symbols ``coordinates``, and the inner sums as the symbols
+    ``sums``. Inner sum k is formed from the coefficients of two series; ``left[k]`` and ``right[k]`` are the
+    coefficients n of these series.
     """
 
     names: tuple[str, ...]

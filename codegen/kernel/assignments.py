@@ -46,14 +46,16 @@ class Assignments:
             self.body.append(self._start())
         for k, block in enumerate(self.blocks):
             inside: list[Let] = []
-            # If the kernel remembers solutions, one statement before all loops starts all of them.
+            # If the kernel remembers solutions, one statement before all loops sets the starting values of
+            # all loops.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
             # The matrix to leading order in h comes before the body. It is computed once, before the sweeps,
             # so it must not read body values.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
-            # Skip corrected values that nothing reads later: they would cost assignments in every sweep.
+            # Skip kept body values that no later expression reads: they would cost assignments in every
+            # sweep.
             read = {n.payload for n in walk([*self.roots, *self._later(k)]) if n.op == "sym"}
             for name, x in block.kept:
                 if name in read:
@@ -111,10 +113,10 @@ class Assignments:
         values = [x for block in self.blocks for x in block.starts]
         # The starting values of all loops are computed together, before the first loop.
         if any(self.level[x.id] >= 0 for x in values):
-            raise AssertionError("a block starts from the unknowns of another")
+            raise AssertionError("a starting value depends on the unknowns of a block")
         for node in walk(values):
             # Later statements of the step read this value, too. The start can be skipped, so the value is
-            # assigned before it.
+            # assigned before the start.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
@@ -138,8 +140,8 @@ class Assignments:
     def _is_short(self, k: int) -> bool:
         """Return True if the values of block k that are read after the loop should be computed again."""
         rest = [*self._later(k), *self.roots]
-        # Values computed again use the final unknowns, as after one more sweep. This is done if it costs less
-        # than half of a sweep.
+        # If it costs less than half of a sweep, the values are computed again from the final unknowns, as in
+        # one more sweep.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:

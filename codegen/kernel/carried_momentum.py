@@ -1,7 +1,7 @@
 """The frame of the momentum, space or body, in a kernel and in the run that calls the kernel.
 
-The program computes with the momentum in one of the two frames; the arguments and results of emitted code
-contain the momentum in one of the two frames. If the program uses the body frame and the emitted code the
+The program computes with the momentum in one frame. The arguments and results of emitted code contain the
+momentum in the same frame or in the other frame. If the program uses the body frame and the emitted code the
 space frame, a run transforms the momentum once at its beginning and once at its end
 (:class:`codegen.ir.kernel.Carried`). A ``whole`` kernel transforms the momentum in each step instead.
 """
@@ -32,7 +32,7 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """True if the step program and the emitted code represent momenta in the same frame."""
-        # If both use the same frame, the momentum needs no transformation.
+        # If the program and the emitted code use the same frame, the momentum needs no transformation.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property

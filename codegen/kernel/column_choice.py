@@ -44,8 +44,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # In a program without flows all variants of the group give the same kernel. Only the order of products
-    # with constant factors is varied.
+    # In a program without flows all variants of the group give the same kernel. Therefore only two orders of
+    # the products with constant factors are compared.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     # If flows are deferred, only the core of the step, without its deferred flows, is computed in every step,
@@ -77,8 +77,9 @@ def _shortest(kernels: Sequence[Kernel]) -> Kernel:
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
-    """Return the estimated time of a step, in units of an addition, and its number of operations; the number
-    decides between equal times."""
+    """Return the estimated time of a step, in units of an addition, and its number of operations. Of two
+    kernels with equal times, the kernel with fewer operations is used.
+    """
     nodes = walk(kernel.expressions())
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
     # The estimate is the sum of two lower bounds of the time: the length of the critical path, and the number

@@ -53,7 +53,8 @@ def chain(kernel: Kernel) -> int:
 
 
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
-    """Return assignments sorted by the time at which they are ready, in units of the latency of a function.
+    """Return assignments sorted by the time at which they are ready. Times are rounded down to multiples
+    of the latency of a function.
 
     A processor reorders only the next few hundred instructions, so operations that can run in parallel with
     the longest chain must be near it in the code. Sorting by the exact times would separate operations that
@@ -204,7 +205,7 @@ class _Chains:
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Return the sum of the two factors by which a late value is multiplied."""
+        """Return the terms c x and c y of a sum as one term c (x + y) or c (x - y), for a late value c."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 

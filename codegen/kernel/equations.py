@@ -70,9 +70,9 @@ def compared(
     """Return the block with residuals in place of images, and with a first-order matrix of Newton's method.
 
     The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
-    has no residuals or they have no such derivative. The last change of the unknowns also changes body values
-    that are read later. The change is added to such a value to first order, if the correction takes less than
-    half of the operations of the value.
+    has no residuals, or if the residuals have no such derivative. The last change of the unknowns also
+    changes body values that are read later. Such a value is corrected to first order if the correction takes
+    less than half as many operations as the value.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -170,7 +170,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Return the number of operations of a matrix, without the operations that the images contain, too."""
+    """Return the number of operations of a matrix, without the operations that also occur in the images."""
     # The images are computed anyway, so subexpressions that the matrix shares with the images cost nothing.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)

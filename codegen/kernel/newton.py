@@ -52,7 +52,7 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """
     space = images[0].space
     h = space.sym("h")
-    # g = g(0) + h g'(0) + O(h^2): these two terms are differentiated by the unknowns.
+    # g = g(0) + h g'(0) + O(h^2): these two terms are differentiated with respect to the unknowns.
     slopes = [row[0] for row in jacobian(images, ["h"])]
     values = _at_zero(space, [*images, *slopes])
     n = len(images)

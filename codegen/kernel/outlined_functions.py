@@ -29,7 +29,8 @@ class _Inputs:
         self.symbols: list[Expr] = []
 
     def take(self, words: Sequence[str]) -> Values:
-        """Return the next inputs of the function; their names are the function's name and these words."""
+        """Return the next inputs of the function. An input is called ``name.word``, for each word of
+        ``words``."""
         first = len(self.symbols)
         # A constant argument is replaced by its value, so that the value can be combined with other
         # constants.

@@ -30,10 +30,10 @@ LONG, LONG_EXPLICIT = 700, 500
 """Two limits, for implicit and for explicit steps: a step with fewer assignments than its limit is not
 outlined.
 
-An explicit step has no loop, so its code fills the instruction cache sooner: with outlining cg:cg5 on the
-dipole has 545 lines, not 2345, and takes a third less time. If either limit is doubled, the kernels of nine
-methods of the gallery do not change. To choose the limits again, set both to 0 and run ``orderconds bench
-dipole`` for methods whose steps have lengths near the limits."""
+An explicit step has no loop, so its code fills the instruction cache sooner: with outlining, a step of cg:cg5
+on the dipole has 545 lines instead of 2345, and takes a third less time. If either limit is doubled, the
+kernels of nine methods of the gallery do not change. To choose the limits again, set both to 0 and run
+``orderconds bench dipole`` for methods whose steps have lengths near the limits."""
 
 WORTH = 0.85
 """The outlined step is used if its number of assignments is at most this fraction of the number without

@@ -26,9 +26,10 @@ NEVER = (Advance, Zero, Identity, *FLOWS)
 NODES = 3
 """The average number of operations on a line of emitted code, over the gallery.
 
-It converts operations to lines. The values 2, 3 and 5 give the same emitted files (to repeat this comparison,
-edit the value and run ``orderconds regenerate --check``). They matter for longer steps: on dipole, cg:cg5 has
-6611, 6155 and 6467 operations and 471, 454 and 394 assignments for the values 2, 3 and 5."""
+This number converts operations to lines. The values 2, 3 and 5 give the same emitted files (to repeat this
+comparison, edit the value and run ``orderconds regenerate --check``). The value matters for longer steps: on
+dipole, cg:cg5 has 6611, 6155 and 6467 operations and 471, 454 and 394 assignments for the values 2, 3 and
+5."""
 
 Values = tuple[Expr, ...]
 
@@ -106,12 +107,12 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """Return a multiple c (d v) as (c d) v, so that it does not read the value d v."""
+        """Return a multiple c (d v) as (c d) v, so that the assignment reads v and not d v."""
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Stages compute h xi/2 from h xi. Then h xi would have two readers, and could not be joined with
-        # either.
+        # Stages compute h xi/2 from h xi. Without this change h xi would have two readers, and could not be
+        # joined with either reader.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)

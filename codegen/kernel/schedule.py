@@ -257,7 +257,7 @@ def _taken(kernel: Kernel) -> dict[str, int]:
 def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
     after = kernel.body[position + 1 :]
     # The later statements are put into a kernel, because ``Kernel.expressions`` returns all expressions that
-    # it reads.
+    # a kernel reads.
     rest = Kernel(kernel.name, (), (), after, kernel.outputs, estimate=kernel.estimate)
     return frozenset(n.payload for n in walk(rest.expressions()) if n.op == "sym")
 

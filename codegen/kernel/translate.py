@@ -66,8 +66,8 @@ def to_kernel(
     ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON; all other
     blocks are solved by fixed-point iteration. With ``variations`` the kernel also propagates a variation of
     the state (``Kernel.vary``). Values of ``chains`` other than :data:`AS_WRITTEN` require a program without
-    blocks. A ``whole`` step, or a step with variations, begins and ends with the momentum of the state
-    (:mod:`codegen.kernel.carried_momentum`).
+    blocks. A ``whole`` step, or a step with variations, reads and returns the momentum in the frame that
+    emitted code uses (:mod:`codegen.kernel.carried_momentum`).
 
     Raises :class:`codegen.errors.SceneError` if an operation of the group has no closed form,
     :class:`codegen.ir.differentiate.NotDifferentiable` if Newton's method has no matrix, and
@@ -258,7 +258,7 @@ class _Translation:
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # Error estimates and outputs are ordered together, so that they share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # The parts of a splitting have the durations of deferred flows as inputs.
+        # If flows are deferred, the duration of a joined flow or the time of all steps may be an input.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
@@ -272,7 +272,8 @@ class _Translation:
         return _sampled(kernel, self.scene, self.domain)
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
-        """Return the body, outputs and functions of the kernel; outline functions if that shortens it."""
+        """Return the body, outputs and functions of the kernel; outline functions if this shortens the
+        body."""
         # A schedule with outlined functions may replace this first schedule, so it may use the same names.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)

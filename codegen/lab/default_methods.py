@@ -37,8 +37,9 @@ REPORT_HAMILTONIANS = {
 """Default methods of the report, each with the order that it must have on the scene."""
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
-"""Default methods of the report with step-size control. On Hamiltonian scenes only the first method is used,
-because a figure has only eight colours for methods."""
+"""Default methods of the report with step-size control. A figure has only eight colours for methods, and
+methods with equal steps need seven colours on Hamiltonian scenes. On these scenes only the first method of
+this list is used."""
 
 README_METHODS = {
     "dipole": (

@@ -77,7 +77,7 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
             return sizes[0] * sizes[1]
         case "neg":
             return sizes[0]
-        case "div":  # A larger divisor would reduce the magnitude.
+        case "div":  # The magnitude of a divisor may exceed its value, and the quotient would be too small.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

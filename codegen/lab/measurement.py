@@ -76,7 +76,8 @@ class Measurement(ABC, Generic[R]):
         return {}
 
     def result(self, subject: Subject) -> R:
-        """Return the result on a subject. Only the first call measures; later calls return its result."""
+        """Return the result on a subject. Only the first call measures; later calls return the stored
+        result."""
         if self.name not in subject.results:
             subject.results[self.name] = self.run(subject)
         return cast("R", subject.results[self.name])

@@ -48,7 +48,7 @@ class AdaptiveCandidate(EmittedCandidate):
         return not diverged and super().enough(rows)
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None) -> Arrival:
-        """Return the result of a run with this tolerance at the end of the span.
+        """Run over the span with this tolerance, and return the result at the end of the span.
 
         An infinite tolerance denotes a run over an empty interval, whose time is the overhead of a call.
         """

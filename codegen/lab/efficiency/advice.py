@@ -127,7 +127,9 @@ def _interval(span: object) -> tuple[Fraction, Fraction]:
             described(span), where="span", expected="a pair of rational numbers, such as (0, 1)"
         ) from None
     if first >= last:
-        raise InputError(f"{first}, {last}", where="span", expected="an end that is later than the beginning")
+        raise InputError(
+            f"{first}, {last}", where="span", expected="an end later than the beginning of the span"
+        )
     return first, last
 
 

@@ -19,8 +19,10 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The largest order for which the fewest brackets are searched. For higher orders the search takes seconds,
-so methods of higher order use the cut-off only.
+"""The largest order for which a method with the fewest brackets is tried, too.
+
+Otherwise a method has a cut-off: for example, ``rkmk(2)`` truncates dexp^{-1} after 2 brackets. For higher
+orders the search for the fewest brackets takes seconds.
 """
 
 
@@ -120,8 +122,8 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, without and with step-size control.
 
-    For each order only the smallest cut-off is used. Orders below half the classical order are omitted,
-    because other tableaux reach these orders with fewer stages.
+    For each order only the smallest cut-off (:data:`SEARCHED`) that gives this order is used. Orders below
+    half the classical order are omitted, because other tableaux reach these orders with fewer stages.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -132,7 +134,7 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
         # On some scenes a family has fewer order conditions, so a method has a higher order.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
-        except MethodError:  # the family cannot use the tableau on this scene
+        except MethodError:  # No recipe, because the family cannot use the tableau on this scene.
             return
         order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
         if order >= least:

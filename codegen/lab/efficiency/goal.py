@@ -16,8 +16,8 @@ from orderconds.errors import InputError, UnknownName
 
 @dataclass(frozen=True)
 class Need:
-    """A requirement on recipes: its name and its meaning. ``long`` is True if it includes the behaviour over
-    long times.
+    """A requirement on recipes: its name and its meaning. ``long`` is True if the requirement includes the
+    behaviour over long times.
     """
 
     name: str

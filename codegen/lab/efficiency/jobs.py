@@ -1,7 +1,7 @@
 """The order in which recipes are predicted, and the bar of each recipe.
 
-The bar is an error and a time. Steps of a recipe are interpreted only if the recipe can reach the error in
-this time.
+The bar of a recipe is an error and a time. The interpreter executes steps of the recipe only if the recipe
+can reach the error in this time.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.prediction import Bar, Prediction
 
 MARGIN = 5.0
-"""The prediction of a recipe ends when its time is certain to exceed MARGIN times the least predicted
-time.
+"""The prediction of a recipe ends when the recipe is certain to take more than MARGIN times the least time
+that is predicted for any recipe.
 """
 
 FRESH = 8
@@ -26,8 +26,8 @@ factor 1 + 1/FRESH.
 
 
 EVEN = 4.0
-"""In the priority of a queue, EVEN turns weigh as much as a family that is twice as slow, and so does a
-distance of EVEN from the usual order.
+"""A queue is delayed equally by three things: EVEN earlier turns, an order that differs by EVEN from the
+usual order, or a kind of recipe that is predicted to be twice as slow.
 """
 
 
@@ -41,11 +41,13 @@ def usual_order(error: float) -> float:
 
 
 Kind = tuple[str, str, bool]
-"""Family, form, and whether the tableau is explicit: recipes of one kind have similar costs."""
+"""A kind of recipe: family, form, and True if the tableau is explicit. Recipes of one kind have similar
+costs.
+"""
 
 Queue = tuple[Kind, int]
-"""A kind and an order. The queue contains the recipes of this kind and order, sorted by the number of
-stages.
+"""The key of a queue: a kind and an order. The queue contains the recipes of this kind and order, sorted by
+the number of stages.
 """
 
 Job = tuple[Recipe, tuple[Bar, ...]]
@@ -56,8 +58,8 @@ class Jobs(Sequence[Job]):
 
     A job is created only when a worker process is free, so its bars use all predictions up to this time. The
     queues take turns, and queues of orders that are usual for an error are first. If a kind of recipe is
-    predicted to be slower than another kind, its queues wait: the number of turns is the logarithm of the
-    ratio of the times.
+    predicted to be slower than another kind, its queues have a delay, the logarithm of the ratio of the
+    times.
     """
 
     def __init__(self, goals: Mapping[Recipe, Iterable[Goal]]) -> None:
@@ -97,9 +99,7 @@ class Jobs(Sequence[Job]):
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the number of turns for which a queue waits: log2 of the ratio of its predicted time to the
-        least predicted time.
-        """
+        """Return the delay of a queue: log2 of its predicted time divided by the least predicted time."""
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
         ratios = [
@@ -121,7 +121,8 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, order: int) -> Bar:
-        """Return the bar of a goal for an order. The bar may ignore the most recent predictions."""
+        """Return the bar that methods of this order must reach for a goal. The bar may ignore the most recent
+        predictions."""
         known = self.known[goal]
         age, bar = self.bars.get((goal, order), (0, None))
         if bar is None or len(known) >= age + 1 + age // FRESH:
@@ -140,8 +141,8 @@ def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: f
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion all methods need short steps, so longer steps than in earlier predictions
-    # are not tried.
+    # On a scene with fast motion all methods need short steps, so no method is first tried with fewer steps
+    # than all earlier predictions needed.
     steps = min(p.steps for p in known if math.isfinite(p.error))
     least: dict[tuple[str, bool], float] = {}
     for p in known:

@@ -35,7 +35,8 @@ FEW_STEPS, MANY_STEPS = 8, 1024
 """The number of steps is doubled from FEW_STEPS to MANY_STEPS until the error is small."""
 
 SMALL = 1e-2
-"""An error below SMALL, relative to the size of the state, follows the order of the method approximately."""
+"""An error below SMALL, relative to the size of the state, is approximately proportional to h^p, where p is
+the order of the method."""
 
 PATIENCE = 0.4
 """The interpretation of one recipe ends after this CPU time in seconds."""
@@ -53,7 +54,7 @@ of a method is much larger.
 """
 
 FAR = 10.0
-"""An error is far from another error if it is FAR times as large."""
+"""Methods do not come close to an error if their least error is more than FAR times as large."""
 
 CALL = 8.0
 """The time in nanoseconds of the loop around a step, which reads and writes the state."""
@@ -116,7 +117,7 @@ class _Counted(FloatDomain):
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
-        # Substeps copy the domain; the list is shared by all copies.
+        # Substeps copy the domain. The counter is a list, so that all copies share the counter.
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:

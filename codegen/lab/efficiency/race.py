@@ -76,7 +76,8 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # The states of a form are a vector space, but the states of the scene may be a manifold.
+        # A method in coordinates does not know the manifold of the scene, so its states need not stay on the
+        # manifold.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 

@@ -49,13 +49,13 @@ GROUP = 50
 """The number of predictions between two progress messages."""
 
 REFERRING = 0.6
-"""The largest part of the time budget that the reference solution may use."""
+"""The largest fraction of the time budget that the reference solution may use."""
 
 PREDICTING = 0.5
-"""When the reference solution is known, predictions may use this part of the remaining time budget."""
+"""When the reference solution is known, predictions may use this fraction of the remaining time budget."""
 
 UNREACHED = 1e-3
-"""The gain that is assigned to a recipe for a goal that, according to the predictions, no recipe reaches."""
+"""The predicted gain of every recipe for a goal that, according to the predictions, no recipe reaches."""
 
 LONG_STEPS = 20_000
 """The number of steps of the long run that tests recommendations for long times."""
@@ -187,6 +187,9 @@ class Search:
     def _next(self) -> list[Recipe]:
         """Return the next recipes to emit: the recipes with the largest predicted gains for all goals.
 
+        The predicted gain for a goal is log(best measured time/predicted time). If no measured recipe
+        reaches the goal, the safety factor times the least predicted time replaces the best measured time.
+
         If no recipe of a kind was measured yet, only one recipe of this kind is returned.
         """
         gains: dict[Recipe, float] = defaultdict(float)
@@ -261,7 +264,7 @@ class Search:
                     self.ratios[self.kind(recipe), error].append(seconds / known)
 
     def time_again(self, goal: Goal) -> None:
-        """Time the fastest recipes for a goal again. No run is timed again twice."""
+        """Time the fastest recipes for a goal again. A run that was already timed again is skipped."""
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         for result in [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]:
             recipe = result.entry.recipe
@@ -296,7 +299,8 @@ class Search:
             if shorter is None:
                 lost.append(recipe.label)
             else:
-                # The recipes that passed the long run are faster, so they stay first.
+                # The first ``kept`` recipes passed the long run and are faster than all following recipes, so
+                # they stay first.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked, lost
 

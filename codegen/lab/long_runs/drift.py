@@ -193,7 +193,8 @@ def fit(
         return Drift(math.nan, math.nan, largest, math.nan, rounding)
     least = numpy.abs(y) if lows is None else numpy.array(lows, dtype=float)
     signs = numpy.sign(y)
-    least[1:][signs[1:] * signs[:-1] < 0] = 0.0  # the deviation crosses zero between two samples
+    # If the deviation changes its sign between two samples, its smallest absolute value is zero.
+    least[1:][signs[1:] * signs[:-1] < 0] = 0.0
     level = None if count < len(t) else saturation(size, least)
     until = None if level is None else float(t[level])
     if level is not None and level >= FEWEST:
@@ -218,7 +219,8 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
     """Return the drift of finite values; the caller sets ``largest``, ``rounding`` and ``until``."""
     whole, scale = float(t[-1]), float(size.max()) or 1.0
-    t, y, size = t / whole, y / scale, size / scale  # scaled, so that squares do not overflow
+    # Times and values are scaled, so that their squares do not overflow.
+    t, y, size = t / whole, y / scale, size / scale
     slope, half = _slope(t, y)
     means = _means(t, y, PARTS)[1].tolist()
     early = float(size[: (len(size) + 1) // 2].max())
@@ -241,7 +243,7 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If even the increments are only rounding errors, the record is exactly a line.
+    # If the increments vary only by rounding errors, the record is a line, and the variance is zero.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 

@@ -28,8 +28,8 @@ OFFSET = 10
 """The offset of a central difference is 10^-OFFSET; the error of the difference is about 10^(-2 OFFSET)."""
 
 SWEEPS = 40
-"""The largest number of fixed-point iterations for an implicit block. If they do not converge, Newton's
-method is used.
+"""The largest number of fixed-point iterations for an implicit block. If the iterations do not converge,
+Newton's method is used.
 """
 
 LEFT = 0.5

@@ -52,7 +52,7 @@ class Series:
         """Append the signed deviations of one interval."""
         absolute = numpy.abs(values)
         crosses = values.min() < 0.0 < values.max()
-        with numpy.errstate(all="ignore"):  # The sum of large deviations may overflow.
+        with numpy.errstate(all="ignore"):  # The sum of large deviations may overflow to infinity.
             self.deviations.append(float(values.mean()))
         self.peaks.append(float(absolute.max()))
         self.lows.append(0.0 if crosses else float(absolute.min()))

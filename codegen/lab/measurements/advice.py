@@ -163,7 +163,8 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return lines in which methods of the page fill the gaps: errors for which the search found no method.
+    """Return lines in which gaps are filled with methods that were measured for the page of the report. A gap
+    is an error for which the search found no method.
 
     Their times are interpolated between measured runs. Gaps remain for requirements that include long times,
     because only the search makes long runs.

@@ -102,7 +102,8 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            # The family exists only in the compiler and has no index sums, or it has no order conditions.
+            # No conditions are shown: the family exists only in the compiler and has no index sums, or the
+            # family has no order conditions.
             continue
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())
