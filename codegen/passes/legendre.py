@@ -1,12 +1,11 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
 The pass is exact. If an unknown v equals W(Q, P) up to invertible linear maps, then P = W^{-1}(Q, v) at the
-solution. P results by further maps from a momentum M, which the equations of the block
-define. All other operations that read W, P,
-or a value between v and M now read values that are computed from v. A force thus no longer depends on an
-unknown momentum, and tearing removes the force from the unknowns. One equation remains for each v: the
-momentum computed from v equals the momentum M. :func:`residuals` adds this equation to the
-block. Statements after the block read the velocity from the unknown.
+solution. The equations of the block define a momentum M, and further maps compute P from M. All other
+operations that read W, P, or a value between v and M now read values that are computed from v. A force thus
+no longer depends on an unknown momentum, and tearing removes the force from the unknowns. One equation
+remains for each v: the momentum computed from v equals the momentum M. :func:`residuals` adds this equation
+to the block. Statements after the block read the velocity from the unknown.
 """
 
 from __future__ import annotations

@@ -52,8 +52,8 @@ class RingDomain(Domain):
         raise ArithmeticError(f"{function} is not polynomial")
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Raise ArithmeticError: implicit equations cannot be solved by iteration in an exact ring."""
-        raise ArithmeticError("implicit equations cannot be solved in an exact ring")
+        """Raise ArithmeticError, because elementary differentials are computed without implicit equations."""
+        raise ArithmeticError("elementary differentials cannot be computed with implicit equations")
 
 
 def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
