@@ -163,10 +163,10 @@ def _file(name: str) -> Path:
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return the tableau whose coefficients are the exact solution that the tableau's proof encloses; the
-    file contains only decimals.
+    """Return a tableau with exact coefficients in place of the decimals of a tableau file with a proof.
 
-    The certificate is valid for the exact solution, so emitted code must use it in place of the decimals.
+    The proof encloses one exact solution of the order conditions near the decimals. The certificate is valid
+    for this solution only, so emitted code must use the solution and not the decimals.
     """
     if tableau.proof is None:
         return tableau
@@ -189,8 +189,8 @@ def with_estimate() -> tuple[str, ...]:
 
 
 def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
-    """Return the method that a label such as ``taylor(12)`` names; None if the text names no family without
-    tableau."""
+    """Return the method that a label such as ``taylor(12)`` names; None if the text does not name a
+    family that needs no tableau."""
     match = ALONE.fullmatch(text.strip())
     if match is None or match["family"] not in names() or family_class(match["family"]).has_tableau:
         return None
@@ -283,8 +283,8 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Yield the computed orders of a tableau in all families for which a complete tableau file states an
-    order, or, if ``family`` is given, in the variants of this family."""
+    """Yield the computed order of a tableau in each family in which a file of this tableau should claim an
+    order. If ``family`` is given, only the variants of this family are used."""
     from orderconds.checking import check, claimable_families
 
     for member in claimable_families(tableau):

@@ -14,11 +14,12 @@ from codegen.ir.table import PiecewisePolynomial
 from codegen.lab.number_types import Scalar
 
 TABLES = "table"
-"""The key of the entry for tables."""
+"""The key of the function that converts a table of a scene into a function of one number."""
 
 Functions = Mapping[str, Scalar]
-"""Functions by name. The entry :data:`TABLES` is different: it accepts a table and a function that converts
-numbers, and returns the function that the table defines.
+"""Functions by name. Every function accepts numbers, except the function with the key :data:`TABLES`. The
+arguments of this function are a table and a function that converts numbers. It returns the function that the
+table defines.
 """
 
 

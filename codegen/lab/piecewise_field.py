@@ -187,8 +187,8 @@ class Sided:
 
 
 def _root(margin: Callable[[Scalar], Scalar], low: Scalar, high: Scalar, length: Scalar) -> Scalar:
-    """Return the time at which a margin vanishes. The margin is low > 0 at the time 0 and high < 0 at
-    ``length``.
+    """Return the time at which a margin vanishes. At the time 0 the margin has the positive value ``low``,
+    at the time ``length`` the negative value ``high``.
 
     The method is the Illinois variant of the false position method.
     """

@@ -6,4 +6,6 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 Progress: TypeAlias = Callable[[str], object]
-"""A function that receives one line of text: the name of the next measurement. :class:`str` ignores it."""
+"""A function that receives one line of text: the name of the next measurement. Pass
+:class:`str` to display nothing.
+"""

@@ -54,7 +54,7 @@ class Interpreted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test; a run with it takes about ten seconds."""
+        """The largest number of steps in a convergence test; a run of this length takes about ten seconds."""
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
@@ -102,8 +102,8 @@ def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
 
 @dataclass
 class Emitted:
-    """A runner that executes the emitted module of a compiled method. ``orderconds emit`` writes the same
-    text.
+    """A runner that executes the emitted module of a compiled method: the module that ``orderconds emit``
+    writes.
     """
 
     compiled: Compiled
@@ -114,7 +114,7 @@ class Emitted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test; a run with it takes about one second."""
+        """The largest number of steps in a convergence test; a run of this length takes about one second."""
         return printers.target(self.target).most_steps
 
     @cached_property
@@ -129,7 +129,7 @@ class Emitted:
 
     @cached_property
     def observed(self) -> Emitted:
-        """The same step emitted to a target in which the solved unknowns can be observed."""
+        """The step of this runner, emitted to a target in which the solved unknowns can be observed."""
         return Emitted(self.compiled, printers.observable().name, self.order)
 
     @cached_property
@@ -156,8 +156,8 @@ Runner = Interpreted | Emitted
 
 
 def check_target(target: str, digits: int = DOUBLE) -> None:
-    """Raise :class:`codegen.errors.MethodError` for an unknown target, or for more digits than its numbers
-    have.
+    """Raise :class:`codegen.errors.MethodError` for an unknown target, or if ``digits`` is larger than the
+    precision of the target's numbers.
     """
     known = (*printers.names(), INTERPRETER)
     if target not in known:
@@ -176,8 +176,8 @@ def runner(
     """Return the runner for a target, or for ``interpreter``.
 
     More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
-    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and for more digits than its
-    numbers have.
+    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and if ``digits`` is larger
+    than the precision of the target's numbers.
     """
     check_target(target, digits)
     compiled = compile_method(scene, method)

@@ -123,7 +123,7 @@ class Lowering(ABC):
         scene."""
         from orderconds import families
 
-        # The label includes the cut-off, on which the conditions depend.
+        # The label includes the cut-off, the number of brackets in dexp^{-1}: the conditions depend on it.
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:

@@ -33,8 +33,8 @@ class CommutatorFreeLowering(FieldLowering):
 
 
 def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: Stage | None) -> Program:
-    """Return the program of a method of products of exponentials; ``lower`` is the update of the embedded
-    method, if any."""
+    """Return the program of a method whose stages and update are products of exponentials. ``lower`` is the
+    update of the embedded method, if any."""
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
     build = stages.builder

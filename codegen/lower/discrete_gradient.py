@@ -93,8 +93,8 @@ def _program(scene: Problem, method: Method) -> Program:
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # The update uses the image f and not the unknown xi, because f is nearer to the solution. Errors of
-        # the energy add up over many steps.
+        # The equation of the block is xi = f(xi). The update uses f(xi) and not xi, because f(xi) is nearer
+        # to the solution. Errors of the energy add up over many steps.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)

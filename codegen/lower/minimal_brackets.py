@@ -37,7 +37,7 @@ def bracket_program(method: Method) -> BracketProgram:
     if not method.can_reduce_brackets():
         raise MethodError(
             f"rkmk:{name} without a cut-off",
-            expected="an explicit tableau with exact coefficients, or a number of brackets",
+            expected="an explicit tableau with exact coefficients, or a cut-off (a number of brackets)",
             hint=f"write rkmk(2):{name}",
         )
     # The classical order of the tableau is the order that the method with brackets must have.
@@ -95,7 +95,7 @@ def lower(scene: Problem, method: Method) -> Program:
 
     def update() -> dict[str, Var]:
         # The update has one exponential, whose exponent contains the brackets and agrees with Magnus' series
-        # up to the order.
+        # up to the order of the tableau.
         return {"y": build.act("y1", build.exp("g", combination("u", written.update)), y)}
 
     unknowns = [values["k", i] for i in range(tableau.s)]

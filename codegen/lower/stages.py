@@ -16,7 +16,9 @@ from orderconds.ring.protocol import Element
 
 @dataclass
 class Stages:
-    """Collects a method's stages into a program: unknowns, starts, the body, images, the update."""
+    """Collects a method's stages into a program: the unknowns and their starts, the body of the block, the
+    images (the right-hand sides of the fixed-point equations), and the update.
+    """
 
     scene: Problem
     method: Method
@@ -66,8 +68,8 @@ class Stages:
         update: Callable[[], dict[str, Var]],
     ) -> Program:
         """Return the verified program: the starts, one block with the equations, and the update. The
-        functions append statements and return variables; ``update`` returns the outputs by the name of the
-        replaced input."""
+        arguments ``images``, ``starts`` and ``update`` are functions that append statements and return
+        variables. ``update`` returns each output under the name of the input that it replaces."""
         # The statements are appended in the order of the program: starts, body of the block, update.
         first = tuple(starts())
         before = self.builder.take()

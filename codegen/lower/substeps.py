@@ -74,13 +74,16 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Return the tableau of equal groups and the lengths of their steps, for as many groups as possible."""
+    """Divide the stages into as many groups as possible that have the same tableau. Return this tableau and
+    the step lengths of the groups; None if there are no such groups.
+    """
     # The entries are Numbers and not ring elements, because Numbers are compared by keys, which is possible
     # also for balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a number k for which the tableau separates into two: one of the stages before k, and one of the
-    # other stages. The stages between two neighbouring cuts form a part, and neighbouring parts form a group.
+    # A cut is a number k at which the tableau separates into two tableaux: the first consists of the stages
+    # before k, the second of the stages from k on. The stages between two neighbouring cuts form a part, and
+    # neighbouring parts form a group.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # A group consists of at least one part and at most half of the parts. Small groups are tried first,
     # because they give the most substeps.

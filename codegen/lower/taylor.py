@@ -51,8 +51,8 @@ class Taylor(Lowering):
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene in the coordinates of its state. Its ``evolution`` contains the coordinates of the
-        polynomials."""
+        """Return the scene in the coordinates of its state. Its ``evolution`` contains the coordinates in
+        which the Taylor polynomials are computed."""
         if "taylor" not in scene.derived:
             scene.derived["taylor"] = replace(ambient(scene), evolution=evolution(scene))
         return scene.derived["taylor"]
@@ -77,7 +77,7 @@ class Taylor(Lowering):
         degree = self.conditions(method).degree_of_step()
         if method.adaptive and degree < LEAST:
             raise MethodError(
-                f"step control for {method.label}, which compares two coefficients",
+                f"step control for {method.label}: step control compares two Taylor coefficients",
                 expected=f"a degree of at least {LEAST}",
             )
         return degree

@@ -10,8 +10,8 @@ dexp^{-1}_{(r),x} xi with respect to x, the equations are
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 The v_i and m_i are the unknowns: all other values follow from them with one evaluation of the scene for each
-stage. If a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown, and
-m_i is none. Passes remove unused values. The sum m_i is written in terms of mu0, n_j and m_j, because on an
+stage. If a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown in
+place of m_i. Passes remove unused values. The sum m_i is written in terms of mu0, n_j and m_j, because on an
 abelian group some of these terms cancel.
 """
 
@@ -49,7 +49,7 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # the forces n_i and the slopes P*_(r)(X_i, xi_i) m_i, by stage
+        # For each stage, the force n_i and the vector P*_(r)(X_i, xi_i) m_i, which is called the slope.
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 

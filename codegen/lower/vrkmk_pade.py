@@ -96,8 +96,8 @@ class _Step(ExpandedStep):
         # ad*_{-w} (ad*_x)^i M. Terms with the same i are summed first: z is the sum of -w/(k+1)! over k.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
-            # The sum over k is formed in the algebra, before the bracket, which takes r brackets and not r (r
-            # + 1)/2.
+            # The sum over k is formed in the algebra, before the bracket. This needs r brackets and
+            # not r (r + 1)/2, one for each term.
             subscript = self.build.lin("z", Kind.ALG, inner)
             terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
         return self.build.lin(name, Kind.DUAL, terms)

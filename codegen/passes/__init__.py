@@ -126,8 +126,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass follows value numbering: only then have stages with equal coefficients the same image
-        # variable.
+        # This pass follows value numbering. Only then do the fixed-point equations of stages with equal
+        # coefficients have the same variable on the right-hand side.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # When two stages become one, several terms of a sum may refer to the same value, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),

@@ -85,15 +85,15 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
     """Return the image of each unknown; an image that is itself an unknown is replaced by the image of that
-    unknown. If the images form a closed chain, the result is the start."""
+    unknown. If the images form a closed chain, the result is the start value of the unknown."""
     result = {}
     for unknown in image:
         var, seen = image[unknown], [unknown]
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # If the images form a closed chain, v = w and w = v, any common value is a solution. The start is
-        # chosen.
+        # If the images form a closed chain, v = w and w = v, any common value is a solution. The start value
+        # of the unknown is chosen.
         result[unknown] = start[unknown] if var in seen else var
     return result
 

@@ -73,7 +73,9 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """The factor E of each group element Q = q E; None if E is the identity."""
+    """For each position Q = E q, the variable of the factor E; None if E is the identity. In the new program
+    this variable has the value E~, and Q = q E~.
+    """
 
     def run(self) -> Program:
         program = self.program
@@ -135,14 +137,15 @@ class _Framing:
             # rewritten.
             if left in self.relative:
                 raise NotFramed
-            # With the other factor ``left``: left (E q) = (left E) q. Conjugation by q preserves the product
-            # left E.
+            # The product of ``left`` and the position E q is left (E q) = (left E) q, so the factor of the
+            # new position is left E. Conjugation by q preserves the product left E.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # In the body frame E q is written as q E~, with the factor on the right side.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
-            # An equivariant operation maps transformed arguments to the transformed result: rename them.
+            # An equivariant operation maps transformed arguments to the transformed result, so the operation
+            # stays the same, and only its arguments are renamed.
             self._emit(replace(assign, args=self._now(args)))
         # A stage time is a number, which has the same value in every frame.
         elif isinstance(operation, Advance):

@@ -41,8 +41,8 @@ SWEEPS = 24
 """The largest number of sweeps over a block. A step that needs more sweeps is too long for an accurate
 comparison.
 
-A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24 sweeps. For slower blocks the next, shorter step
-is tried."""
+If each sweep divides the error by four, 24 sweeps divide it by 2^48, so that only rounding errors remain. For
+slower blocks the next, shorter step is tried."""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
 """The largest number of sweeps, and the number of digits, with which a step is repeated if results in doubles
@@ -52,10 +52,11 @@ NOT_A_NUMBER = "differs by nan"
 """The end of the message for a result that is not finite. Such a step is too long for a comparison."""
 
 APART = 16
-"""The smallest ratio of consecutive step sizes at which programs are compared.
+"""If the results of one step cannot be compared, the next step to be compared is shorter by at least this
+factor.
 
-The iteration for rewritten equations may converge only in shorter steps. A comparison in one such step is
-sufficient."""
+The iteration for rewritten equations may converge only in shorter steps. A comparison in one of these steps
+is sufficient, so only few step sizes are tried."""
 
 LARGEST = 2.0**512
 """Results above this number are not compared: a step with such a result is too long."""
@@ -102,7 +103,10 @@ class _Bounded(PreciseDomain):
         return super().call(function, *args)
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the result of :class:`PreciseDomain`; raise NotConverged if the iteration diverges."""
+        """Return whether the iteration has converged, and its last change, as :class:`PreciseDomain` does.
+
+        Raises NotConverged if the iteration diverges.
+        """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
             raise NotConverged("a fixed-point iteration diverges")
@@ -149,8 +153,8 @@ class Reference:
             )
 
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
-        """Yield the results of the longest step, then of shorter and shorter steps, in which more iterations
-        converge.
+        """Yield the results of the longest step, then of shorter and shorter steps. An iteration that
+        does not converge in a long step may converge in a shorter step.
 
         The steps begin at the initial state, or at a state near it.
         """
@@ -162,7 +166,8 @@ class Reference:
         # state.
         if not math.isfinite(speed):
             return
-        excess = math.frexp(speed * STEPS[0] / REACH)[1]  # 2**excess is the next power of two
+        # 2**excess is the least power of two above the ratio.
+        excess = math.frexp(speed * STEPS[0] / REACH)[1]
         last = math.inf
         for moderate in STEPS:
             # The step size is a power of two, so powers of h have no rounding errors that could be mistaken
@@ -301,7 +306,7 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     """Return the initial state, or a state moved from it by the group in fixed directions.
 
-    The moved state is an element of the group up to the rounding errors of the domain.
+    The moved state is on the manifold up to rounding errors of the arithmetic of ``domain``.
     """
     start = scene.initial(domain)
     # The directions are sines of integers: numbers without symmetries or integer relations, and the same in

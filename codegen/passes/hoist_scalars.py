@@ -46,7 +46,10 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Append a sum in which multiples, and sums without another reader, are replaced by their terms."""
+    """Append a sum with expanded terms.
+
+    A term is expanded if it is a multiple c x of another value x, or a sum that no other assignment reads.
+    """
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)

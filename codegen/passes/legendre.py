@@ -1,11 +1,11 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
 The pass is exact. If an unknown v equals W(Q, P) up to invertible linear maps, then P = W^{-1}(Q, v) at the
-solution. P results from a momentum M of the equations by further maps. All other operations that read W, P,
-or a value between v and M now read values that are computed from v. A force thus no longer depends on an
-unknown momentum, and tearing removes the force from the unknowns. One equation remains for each v: the
-momentum computed from v equals the momentum of the equations. :func:`residuals` adds this equation to the
-block. Statements after the block read the velocity from the unknown.
+solution. The equations of the block define a momentum M, and further maps compute P from M. All other
+operations that read W, P, or a value between v and M now read values that are computed from v. A force thus
+no longer depends on an unknown momentum, and tearing removes the force from the unknowns. One equation
+remains for each v: the momentum computed from v equals the momentum M. :func:`residuals` adds this equation
+to the block. Statements after the block read the velocity from the unknown.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The momentum of the equations, from which P is computed."""
+        """The momentum M that the equations of the block define, and from which P is computed."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
@@ -186,8 +186,8 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block in which all other statements read the values of a path as computed from its
-    unknown."""
+    """Return the block with the values of a path computed from the unknown of the path. All statements
+    outside the path read these new values."""
     # Every value on the path is computed from the unknown; a later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()

@@ -132,7 +132,8 @@ class SeriesSums:
 def signed(domain: Domain, c: Coefficient) -> Value:
     """Return a coefficient as plus or minus a number, so that products with the coefficient and with its
     negative are shared."""
-    # Then c x and (-c) x share one product; the sign makes an addition a subtraction, which costs nothing.
+    # A negative number is written as minus a positive number, so c x and (-c) x share one product. The minus
+    # sign only changes an addition into a subtraction, which costs nothing.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)

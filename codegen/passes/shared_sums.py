@@ -69,8 +69,8 @@ def _rule(
 
 
 def _worthwhile(program: Program) -> set[Share]:
-    """Return the combinations to factor: the combinations of maps that have fewer combinations than
-    values."""
+    """Return the combinations to factor. A linear map is factored if the number of its combinations is
+    smaller than the number of values in these combinations."""
     worthwhile: set[Share] = set()
     for statement in program.body:
         # Only blocks are searched: a map in a block is evaluated in every sweep, but a map outside blocks is

@@ -48,7 +48,7 @@ class StabilityTests(Measurement[Result]):
         return subject.each(measure)
 
     def as_json(self, result: Result) -> object:
-        """Return one object for each method."""
+        """Return one JSON object for each method."""
         return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:

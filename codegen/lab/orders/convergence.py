@@ -51,8 +51,8 @@ class Convergence:
 
     @property
     def observed(self) -> float | None:
-        """The last slope of the runs that are not excluded. If kinks of the solution make the slopes
-        irregular, the mean slope.
+        """The observed order: the last slope of the runs that are not excluded. If kinks of the solution make
+        the slopes irregular, the observed order is the mean slope.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:

@@ -52,8 +52,8 @@ class RingDomain(Domain):
         raise ArithmeticError(f"{function} is not polynomial")
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Raise ArithmeticError, because elementary differentials need no iteration."""
-        raise ArithmeticError("elementary differentials are not iterated")
+        """Raise ArithmeticError, because elementary differentials are computed without implicit equations."""
+        raise ArithmeticError("elementary differentials cannot be computed with implicit equations")
 
 
 def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
@@ -113,7 +113,9 @@ class CanonicalFields:
         self._known: dict[DirectedTree, Vector] = {}
 
     def tree(self, tree: DirectedTree) -> Vector:
-        """Return (xi, n) = (D_mu, -D_q) of the derivative of H at the root."""
+        """Return (xi, n) = (D_mu K, -D_q K) for a tree, where K is the derivative of H that the branches at
+        the root define.
+        """
         if tree not in self._known:
             n, point, bit = self.scene.dimension(), list(self.point), 1
             for kind, child in directed_branches(tree):

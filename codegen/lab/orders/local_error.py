@@ -88,9 +88,9 @@ def leading_term(error: Vector) -> tuple[int, Vector]:
 def predicted(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficients of h^power that the order conditions of a method predict.
 
-    All lower coefficients must vanish. ``scene`` is the problem in which the method is lowered; it must be
-    autonomous and polynomial. For symplectic partitioned methods the scene must be Hamiltonian on T*R^n, and
-    the order conditions are those of trees with directed edges.
+    All lower coefficients must vanish. ``scene`` is the problem from which the program was lowered. It must
+    be autonomous and polynomial. For symplectic partitioned methods the scene must be Hamiltonian on T*R^n,
+    and the order conditions are those of trees with directed edges.
     """
     if not scene.autonomous:
         raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")
@@ -156,7 +156,9 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _action(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the term of the action series: the words of the update minus their exact values."""
+    """Return the term of the action series: a sum over words. Each word is weighted by its coefficient in
+    the update minus its exact coefficient.
+    """
     ring = method.ring
     family = family_of(method)
     assert isinstance(family, ActionFamily)

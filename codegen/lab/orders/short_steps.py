@@ -53,7 +53,7 @@ def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
 
 
 def _gap(compiled: Optimised, state: Sequence[Scalar], first: float, size: float) -> Scalar:
-    """Return the largest difference of a coordinate after one step and after two half steps."""
+    """Return the largest difference of a coordinate between one step and two half steps."""
     context = PreciseDomain(0, DIGITS).context
     t, h = context.mpf(first), context.mpf(size)
 

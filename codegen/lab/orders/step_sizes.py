@@ -25,8 +25,8 @@ CLEAR = 100.0
 slope by less than 0.03."""
 
 ZERO = 0.5
-"""If the coefficients are rounded decimals, very short steps have the order zero. Orders below ZERO are
-therefore ignored.
+"""An order of very short steps that is at most this number counts as order zero and is ignored. Rounded
+decimal coefficients cause the order zero, because their error does not depend on the step size.
 """
 
 FIRST = 5
@@ -91,12 +91,14 @@ class Refinement:
     def verdict(self, stated: int) -> str:
         """Return ``holds``, ``fails`` or ``undecided``.
 
-        Slopes that have settled determine the verdict, with one exception: very short steps have the stated
-        order, but the slopes do not. If the slopes are above the stated order, a small parameter hides the
-        leading term, and the verdict is ``holds``; if they are below the stated order, the verdict is
-        ``undecided``. If rounding errors end the runs before the slopes settle, the order of very short steps
-        determines the verdict, provided that the last slope is not below this order. If very short steps have
-        an order below the stated order, the verdict is always ``fails``.
+        Slopes that have settled determine the verdict. There is one exception: the slopes have settled at an
+        order other than the stated order, but very short steps have the stated order. In this case the
+        verdict is ``holds`` if the slopes are above the stated order, because a small parameter then hides
+        the leading term. The verdict is ``undecided`` if the slopes are below the stated order.
+
+        If rounding errors end the runs before the slopes settle, the order of very short steps determines the
+        verdict, provided that the last slope is not below this order. If very short steps have an order below
+        the stated order, the verdict is always ``fails``.
         """
         if self.observed is None:
             return "undecided"

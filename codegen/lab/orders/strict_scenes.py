@@ -142,8 +142,8 @@ def hamiltonians() -> tuple[Problem, ...]:
 
 @cache
 def split_hamiltonians() -> tuple[Problem, ...]:
-    """Return Hamiltonian scenes in three parts with exact flows; G is the gyroscopic term of a rotating
-    frame."""
+    """Return Hamiltonian scenes in three parts with exact flows: the kinetic energy T, the gyroscopic
+    term G of a rotating frame, and the potential V."""
     return _rotating_plane(), _rotating_top()
 
 

@@ -28,7 +28,7 @@ LINE = 0.175
 """Height of a line of labels in inches. The figure becomes higher by LINE for each line after the third."""
 
 LONG_LABEL = 27
-"""If a label has more characters, the legend has one column."""
+"""If a label is longer than this number of characters, the legend has one column."""
 
 MARKS = 9
 """The number of markers on a line that has no measured points, such as a computed boundary."""
@@ -41,7 +41,8 @@ class Curve:
     """A labelled sequence of points (x, y) with its style. ``order`` is the slope of a reference line; None
     means no line.
 
-    ``upper`` contains the upper end of the interval of x for each point, or is empty.
+    If the x of each point is the lower end of an interval, ``upper`` contains the upper ends; otherwise
+    ``upper`` is empty.
     """
 
     label: str
@@ -79,7 +80,7 @@ class _Drawing:
         line.set_gid(f"series:{number}")
         self.values[number] = [f"{curve.label}: {value(*curve.points[k])}" for k in marks]
         if curve.upper:
-            # A NaN ends each segment, so that all intervals are one path without markers.
+            # The intervals of all points form one path without markers; a NaN separates two intervals.
             ends = [z for (a, _), b in zip(curve.points, curve.upper, strict=True) for z in (a, b, math.nan)]
             heights = [z for _, e in curve.points for z in (e, e, math.nan)]
             (bars,) = self.axes.plot(ends, heights, color=line.get_color(), linewidth=2.6, alpha=0.35)
@@ -156,8 +157,8 @@ parts.
 """
 
 GRID = 120
-"""The number of grid points in each direction. The number is even, so that no grid line is on an axis: the
-imaginary axis is the boundary of many stable regions.
+"""The number of grid points in each direction. The number is even, so that no grid point is on an axis. Many
+stable regions are bounded by the imaginary axis, and on a boundary rounding errors decide if |R| <= 1.
 """
 
 MARGIN = 0.7

@@ -6,7 +6,7 @@ import re
 from html import escape
 
 LETTERS = {"alpha": "α", "beta": "β", "gamma": "γ", "ahat": "â", "bhat": "b̂", "chat": "ĉ"}
-"""The HTML text of the letter for each coefficient name."""
+"""For each name of a coefficient in formulas, the letter that the page shows."""
 
 _TOKEN = re.compile(
     r"sum_(?:\{(?P<range>[^}]*)\}|(?P<index>\w+))"

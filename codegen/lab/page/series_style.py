@@ -2,8 +2,9 @@
 
 A method has the same colour and marker in every section, on every page and in the pictures of the README. The
 line is solid for equal steps, dash-dotted for step-size control, and dotted for a target that is not the
-default target. Peers have dashed lines in the colours of text, and open markers. Colour-blind readers can
-distinguish the colours. In grey print, markers and dashes distinguish the methods.
+default target. Peers (other integrators, measured for comparison) have dashed lines in the colours of text,
+and open markers. Colour-blind readers can distinguish the colours. In grey print, markers and dashes
+distinguish the methods.
 """
 
 from __future__ import annotations

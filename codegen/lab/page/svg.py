@@ -75,8 +75,8 @@ STYLE: dict[str, object] = {
 class Text:
     """The name, title and description of a figure, and the texts of the markers of each series.
 
-    The name is unique on a page. Title and description are read by screen readers. ``values`` contains one
-    text for each marker of a series, by the index of the series.
+    The name is unique on a page. Title and description are read by screen readers. ``values`` maps
+    the index of a series to the texts of the markers of this series.
     """
 
     name: str
@@ -162,7 +162,7 @@ def key(style: Style) -> Markup:
 
 @cache
 def _outline(marker: str) -> str:
-    """Return the outline of a marker of Matplotlib around the centre of a key, as SVG path data."""
+    """Return the outline of a Matplotlib marker as SVG path data, centred in the small picture of a key."""
     from matplotlib.markers import MarkerStyle
 
     if marker == "o":

@@ -105,8 +105,8 @@ class Answer:
     determined: float | None = None
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data. For a state that consists of zeros all digits are determined, and the number of
-        digits is null.
+        """Return plain data. If the state consists of zeros, the number of determined digits is infinite.
+        JSON has no infinity, so the number is then null.
         """
         digits = self.determined
         return {
@@ -149,7 +149,9 @@ def cases(compiled: Compiled) -> Iterator[Case]:
 
 
 def _firsts(compiled: Compiled) -> list[int]:
-    """Return the index of the first coordinate of every block, and the index of the last coordinate."""
+    """Return the index of the first coordinate of every block of the state, then the index of the last
+    coordinate of the whole state.
+    """
     places, start = [], 0
     for block in compiled.scene.state:
         places.append(start)
@@ -303,7 +305,7 @@ class Rounding(BallDomain):
         return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return the right-hand sides of the equations with rounding errors."""
+        """Add rounding errors to the right-hand sides of the equations, and return the results."""
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
@@ -329,7 +331,8 @@ def precise_step(
 ) -> list[Scalar]:
     """Return the state after one step of the program as mpmath numbers with many digits.
 
-    ``near`` is the same argument as for :func:`interpret`; its numbers are replaced by mpmath numbers.
+    If ``near`` is given, Newton's method starts from it: ``near`` contains a start for each implicit block.
+    The call replaces these starts by the solutions, as mpmath numbers.
     ``probe`` is the seed of the rounding errors, None for exact operations. ArithmeticError or ValueError is
     raised if a number of the step is not a finite real number.
     """

@@ -99,8 +99,8 @@ class FunctionPrinter:
 
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of a function's head, or of its prototype in a ``header``."""
-        # Private functions are static, so that the compiler may inline them. They have the prefix as well:
-        # two modules may be included in one file, and no header declares such a name.
+        # Private functions are static, so that the compiler may inline them. Their names have the prefix as
+        # well, because two modules may be included in one file, where equal names would conflict.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         listed = [self.parameter(function, p, header) for p in function.parameters]
@@ -243,7 +243,7 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch; an else that is a single branch becomes ``else if``."""
         test = statement.test
-        # The program may contain this test with or without a negation.
+        # A test whether numbers are finite may be negated; the comment below is printed in both cases.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
