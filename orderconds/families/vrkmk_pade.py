@@ -71,7 +71,8 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return a tuple that contains only this variant. Other values of ``cutoff`` are not considered."""
+        """Return a tuple that contains only this variant, and no variants with other values
+        of ``cutoff``."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 LINE = 32
-"""The largest width of a left-hand side in characters. A line also contains a
-tree, a right-hand side and a number. The whole line is about as wide as a column of a two-column article."""
+"""The largest width of a left-hand side in characters. A line also contains a tree, a
+right-hand side and a number. The whole line is about as wide as a column of a two-column article."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
@@ -33,8 +33,7 @@ def numbered(equations: Sequence[Equation]) -> str:
 
     The environment is ``alignat``, and the equations are aligned at the equality signs. If some left-hand
     side is broken into several lines, the environment is ``align``, and all equations are aligned at the left
-    margin. The column of pictures is omitted if
-    no equation has a picture.
+    margin. The column of pictures is omitted if no equation has a picture.
 
     >>> print(numbered([Equation(r"\sum_{i} b_{i}", "1", label="rk:1:1", comment="order 1")]))
     \begin{alignat}{1}

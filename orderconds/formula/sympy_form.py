@@ -1,8 +1,8 @@
 """Conversion of formulas to SymPy expressions. A coefficient becomes an entry of an ``IndexedBase``, an index
 sum becomes a ``Sum``.
 
-This is the only module of ``orderconds`` that imports SymPy at the top. Other modules import
-this module only when they need SymPy, because the import of SymPy is slow.
+This is the only module of ``orderconds`` that imports SymPy at the top. Other modules import this
+module only when they need SymPy, because the import of SymPy is slow.
 """
 
 from __future__ import annotations
