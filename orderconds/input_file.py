@@ -13,7 +13,8 @@ from pathlib import Path
 from orderconds.errors import InputError
 
 MAX_BYTES = 1_000_000
-"""Maximal size in bytes of a file that a person writes: a tableau, a scene, a list of modules."""
+"""Maximal size in bytes of a file that a person writes: a tableau, a scene (the description of a
+problem), a list of modules."""
 
 MAX_WRITTEN_BYTES = 100_000_000
 """Maximal size in bytes of a file that this program writes: an emitted module, a manifest, a checkpoint."""

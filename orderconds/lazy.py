@@ -47,6 +47,7 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        if isinstance(module.__dict__.get(name), ModuleType):  # This module was imported before the call.
+        # If the module ``name`` was imported before this call, the module is the attribute. It is removed.
+        if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

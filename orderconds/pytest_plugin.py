@@ -2,11 +2,11 @@
 
 Without one of its flags the plugin does nothing. The other flags correspond to options of ``orderconds
 check``: ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
-``--orderconds-execute`` and ``--orderconds-tolerance``. Files of every format are collected. A tableau that
-claims no order is skipped, and its computed order is reported. With ``--orderconds-require-claims`` such a
-tableau fails. Files of these formats that contain no tableau, such as ``pyproject.toml``, are skipped. Their
-names and the reasons are printed at the end. A file that the command line names is always collected. Python
-modules are parsed and not imported.
+``--orderconds-execute`` and ``--orderconds-tolerance``. Files of every supported format are examined. A
+tableau that claims no order is skipped, and its computed order is reported. With
+``--orderconds-require-claims`` such a tableau fails. A file that contains no tableau, such as
+``pyproject.toml``, is skipped. The names of skipped files and the reasons are printed at the end. A file that
+the command line names is always collected. Python modules are parsed and not imported.
 """
 
 from __future__ import annotations
@@ -70,7 +70,8 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Prevent pytest from importing a Python file with a tableau that the command line names."""
+    """Prevent pytest from importing a Python file that contains a tableau. Pytest would import the file if
+    the command line names it."""
     if not _is_on(parent.config) or _is_test_module(module_path, parent.config):
         return None
     from orderconds.exchange.folder import reason_to_skip

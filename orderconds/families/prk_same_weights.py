@@ -47,8 +47,8 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file need not claim an order in this family, because the order equals the order in
-        ``prk``."""
+        """Return None: a tableau file need not claim an order in this family, because every method of
+        this family has the same order in the family ``prk``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -66,7 +66,7 @@ class SameWeightsFamily(PartitionedFamily):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the elementary weights of a pair of tableaux, in the order of ``conditions``."""
+        """Return the elementary weights of a pair of tableaux, one for each element of ``conditions``."""
         pair = as_pair(method)
         weights = ElementaryWeights[DirectedTree](ring, (pair.A, pair.A_hat), pair.b, kept_branches)
         return tuple(weights(condition.key) for condition in conditions)

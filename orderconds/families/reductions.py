@@ -6,12 +6,12 @@
 - *substitution*: the conditions of another family may imply all conditions of order n and cost less. For a
   symplectic pair with b = bhat, the conditions of free trees with directed edges imply the conditions of all
   rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
-- *truncation of dexpinv* changes only values of trees with long words
-  (:mod:`orderconds.families.dexpinv_cut`).
+- *truncation of dexpinv*: the truncation changes the value of a tree only if a long word of trees contributes
+  to this value (:mod:`orderconds.families.dexpinv_cut`).
 
 The assumptions of a reduction are verified exactly for each tableau. If the coefficients are balls, only the
-last reduction is used, and only if the balls are proved to contain a solution. A reduction never improves a
-certificate.
+last reduction is used, and only if the balls are proved to contain a solution. A reduction never makes the
+certificate of an order, such as ``ball``, stronger.
 """
 
 from __future__ import annotations
@@ -65,12 +65,14 @@ class Reductions(Struct, frozen=True):
     cut: UnseenCut | None = None
 
     def order_follows(self, n: int) -> bool:
-        """Return True if all conditions of order n hold if all conditions of lower order hold."""
+        """Return True if the conditions of order n follow from the conditions of lower order."""
         return self.even and n % 2 == 0
 
     def rest_follows(self, n: int) -> bool:
-        """Return True if the substitute satisfies its conditions of order n, which are evaluated here. They
-        imply all conditions of order n."""
+        """Return True if the method satisfies the conditions of order n of the family in ``substitute``.
+
+        The function evaluates these conditions. They imply all conditions of order n that the check requires.
+        """
         if self.substitute is None:
             return False
         family, method = self.substitute.family, self.substitute.method

@@ -122,8 +122,8 @@ def names() -> tuple[str, ...]:
 
 
 def with_conditions() -> tuple[str, ...]:
-    """Return the names in :func:`names` of all families whose methods are given by tableaux. These families
-    have order conditions.
+    """Return the names of the families that have order conditions. These are the families in :func:`names`
+    whose methods are given by tableaux.
 
     >>> "rk" in with_conditions(), "taylor" in with_conditions()
     (True, False)
@@ -195,7 +195,7 @@ def _installed(name: str) -> type[Family] | None:
             raise InputError(f"cannot load the family: {problem}", where=where) from problem
         if not (isinstance(loaded, type) and issubclass(loaded, Family) and loaded.name == name):
             raise InputError(
-                f"the entry point is {loaded!r}",
+                f"the entry point loads the object {loaded!r}",
                 where=where,
                 expected=f"a subclass of Family with the name {name!r}",
             )

@@ -26,8 +26,8 @@ Polynomial = dict[tuple[Any, ...], Fraction]
 the keys of its factors."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
-"""A function of a tree. For each edge at the root it writes the tree as u o v and returns the trees u, v and
-v o u."""
+"""A function that yields three trees for each edge at the root of a given tree. The edge divides the given
+tree into u and v, so that the given tree is u o v. The three trees are u, v and v o u."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
@@ -132,8 +132,8 @@ def with_relations(
 
 
 def letter_key(tree: Tree) -> tuple[int, bytes]:
-    """Return the sort key of a tree as a letter. Larger trees come first; trees of equal size are in the
-    order of enumeration.
+    """Return the sort key of a tree that is a letter of a word. Larger trees come first; trees of equal size
+    are in the order of enumeration.
 
     >>> from orderconds.trees.levels import parse, text
     >>> [text(tree) for tree in sorted(map(parse, (".", "[..]", "[[.]]")), key=letter_key)]
@@ -170,7 +170,8 @@ def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomia
     r"""Return the value of a group-like series on a word of trees as a polynomial in its values on Lyndon
     words.
 
-    ``scale`` returns the factor by which the value on a word is multiplied.
+    All values in this relation, on both sides, are multiplied by factors: the factor of the value on a word
+    is ``scale`` of the word.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -63,7 +63,7 @@ class RungeKuttaFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the elementary weights of a tableau (A, b), in the order of ``conditions``."""
+        """Return the elementary weights of a tableau (A, b), one for each element of ``conditions``."""
         weights = self._memo(method, ring)
         return tuple(weights(condition.key) for condition in conditions)
 

@@ -203,8 +203,8 @@ class _Words:
                 behind = len(word) - 1 - place
                 # u^0 = 1 has a non-zero coefficient only on the empty word.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
-                    # As in the series, the letters of u^m precede the letters of u^(k-m) in a word of u^(k-m)
-                    # x u^m.
+                    # In a word of u^(k-m) x u^m, the letters of u^m precede the letters of u^(k-m). The class
+                    # DexpinvSeries has the same convention.
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))
                     terms.append((q, product(first, value, last)))

@@ -40,13 +40,13 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return self.name
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim of this order in a tableau file."""
+        """Return the claim that a method has this order in the family ``slgi``."""
         return OrderClaim(self.name, None, order)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file need not claim an order in this family, because the order equals the order in
-        ``vrkmk(0)``."""
+        """Return None: a tableau file need not claim an order in this family, because every method of
+        this family has the same order in the family ``vrkmk(0)``."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

@@ -1,8 +1,9 @@
 """Splittings: products of the flows of fields A, B, ... whose sum is the field of the problem.
 
-The conditions are indexed by words over A, B, .... One step is ... exp(b_1 h B) exp(a_1 h A). In each stage,
-the flow of A acts first. The exact flow exp(h (A + B + ...)) has the value 1/n! on every word of n letters
-(HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002) 341).
+The conditions are indexed by words over A, B, .... One step is the product of flows ``... exp(b_1 h B)
+exp(a_1 h A)``. The rightmost flow acts first, so A acts first in each stage. The exact flow exp(h (A + B +
+...)) has the value 1/n! on every word of n letters (HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002)
+341).
 """
 
 from __future__ import annotations

@@ -104,11 +104,11 @@ class SymplecticPartitionedFamily(Family):
         """Return a lower bound of the order, derived from simplifying assumptions and from the order p in
         ``rk``.
 
-        If ahat = a, the order is p. Otherwise suppose that Butcher's simplifying assumptions B(2m), C(m) and
-        D(m) hold for a. By the definition of ahat, C(m) and D(m) then hold for ahat, and c = chat. Butcher's
-        theorem on the order uses these assumptions to reduce trees with one kind of edges. The same proof
-        applies to both kinds of edges. Hence the order is at least min(p, 2m + 1) (Jay 1996, for Lobatto
-        pairs).
+        If ahat_ij = a_ij, the order is p. Otherwise suppose that Butcher's simplifying assumptions B(2m),
+        C(m) and D(m) hold for the coefficients a_ij. By the definition of ahat_ij, C(m) and D(m) then hold
+        for the coefficients ahat_ij, and c_i = chat_i. Butcher's theorem on the order uses these assumptions
+        to reduce trees with one kind of edges. The same proof applies to both kinds of edges. Hence the order
+        is at least min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

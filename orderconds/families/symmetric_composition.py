@@ -107,8 +107,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None. The value is not used, because the method is called only for a family that has the
-        name of a tableau format."""
+        """Return None. The result is not used, because this function is called only for families that have
+        the name of a tableau format."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -136,9 +136,9 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # The value of the logarithm is zero on words of even weight. On every word, this value is the sum of
-    # (-1)^(m+1)/m times the product of the values on the parts, over all divisions of the word into m = 1, 2,
-    # ... parts.
+    # On words of even weight, the logarithm of the step has the value zero. The value of the logarithm on a
+    # word is a sum over all divisions of the word into m = 1, 2, ... parts. The term of a division is
+    # (-1)^(m+1)/m times the product of the values of the step on the parts.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

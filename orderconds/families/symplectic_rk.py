@@ -66,7 +66,7 @@ class SymplecticFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the elementary weights of a tableau (A, b), in the order of ``conditions``."""
+        """Return the elementary weights of a tableau (A, b), one for each element of ``conditions``."""
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
 

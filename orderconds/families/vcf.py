@@ -3,7 +3,7 @@
 The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0`` and ``X_iJ =
 h sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj replace alpha_iJj, and ``b_i = sum_J
 beta_Ji``. Section 3.5 of Bogfjellmo and Marthinsen suggests this generalisation of variational
-Crouch-Grossman methods (VCG). These methods can have order 3 without negative weights.
+Crouch-Grossman methods (VCG). The family contains methods of order 3 whose weights are all positive.
 """
 
 from __future__ import annotations

@@ -62,8 +62,8 @@ class VariationalCrouchGrossman(ActionFamily):
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random full tableaux. The number of stages is ``order`` - 1, because
-        more stages do not increase the ranks."""
+        """Return the action series of random full tableaux. The number of stages is ``order`` - 1, but at
+        least 2. More stages do not increase the ranks by which independent conditions are selected."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))

@@ -43,7 +43,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """
 
     name = "vrkmk_pade"
-    description = "VRKMK with the inverse of dexp truncated after the power r: ``vrkmk_pade(r)``."
+    description = "VRKMK: ``vrkmk_pade(r)`` truncates the series of dexp after the power r and inverts it."
 
     def series(self, method: Method, ring: Ring) -> ActionSeries:
         """Return the action series of a tableau (A, b)."""
@@ -67,11 +67,12 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a tableau file without a claim in this family is complete."""
+        """Return None: a tableau file need not claim an order in this family."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return a tuple that contains only this family, because only one variant claims an order."""
+        """Return a tuple that contains only this variant, and no variants with other values
+        of ``cutoff``."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 LINE = 32
-"""The largest width of a left-hand side in characters. With a tree, a right-hand side and a number, a line is
-about as wide as a column of a two-column article."""
+"""The largest width of a left-hand side in characters. A line also contains a tree, a
+right-hand side and a number. The whole line is about as wide as a column of a two-column article."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
@@ -29,11 +29,11 @@ class Equation:
 
 
 def numbered(equations: Sequence[Equation]) -> str:
-    r"""Return an ``alignat`` environment, or an ``align`` environment (package amsmath).
+    r"""Return an environment of the package amsmath that contains the equations.
 
-    The equations are aligned at the equality signs. If a left-hand side is broken into several lines, all
-    lines are aligned at the left margin and not at the equality signs. The column of pictures is omitted if
-    no equation has a picture.
+    The environment is ``alignat``, and the equations are aligned at the equality signs. If some left-hand
+    side is broken into several lines, the environment is ``align``, and all equations are aligned at the left
+    margin. The column of pictures is omitted if no equation has a picture.
 
     >>> print(numbered([Equation(r"\sum_{i} b_{i}", "1", label="rk:1:1", comment="order 1")]))
     \begin{alignat}{1}

@@ -165,8 +165,8 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
 
 
 def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formula) -> Formula:
-    """Return the sum of ``body`` over indices. If a factor of ``body`` is a sum or a number, it is moved to
-    the front.
+    """Return the sum of ``body`` over indices. A rational factor of ``body`` is written before the sum. If a
+    factor of ``body`` is an index sum, the result is one sum over the indices of both sums.
 
     >>> a, c = coefficient("a", "i", "j"), coefficient("c", "j")
     >>> index_sum(("j",), (("i", "<", "j"),), product(a, c)).text()
@@ -191,7 +191,7 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
 
 
 def fresh(kind: str = "i") -> str:
-    """Return an index name that no other formula contains. ``kind`` is upper-case for an index of
+    """Return a new index name, which no existing formula contains. ``kind`` is upper-case for an index of
     exponentials.
 
     >>> fresh() != fresh()

@@ -1,8 +1,8 @@
 """Conversion of formulas to SymPy expressions. A coefficient becomes an entry of an ``IndexedBase``, an index
 sum becomes a ``Sum``.
 
-This is the only module of ``orderconds`` that imports SymPy at the top. To avoid this import, other modules
-import the module only when they need it.
+This is the only module of ``orderconds`` that imports SymPy at the top. Other modules import this
+module only when they need SymPy, because the import of SymPy is slow.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
     1 and j-1. If i is a free index, the relation gives j the lower limit i+1."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In SymPy the innermost limit comes first. Therefore the loop chooses an index that occurs in no
-        # limit of the remaining indices.
+        # In SymPy the innermost index comes first. The limits of an inner index may contain outer indices,
+        # but not conversely. Therefore the loop chooses an index that no remaining limit contains.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

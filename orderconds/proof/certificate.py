@@ -105,7 +105,8 @@ def _certify(key: _Key, least: int) -> Certificate:
         raise NotProved("the file names no equations; add a table [proof]")
     if not proof.unknowns:
         raise NotProved(
-            'pins name every decimal, so that no decimal is an unknown; pin fewer decimals, or leave out "~"'
+            "every decimal is in the list pins, so that no decimal is an unknown; "
+            'pin fewer decimals, or leave out "~"'
         )
     bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
     system = equations(tableau)
@@ -177,7 +178,7 @@ def _decimal(value: fmpq, unit: fmpq) -> str:
 
 
 def _distance(x: arb, to: fmpq) -> fmpq:
-    """Return an upper bound of the distance |x - to|."""
+    """Return an upper bound of the distance between the number ``to`` and any number in the ball ``x``."""
     low, high = endpoints(x)
     return max(abs(low - to), abs(high - to))
 

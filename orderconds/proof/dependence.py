@@ -222,8 +222,8 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return ``square_root`` if the radical is the only one, else a random number that depends only on
-        the radical."""
+        """Return ``square_root`` if the only radical is a square root. Otherwise return a random number that
+        depends only on the radical."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))

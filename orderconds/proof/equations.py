@@ -1,8 +1,8 @@
 """The equations that the decimals of a file solve, and the orders of their solution.
 
-Without a reduction the equations are all independent conditions of one family. With a reduction there are
-fewer equations. The assumptions of a reduction are verified exactly, from the formulas in the file and not
-from its decimals:
+Without a reduction the system contains one equation for every independent condition of one family. With a
+reduction there are fewer equations. The assumptions of a reduction are verified exactly, from the formulas in
+the file and not from its decimals:
 
 ``symmetric``    a palindromic composition of a symmetric method. The order is even, and only conditions of
                  odd order are needed, one for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2).
@@ -19,13 +19,13 @@ from its decimals:
 ``spelling``     coefficients that are formulas in other coefficients define a sub-family, in which some of
                  the conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-2N schemes. Let y_j, k_j, f_j be the values of Y_j, K_j, F(Y_j) on a word or tree. On single trees, k_j = A_j
-k_{j-1} + f_j and y_{j+1} = y_j + B_j k_j. Let D_j = y_j(t) k_j(u) - y_j(u) k_j(t). Replacing y_j by y_{j+1}
-does not change D_j, so D_j = A_j D_{j-1} + y_j(t) f_j(u) - y_j(u) f_j(t). This is the recursion of k_j on a
-combination of trees. Hence y(tu) - y(ut), the sum of B_j D_j, is a linear combination of values on single
-trees. The combination is the same for every scheme and for the exact flow. By ranks modulo primes, the tests
-confirm that longer words add no conditions: a 2N scheme has as many independent conditions as there are
-rooted trees.
+2N schemes. A stage computes K_j = A_j K_{j-1} + F(Y_j) and Y_{j+1} = exp(h B_j K_j) Y_j. Let y_j, k_j, f_j be
+the values of Y_j, h K_j, h F(Y_j) on a word or tree. On single trees, k_j = A_j k_{j-1} + f_j and y_{j+1} =
+y_j + B_j k_j. Let D_j = y_j(t) k_j(u) - y_j(u) k_j(t). Replacing y_j by y_{j+1} does not change D_j, so D_j =
+A_j D_{j-1} + y_j(t) f_j(u) - y_j(u) f_j(t). This is the recursion of k_j on a combination of trees. Hence
+y(tu) - y(ut), the sum of B_j D_j, is a linear combination of values on single trees. The combination is the
+same for every scheme and for the exact flow. By ranks modulo primes, the tests confirm that longer words add
+no conditions: a 2N scheme has as many independent conditions as there are rooted trees.
 """
 
 from __future__ import annotations

@@ -28,7 +28,8 @@ from orderconds.tableau.random_member import OUTSIDE, RandomMember, radicals
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 Reading = Callable[[Method, Ring], Method]
-"""A function from the method of a file over a ring to the method that a family evaluates."""
+"""A function that converts a method from the format of its file to the format that a family evaluates. The
+arguments are the method and the ring of its coefficients."""
 
 Monomial = tuple[OrderCondition, ...]
 """A monomial: the product of the left-hand sides of these conditions."""

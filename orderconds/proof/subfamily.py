@@ -30,7 +30,8 @@ def independent_conditions(
 ) -> tuple[OrderCondition, ...]:
     """Return the conditions up to ``order`` that do not follow from other conditions in the sub-family.
 
-    The function ``read`` converts the method of the file over a ring to the method that the family evaluates.
+    The function ``read`` converts a method from the format of the file to the format that the family
+    evaluates. Its arguments are the method and the ring of the coefficients.
 
     >>> from orderconds import families
     >>> from orderconds.tableau import Tableau

@@ -1,10 +1,10 @@
-"""Real number fields, whose elements are exact algebraic numbers. It is decidable if an element is zero.
+"""Real number fields, whose elements are exact algebraic numbers. Whether an element is zero is decidable.
 
 A field Q(a) is represented by a monic irreducible polynomial and enclosures of its real root a. An element is
-a polynomial in a of lower degree; it is zero iff this polynomial is zero.
-:class:`orderconds.ring.tower.Tower` constructs fields by adjoining one root after another. If the operands of
-an operation belong to different fields of a tower, the operand in the smaller field is first converted to an
-element of the larger field.
+a polynomial in the root a, whose degree is lower than the degree of the irreducible polynomial. The element
+is zero iff all coefficients of its polynomial are zero. :class:`orderconds.ring.tower.Tower` constructs
+fields by adjoining one root after another. If the operands of an operation belong to different fields of a
+tower, the operand in the smaller field is first converted to an element of the larger field.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Generator(Struct, frozen=True):
     minpoly: fmpq_poly | None = None
 
     def power(self, n: int) -> str:
-        """Return the n-th power as text, for n > 0."""
+        """Return the n-th power of the root as text, for n > 0."""
         if self.index == 0:
             return self.symbol if n == 1 else f"{self.symbol}^{n}"
         if self.index == 2 and n == 1:

@@ -83,7 +83,7 @@ class NodalAlgebra:
 
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
         """Return the matrices of the maps A - 1 b^T and A on polynomials in the nodes, where A is the first
-        matrix.
+        matrix and 1 is the vector of ones.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -100,8 +100,8 @@ class NodalAlgebra:
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
     """Return the algebra for the nodes c_i = sum_j a_ij of the first matrix.
 
-    The result is None if the field of the coefficients is Q, if two nodes are equal, or if some map is not
-    rational.
+    The result is None if the field of the coefficients is Q, if two nodes are equal, or if the
+    polynomial M of the nodes, a number b.c^k, or a vector A c^k as a polynomial in c is not rational.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))

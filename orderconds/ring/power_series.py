@@ -1,7 +1,7 @@
 """Truncated power series in h over any base ring. Terms of degree above ``order`` are omitted.
 
-If a step program is evaluated over this ring, the result contains the exact Taylor coefficients of its local
-error.
+If the program of one step of a method is evaluated over this ring, the result contains the exact Taylor
+coefficients of the local error of the step.
 """
 
 from __future__ import annotations

@@ -243,7 +243,8 @@ def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
 
 
 def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """Return b as a polynomial in a. Both are given modulo ``modulus``, and a generates the same field."""
+    """Return b as a polynomial in a. Both numbers are given as polynomials modulo ``modulus``. The number a
+    generates the whole field Q[x]/(modulus)."""
     degree, power, powers = int(modulus.degree()), fmpq_poly([1]) % modulus, []
     for _ in range(degree):
         powers.append(power)

@@ -148,13 +148,13 @@ class ActionSeries(ABC):
         """Return the coefficients of all words with at most ``vertices`` vertices in the group element of the
         update.
 
-        Let ``F(t)`` be the right-invariant field of t at (q0, mu1), divided by its symmetry. The step changes
-        a function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, where the field of the
-        first letter acts first. The same coefficients determine the momentum. Let mubar be the momentum
-        relative to q0, with mubar1 = Ad*_{q1} mu1. Then mubar1 - mubar0 is the sum over t = (v, M) of (the
-        coefficient of the one-letter word t) times the covector ``x -> -D_q H(x v | M)``, in which the
-        derivative along x is applied first. The coefficient of ``<mu1, ad t_1 ... ad t_k x>`` in mubar1 is
-        the coefficient of the word ``t_k ... t_1``.
+        Let ``F(t)`` be the right-invariant field of t at (q0, mu1), divided by the order of the symmetry
+        group of t. The step changes a function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f
+        (q0)``, where the field of the first letter acts first. The same coefficients determine the momentum.
+        Let mubar be the momentum relative to q0, with mubar1 = Ad*_{q1} mu1. Then mubar1 - mubar0 is the sum
+        over t = (v, M) of (the coefficient of the one-letter word t) times the covector ``x -> -D_q H(x v |
+        M)``, in which the derivative along x is applied first. The coefficient of ``<mu1, ad t_1 ... ad t_k
+        x>`` in mubar1 is the coefficient of the word ``t_k ... t_1``.
         :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates q1 and mu1 in this way.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}

@@ -32,7 +32,8 @@ def class_count(vertices: int) -> int:
 
     A class corresponds to an unrooted tree. In this tree, the number of possible root vertices is one more
     than the number of edges across which the root can move. Hence the number of classes is the number of
-    rooted trees minus the number of trees with a marked force.
+    rooted trees minus the number of unrooted trees with one such edge marked. The marked edge joins a force
+    to the rest of the tree, so these trees are counted as pairs of a force and a g-valued tree.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

@@ -154,8 +154,9 @@ def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield multisets as sequences that decrease in (vertices, index in the list). ``bound`` is the index of
-    the preceding element."""
+    """Yield multisets with their costs. The trees of a multiset are chosen in decreasing order of (number of
+    vertices, index in the list of all trees with this number of vertices). ``bound`` is the index of the tree
+    that was chosen before."""
     if vertices == 0:
         yield 0, ()
         return

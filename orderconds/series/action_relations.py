@@ -127,7 +127,8 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Return, for each tree, its coefficients modulo a prime. The keys are the indices of the monomials."""
+    """Return, for each tree, the coefficients modulo a prime of its value as a combination of monomials. The
+    keys are the indices of the monomials."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:

@@ -48,8 +48,11 @@ def _terms(program: BracketProgram) -> int:
 
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
-    """Yield programs in which one move removes a term, from a later bracket or from a row that contains both
-    brackets."""
+    """Yield programs that add a multiple of one bracket to a later bracket with the same left factor.
+
+    The multiple is chosen so that a term vanishes, either in the later bracket or in a row that contains both
+    of these brackets.
+    """
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
         same = x.keys() == other.keys() and all(ring.is_zero(x[n] - other[n]) is True for n in x)

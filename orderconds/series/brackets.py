@@ -71,10 +71,11 @@ def fewest_brackets(
     """Return a program with few brackets that has the same order as RKMK with an explicit tableau (A, b).
 
     The tableau must have the order ``order``. The ring must be able to decide whether an element is zero, and
-    to divide. In the first attempt free coefficients are zero. In the following attempts, whose number is
-    ``attempts``, the free coefficients are small pseudorandom numbers. The search starts with the lower bound
-    ``least`` as the limit for the number of brackets, and raises the limit by one until an attempt succeeds.
-    Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
+    to divide. The equations of the search may leave some coefficients free. In the first attempt free
+    coefficients are zero. In the following attempts, whose number is ``attempts``, some of the free
+    coefficients are small pseudorandom numbers. The search starts with the lower bound ``least`` as the limit
+    for the number of brackets, and raises the limit by one until an attempt succeeds. Raises
+    :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
