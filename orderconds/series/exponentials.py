@@ -21,7 +21,8 @@ class ProductOfExponentials:
     """The coefficients of words in a product of ``count`` exponentials. ``letter(J, k)`` returns the
     coefficient of letter k in X_J.
 
-    The function ``letter`` returns None for a coefficient that is zero for every method of this form.
+    The function ``letter`` returns None if the letter k does not occur in X_J, whatever the coefficients of
+    the method are.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]

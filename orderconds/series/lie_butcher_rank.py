@@ -1,10 +1,11 @@
-"""Selection of independent conditions on ordered forests in a family, by ranks at random methods.
+"""Selection of independent conditions on ordered forests in a family. The conditions are evaluated at random
+methods of the family, and the rank of their values shows which conditions are independent.
 
 A condition is superfluous under two requirements. First, for every method of the family, its left-hand side
 is the same linear combination of simpler left-hand sides of the same order and of products of left-hand sides
 of lower order. Second, the values of the exact flow satisfy this relation. The exact flow is therefore one of
-the samples. If the exact flow violates the relation (RKMK(0) at order 3), no method satisfies the condition,
-and the condition is not removed.
+the samples. If the exact flow violates the relation, no method satisfies the condition, and the condition is
+not removed. An example is order 3 of Runge-Kutta-Munthe-Kaas methods without brackets (cutoff 0).
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
 """A function that returns the series of random methods of a family, one for each sample."""
 
 SPARE_SAMPLES = 20
-"""The number of samples beyond the largest possible rank; they make accidental dependences improbable."""
+"""The number of samples beyond the largest possible rank. These additional samples make accidental
+dependences improbable."""
 
 
 def independent_forests(

@@ -116,14 +116,15 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
 def symmetric_transport(
     own: Sequence[Sequence[str]], leave: Sequence[int], update: Sequence[Sequence[str]], middle: Sequence[str]
 ) -> dict[str, str]:
-    """Return formulas for those entries x_ij of sums of exponents that the abscissae determine.
+    """Return formulas for those entries of ``own`` that the abscissae determine.
 
     The method is symmetric (:mod:`orderconds.solve.paths`). Stage i consists of the first ``leave[i]``
-    exponentials of ``update``, followed by exponentials of its own. x_ij is the sum of the j-th entries of
-    the exponents that only stage i contains. ``own`` contains the rows x_i of the stages before the middle.
-    ``middle`` is the row of a middle stage, if there is one. Let j' = s + 1 - j. The equation of column j is
-    sum_i b_i (x_ij - x_ij') = C_j; it is solved for the last row of ``own``. Each row equation is solved for
-    one entry.
+    exponentials of ``update``, followed by exponentials that belong only to stage i. The sum of the j-th
+    entries of the latter exponents is called x_ij. ``own`` contains the rows x_i of the stages before the
+    middle. ``middle`` is the row of a middle stage, if there is one. Let j' = s + 1 - j. The equation of
+    column j is sum_i b_i (x_ij - x_ij') = C_j, where C_j consists of the terms without entries of ``own``.
+    This equation is solved for an entry in the last row of ``own``. The equation of row i states that the
+    abscissa of stage i is m_i. This equation is solved for one entry of row i.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

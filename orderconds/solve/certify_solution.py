@@ -3,9 +3,9 @@
 Coefficients that the equations do not determine are first rounded to short decimals. All other coefficients
 are then computed to high precision by Newton's method in balls. If lattice reduction recognises them as
 algebraic numbers of one field, the file has closed forms and its order is checked exactly. Otherwise the file
-contains rounded decimals. They are unknowns of those conditions that are independent for the ansatz
-(reduction ``spelling``). Interval arithmetic then proves that these conditions have a solution near the
-decimals.
+contains rounded decimals, which are the unknowns of the conditions. Only those conditions are used that are
+independent for the ansatz (the reduction ``spelling`` of :mod:`orderconds.proof.subfamily`). Interval
+arithmetic then proves that these conditions have a solution near the decimals.
 """
 
 from __future__ import annotations
@@ -251,7 +251,7 @@ def _exact(problem: Problem, text: str, source: str) -> Solution | None:
     label = problem.ansatz.family
     try:
         report = check(tableau, label, problem.order)
-    except ZeroWeight:  # A weight is zero, and the formulas of the family divide by the weights.
+    except ZeroWeight:  # The formulas of the family divide by a weight that is zero.
         return None
     if report.verdict != "holds" or report.orders[0].certificate != "exact":
         return None

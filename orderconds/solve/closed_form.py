@@ -27,8 +27,8 @@ MAX_TEXT = 160
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """The ``text`` of a number in a tableau file. If the text contains the name ``r``, the lines ``root``
-    define this number."""
+    """A number in a tableau file, given by its ``text``. If the text contains the name ``r``, the lines
+    ``root`` of the file define ``r``."""
 
     text: str
     root: tuple[str, ...] = ()

@@ -1,10 +1,10 @@
 """Proofs that no method exists. Exact elimination shows that the order conditions contradict each other.
 
 Compute a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, there is no
-method, real or complex. If it contains a polynomial in one coefficient without real roots, counted by Sturm's
-theorem, there is no real method. (If the formulas of the family divide by the coefficient, the root zero does
-not count.) The certificate expresses this element of the ideal as a combination of the conditions. A reader
-can verify it by multiplication.
+method, real or complex. If the basis contains a polynomial in one coefficient, Sturm's theorem gives the
+number of its real roots. If there are none, there is no real method. (If the formulas of the family divide by
+the coefficient, the root zero does not count.) The certificate expresses the number 1 or the polynomial as a
+combination of the conditions. A reader can verify the certificate by multiplication.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ MAX_DEGREE = 8
 
 @dataclass(frozen=True)
 class Infeasible:
-    """A contradiction: ``consequence`` = sum of ``multipliers`` times ``equations`` has no solution.
+    """A contradiction. The sum of ``multipliers`` times ``equations`` is the polynomial ``consequence``. The
+    equation ``consequence`` = 0 has no real solution.
 
     The equations are left-hand sides minus right-hand sides of ``conditions``, without denominators.
     """
@@ -97,7 +98,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
         ArithmeticError,
         TypeError,
         ValueError,
-    ):  # the residuals are not Laurent polynomials
+    ):  # The residuals are not Laurent polynomials, so elimination yields no proof.
         return None
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]
@@ -115,7 +116,7 @@ def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
 
 
 def _numerator(x: Laurent | fmpq_mpoly, plain: Polynomials) -> fmpq_mpoly:
-    """Return the numerator of ``x``, which is zero wherever ``x`` is defined and zero."""
+    """Return the numerator of ``x``. If ``x`` is zero at a point, the numerator is also zero there."""
     numerator = x.numerator if isinstance(x, Laurent) else x
     return plain.zero.context().from_dict({tuple(map(int, e)): c for e, c in numerator.terms()})
 

@@ -22,13 +22,13 @@ from orderconds.solve.linear import Constraint, Elimination, equal, equality, na
 from orderconds.solve.spec import Spec, refuse
 
 Nodes = Mapping[str, Sequence[str]]
-"""For the name of each node, the names of the coefficients whose sum is the node."""
+"""A map from the name of each node (abscissa) to the names of the coefficients whose sum is the node."""
 
 
 def _eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the coefficients after elimination of all constraints; ``--fix`` may refer to nodes."""
+    """Return the coefficients after elimination of all constraints. A constraint ``--fix`` may name nodes."""
     elimination = Elimination(tuple(names))
     fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
     for constraint in fixed:
@@ -141,8 +141,9 @@ def _symplectic(
     """Return formulas that express one entry of each pair a_ij, a_ji in terms of the other entry, by the
     relation b_i a_ij + b_j a_ji = b_i b_j.
 
-    If the method is ``symmetric``, the relation of a pair implies the relation of the mirrored pair. A pair
-    that is equal to its mirrored pair always satisfies the relation.
+    The mirrored pair has the indices s + 1 - j, s + 1 - i in place of i, j. If the method is ``symmetric``,
+    the relation of a pair implies the relation of the mirrored pair. A pair that is equal to its mirrored
+    pair always satisfies the relation.
     """
     cells, last = _Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
@@ -463,10 +464,9 @@ LAYOUTS = {
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz of a family, by its label, for a specification.
+    """Return the ansatz for a specification in the family with the label ``family``.
 
-    Raises :class:`~orderconds.errors.InputError` for options that contradict each other or that no method of
-    the family satisfies.
+    Raises :class:`~orderconds.errors.InputError` for options that no method of the family satisfies.
 
     >>> example = ansatz("rk", Spec(stages=2, explicit=True, fix=("a21=1/2",)))
     >>> example.free, example.body[2]

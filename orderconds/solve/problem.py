@@ -52,7 +52,7 @@ class Problem:
 
     @cached_property
     def conditions(self) -> tuple[OrderCondition, ...]:
-        """Return the conditions up to the order that are independent for the ansatz.
+        """Return those conditions up to the order of the search that are independent for the ansatz.
 
         Conditions of even order are omitted for a symmetric method, because the order of a symmetric method
         is even (HLW II.3.2).
@@ -81,8 +81,8 @@ class Problem:
 
     @cached_property
     def error(self) -> Tape:
-        """Return a program for the residuals of the order after the order of the search. The 2-norm of these
-        residuals is the principal error."""
+        """Return a program for the residuals of order p + 1, where p is the order of the search. The 2-norm
+        of these residuals is the principal error."""
         ring = Traces(len(self.ansatz.free))
         method = self.ansatz.method(ring.inputs, ring)
         return Tape(self.family.principal_residuals(method, ring, self.order + 1), len(self.ansatz.free))

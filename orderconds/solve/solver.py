@@ -19,8 +19,8 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""The default number of random starts for each structure: first for a search without, then for a search with
-minimisation of the principal error."""
+"""The default numbers of random starts for each structure. A search that minimises the principal error uses
+the second number, every other search the first number."""
 
 
 @dataclass
@@ -165,7 +165,7 @@ def _finished(
     for _, point in solutions[:8]:
         try:
             return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused
-        # A weight may be zero, and the formulas of some families divide by weights.
+        # ZeroWeight is raised if the formulas of the family divide by a weight that is zero.
         except (NotProved, ZeroWeight) as problem_met:
             refused = str(problem_met)
     return None, refused

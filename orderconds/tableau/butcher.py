@@ -72,7 +72,7 @@ def _equations(tableau: Tableau) -> Iterator[str]:
 
 
 def _entry(value: object) -> str:
-    """Return a coefficient, a pair of a part and its coefficient, or a name, in LaTeX."""
+    """Return one entry in LaTeX. The entry is a coefficient, a name, or a list of coefficients and names."""
     if isinstance(value, list):
         return rf"[{', '.join(map(_entry, value))}]"
     try:

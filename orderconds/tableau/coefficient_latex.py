@@ -53,7 +53,7 @@ def _latex(x: Expression, tight: int) -> str:
 
 def _ends_in_a_factor(x: Expression) -> bool:
     """Return True if x is printed as a product and not as one fraction. A product that contains a rounded
-    decimal is not rewritten as one fraction, because rewriting would change the ball that it denotes."""
+    decimal is not rewritten as one fraction, because the fraction would denote a different ball."""
     return isinstance(x, Chain) and x.operators[-1] == "*"
 
 

@@ -164,10 +164,11 @@ def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Ca
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of method. The data state if 0 and 1 are nodes, and contain the rule for A and the name.
+    """A kind of method. ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node. ``matrix`` is
+    the rule for A, and ``called`` is the name.
 
-    The order is 2s minus the number of ends that are nodes. ``left_out`` is a function that maps the number
-    of stages to the node that the embedded row leaves out.
+    The order is 2s - ``left`` - ``right``. The function ``left_out`` maps the number of stages to the index
+    of the node that the embedded row leaves out.
     """
 
     left: bool

@@ -23,8 +23,8 @@ MAX_SIZE = 40_000
 
 
 class NamedRoot(Struct, frozen=True):
-    """A real root of a polynomial over Q, which is given by ascending coefficients. A decimal identifies the
-    root: no other root is near the decimal."""
+    """A real root of a polynomial over Q. ``minpoly`` contains the ascending coefficients of the polynomial.
+    The decimal ``near`` identifies the root: no other root is near this decimal."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -194,7 +194,9 @@ class _Evaluation:
 
     def power(self, base: Element, exponent: Fraction) -> Element:
         if self.scalars.size(base) * abs(exponent.numerator) > MAX_SIZE:
-            raise self.error(f"a power ^{exponent} that grows too large", f"at most {MAX_SIZE} bits")
+            raise self.error(
+                f"a power with exponent {exponent} that grows too large", f"at most {MAX_SIZE} bits"
+            )
         try:
             root = self.scalars.root(base, exponent.denominator) if exponent.denominator > 1 else base
             return root**exponent.numerator

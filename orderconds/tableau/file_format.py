@@ -26,8 +26,8 @@ MAX_PARTS = 6
 
 
 class RootEntry(Struct, forbid_unknown_fields=True):
-    """A real root of a polynomial. ``minpoly`` contains the ascending coefficients of the polynomial, and
-    ``near`` is a decimal that no other root is near to."""
+    """A real root of a polynomial. ``minpoly`` contains the ascending coefficients of the polynomial. The
+    decimal ``near`` identifies the root: no other root is near this decimal."""
 
     minpoly: list[Coefficient]
     near: str

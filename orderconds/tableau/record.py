@@ -57,7 +57,7 @@ class Tableau:
     embedded: LowerOrder | None = None
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
-    """The equations that the true values of the rounded decimals solve; None if the file names none."""
+    """The equations that the true values of the rounded decimals solve; None if there is no ``[proof]``."""
     file: File | None = field(default=None, compare=False, repr=False)
     """The file from which the tableau was read; None if the coefficients differ from the coefficients of the
     file."""
@@ -202,7 +202,8 @@ defined under numbers (none)
         return f", {self.s} stage" + "s" * (self.s != 1)
 
     def __hash__(self) -> int:
-        # Balls and algebraic numbers have no hash. Equal tableaux have equal names and sources.
+        # Balls and algebraic numbers have no hash, so the coefficients are not used. Equal tableaux have
+        # equal names and sources, and therefore equal hashes.
         return hash((self.name, self.family, self.source, self.bibtex, self.path, self.doubles))
 
     def _repr_latex_(self) -> str:
@@ -336,8 +337,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that the keys define. The order of an embedded row is its order on vector spaces,
-    which is computed."""
+    """Return the tableau that the keys define. The order of an embedded row is computed. It is the order of
+    the embedded row on vector spaces."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:

@@ -4,8 +4,9 @@ In the step of length -h from the end point, the value at node i is -A_{s+1-i}, 
 about 1/2. This reverse step undoes the step of length h under the following condition. If -A_{s+1-i} is
 substituted for A_i in the k-th exponent, the result is the negative of the k-th exponent from the end. A
 combination of nodes may be odd or even under this substitution. The parity of a bracket or product follows
-from the parities of its factors. Thus a method with one odd exponent is recognised as symmetric without
-expansion of nested brackets. In all other cases exponents are compared as combinations of products of nodes.
+from the parities of its factors. If a method has only one exponent and this exponent is odd, the condition is
+satisfied, and the method is recognised as symmetric without expansion of nested brackets. In all other cases
+exponents are compared as combinations of products of nodes.
 """
 
 from __future__ import annotations

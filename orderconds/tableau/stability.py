@@ -94,8 +94,8 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
 def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
     """Return the result of :func:`stability` for midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    |R| = 1 on the imaginary axis and at infinity. A negative step size gives a pole in the left half plane.
-    If another step size is the opposite number, its factor cancels this pole.
+    |R| = 1 on the imaginary axis and at infinity. A negative gamma_i gives a pole in the left half plane. If
+    another step size is equal to -gamma_i, the factor of that step size cancels this pole.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}

@@ -21,7 +21,7 @@ def uncertainty(tableau: Tableau, bits: int) -> str:
 
     A coefficient is less accurate if its ball is wider than the error of one rounding to ``bits`` bits. The
     result is a decimal of two digits. It is empty if all coefficients are exact or accurate enough. A double
-    is always accurate enough, because code contains a double without further rounding.
+    is always accurate enough, because generated code contains the double without further rounding.
 
     >>> from orderconds.tableau import find
     >>> uncertainty(Tableau.load(find("rk4")), 53)

@@ -135,5 +135,5 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # Some rings (jets, residues) do not define the size of an element.
+        # Some rings (jets, residues) do not define the size of an element. The size is not limited there.
         return 0 if size is None else int(size(x))

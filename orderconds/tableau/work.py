@@ -2,10 +2,11 @@
 
 A field evaluation is counted for each stage on which the update depends. Stages that only the error
 estimate uses are not counted. An explicit first-same-as-last method evaluates its last stage for the next
-step, in place of the first stage of that step. An implicit method counts one sweep of its iteration.
-Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage, without
-simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
-commutators in its exponents, and a Cayley transform counts as an exponential.
+step, in place of the first stage of that step. For an implicit method, one sweep of the iteration for the
+stages is counted. Equal exponents count as one exponential. The brackets of dexpinv are counted at each
+stage, without simplification. At a stage that is equal to the start value, the argument of dexpinv is zero,
+and no bracket is needed. For a Magnus method the brackets are the different commutators in its exponents, and
+a Cayley transform counts as an exponential.
 """
 
 from __future__ import annotations
@@ -99,7 +100,8 @@ def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
 
 
 def magnus_work(tableau: Tableau) -> Work | None:
-    """Return the nodes, different exponents and commutators of a Magnus method, None for other methods.
+    """Return the numbers of nodes, different exponents and commutators of a Magnus method. For any other
+    method, return None.
 
     >>> from orderconds.tableau import find
     >>> magnus_work(Tableau.load(find("magnus4")))

@@ -136,7 +136,7 @@ def _product(method: AdjointComposition | Splitting | Magnus, text: Spell) -> Da
 
 
 class _Radicals:
-    """Names r1, r2, ... for square roots that occur inside other roots."""
+    """The names r1, r2, ... of the square roots that occur inside other roots."""
 
     def __init__(self, ring: Any) -> None:
         self.text: Spell = ring.text

@@ -2,9 +2,10 @@
 
 An edge from parent i to child j has kind 0 if it points away from the root; its coefficient is then a_ij. It
 has kind 1 if it points to the root; its coefficient is then ahat_ij. If the root is moved from one end of an
-edge to the other end, the kind of the edge changes, but its direction does not. By the relation b_i ahat_ij =
-b_i b_j - b_j a_ji, the sum of the weights of the two rooted trees is a product of weights of smaller trees.
-Hence the conditions are indexed by free trees with directed edges.
+edge to the other end, the kind of the edge changes, but its direction does not. Consider the rooted trees
+before and after this move. By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the sum of their elementary
+weights is a product of elementary weights of smaller trees. Hence the conditions are indexed by free trees
+with directed edges.
 
 Encoding: one byte ``2 level + kind`` for each vertex, in preorder, where ``kind`` is the kind of the edge to
 the parent. Branches are in descending order.

@@ -2,9 +2,10 @@
 elementary differential along another.
 
 Let u > v denote the graft of u onto v. Then F(u > v) is the derivative of F(v) in the direction F(u).
-Unordered trees with this product form the free pre-Lie algebra (Chapoton and Livernet 2001). Ordered trees
-are grafted to the left of the existing branches, because the vector field that is frozen last acts first
-(Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+Unordered trees with this product form the free pre-Lie algebra (Chapoton and Livernet 2001). For an ordered
+tree, F([t_1 ... t_k]) = X_1 ... X_k f, where X_l differentiates along the fixed element F(t_l) of the Lie
+algebra. A further derivative is written to the left of X_1. Hence ordered trees are grafted to the left of
+the existing branches (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 
 from __future__ import annotations

@@ -77,7 +77,7 @@ MEANINGS = {
     "transport": "a diamond is a coadjoint action on the momentum",
     "bracket": "two branches at a point are a commutator",
 }
-"""The explanations of those signs in drawings of trees that are not self-explanatory."""
+"""Explanations of signs in the drawings of trees. Signs that are self-explanatory are omitted."""
 
 
 def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:

@@ -106,7 +106,8 @@ def dexp_inverse(length: int) -> Series:
     """
     numbers = [Fraction(1)]
     for n in range(1, length):
-        # sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0, because the product of x/(e^x - 1) and (e^x - 1)/x is one.
+        # The product of x/(e^x - 1) and (e^x - 1)/x is one. Hence sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0. This
+        # equation determines B_n/n!.
         numbers.append(-sum((q / factorial(n + 1 - k) for k, q in enumerate(numbers)), Fraction(0)))
     return _adjoint_series(length, numbers.__getitem__)
 

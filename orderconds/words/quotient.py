@@ -26,7 +26,8 @@ word is the name of the functional."""
 def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int) -> tuple[Functional, ...]:
     """Return a basis of the functionals on words of this length that vanish on the ideal of ``generators``.
 
-    Each functional has a different word as its name, a Lyndon word if possible, and contains few other words.
+    Each functional is named by one of its words. The names are different, and are Lyndon words if possible.
+    A functional contains few words besides its name.
 
     >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
     >>> orthogonal([commuting], (0, 1), 2)
