@@ -145,5 +145,5 @@ def write(directory: Path, files: dict[str, str]) -> list[Difference]:
                 with writing(path.parent):
                     write_text(path, files[difference.path])
     except OSError as error:
-        raise InputError(f"cannot write there: {reason(error)}", where=str(directory)) from None
+        raise InputError(f"cannot write to this path: {reason(error)}", where=str(directory)) from None
     return changed

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
     "--form",
     "forms",
     multiple=True,
-    help="The form of the equations that peers and ambient methods integrate: printed, body-matrix or "
-    "quaternion. May be repeated. Default: all forms.",
+    help="The form of the equations that peers and ambient methods integrate: printed (as the scene states "
+    "them), body-matrix or quaternion. May be repeated. Default: all forms.",
 )
 @click.option("--budget", default=1.0, show_default=True, help="The longest CPU time of one run, in seconds.")
 @click.option(

@@ -43,7 +43,8 @@ if TYPE_CHECKING:
 @click.option(
     "--form",
     default="printed",
-    help="Form of the equations: printed (the default), body-matrix, quaternion; see the header of the file.",
+    help="Form of the equations: printed (as the scene states them; the default), body-matrix or quaternion. "
+    "The header of the emitted file describes the form.",
 )
 @click.option(
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
@@ -64,7 +65,7 @@ if TYPE_CHECKING:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Print the program after each compiler pass, and the operations that the step does not need.",
+    help="Print the program after each compiler pass, and the operations that the pass has removed.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(

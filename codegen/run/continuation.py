@@ -66,8 +66,7 @@ def continued(plan: Plan, core: str) -> Function:
 
 
 class _Continuation:
-    """Builds the emitted function that repeats a failed step; each Term attribute is a local variable of
-    it."""
+    """Builds the emitted function that repeats a failed step; attributes of type Term are its variables."""
 
     # Two steps as fractions of h: the longest step that succeeded, and the step that is tried now. The factor
     # is the ratio of consecutive fractions.

@@ -140,7 +140,7 @@ def needed(
     registers to memory. In this case C compilers may inline all branches of Stumpff functions. ``wide`` is
     the common number of rows of all inverted matrices, and 0 if their sizes differ or are large; in C, loops
     over rows of this length are unrolled. ``widest`` is the number of rows of the largest inverted matrix; C
-    code reserves memory for a matrix of this size. ``chain`` is the number of angles that depend on one
+    code reserves memory for one row of this length. ``chain`` is the number of angles that depend on one
     another (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of helpers in C, so that two
     modules can share one translation unit.
 
