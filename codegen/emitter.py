@@ -115,6 +115,7 @@ def compile_method(
     jacobian: bool = False,
     form: str = PRINTED,
     family: str = "",
+    batch: bool = False,
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -124,7 +125,8 @@ def compile_method(
     solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
     embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
-    (:func:`codegen.method.method_of`). Errors: SceneError, MethodError, UnknownName, TableauError.
+    (:func:`codegen.method.method_of`). ``batch`` adds a function that steps many
+    systems. Errors: SceneError, MethodError, UnknownName, TableauError.
     """
     scene = scenes.problem_of(scene)
     parameters = texts(parameters, "parameters", "alpha=1/2")
@@ -154,6 +156,8 @@ def compile_method(
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
+    if batch:
+        best = replace(best, kernel=replace(best.kernel, batch=True))
     if degree and method.adaptive:
         return replace(best, kernel=with_step_control(best.kernel, problem, degree))
     estimate = best.kernel.estimate
@@ -187,6 +191,7 @@ def emit(
     jacobian: bool = False,
     form: str = PRINTED,
     family: str = "",
+    batch: bool = False,
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -197,7 +202,8 @@ def emit(
     become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run
     with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks:
     ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
-    classical form of the scene, by default the equations as printed. Errors: the errors of
+    classical form of the scene, by default the equations as printed. ``batch`` adds a C function that steps
+    many independent systems (:meth:`codegen.integrator.Integrator.run_batch`). Errors: the errors of
     :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
     name in C.
     """
@@ -217,6 +223,7 @@ def emit(
             solver=solver,
             form=form,
             family=text(family, "family", "a family, such as rkmk(2)"),
+            batch=batch,
         )
     named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
@@ -275,6 +282,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options = ["--frame body"] if scene.body_group is not None else []
     options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
     options += ["--adaptive"] if compiled.method.adaptive else []
+    options += ["--batch"] if compiled.kernel.batch else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
@@ -340,6 +348,10 @@ def emit_kernel(
     target.
     """
     interface = Interface.of(kernel, prefix, precision)
+    if kernel.batch and target != "c":
+        raise InputError(
+            f"the target {target}", where="--batch", expected="the target c", hint="add --target c"
+        )
     files = known_target(target).print_module(kernel, interface, recipe)
     manifest = {
         **(about or {}),

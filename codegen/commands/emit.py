@@ -49,6 +49,9 @@ if TYPE_CHECKING:
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
 )
 @click.option(
+    "--batch", is_flag=True, help="Also emit a C function that steps many independent systems at once."
+)
+@click.option(
     "--adaptive",
     is_flag=True,
     help="Also emit a function with step-size control; the embedded row of the tableau estimates the error.",
@@ -78,6 +81,7 @@ def command(
     frame: str,
     form: str,
     jacobian: bool,
+    batch: bool,
     adaptive: bool,
     precision: str,
     solver: str,
@@ -107,7 +111,16 @@ def command(
         known_target(name)
     known_precision(precision)
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
+        scene,
+        method,
+        parameters,
+        inputs,
+        frame,
+        adaptive,
+        solver=solver,
+        jacobian=jacobian,
+        form=form,
+        batch=batch,
     )
     _warn(compiled, scene, method)
     if chosen := family_note(compiled, method):

@@ -16,7 +16,7 @@ import networkx as nx
 from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.table import PiecewisePolynomial
-from codegen.snippets import stumpff
+from codegen.snippets import lane_angles, stumpff
 from codegen.templates import environment
 
 LIBRARY = (ANGLE, "fabs", "isfinite", *sorted(MATHEMATICAL))
@@ -33,8 +33,9 @@ class Snippet:
     variables: dict[str, Any] = field(default_factory=dict, compare=False)
 
 
-def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
-    """Return every snippet; all targets use the same names.
+def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippet, ...]:
+    """Return every snippet; all targets use the same names. ``batch`` adds the forms without branches, and
+    removes the polynomials that these forms do not use.
 
     Only double precision has shorter polynomials near zero. In single precision the full polynomial is
     already short.
@@ -76,7 +77,10 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
             library.append("cos")
         series = (*library, *(f"stumpff_series_{k}" for k in orders))
         values = {"name": name, "orders": orders, "switch": switch}
-        if precision is not DOUBLE:
+        if batch:
+            polynomials = tuple(f"stumpff_series_{k}" for k in orders)
+            listed.append(Snippet(f"{name}_near", "stumpff_lane", polynomials, values))
+        if precision is not DOUBLE or batch:
             listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
             continue
         # The branch near zero is short enough to be inlined at each call. The branch for larger arguments is
@@ -90,7 +94,25 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
         listed.append(
             Snippet(name, "stumpff_near", calls, values | {"tiny": tiny, "small": small, "far": far})
         )
-    return tuple(listed)
+    return (*listed, *(trigonometric(precision) if batch else ()))
+
+
+def trigonometric(precision: Precision) -> list[Snippet]:
+    """Return sine and cosine without branches, and the same functions for all arguments."""
+    shared = {
+        **lane_angles.reduction(precision),
+        "sine": lane_angles.polynomial(1, precision),
+        "cosine": lane_angles.polynomial(0, precision),
+    }
+    listed = []
+    for name in ("sin", "cos"):
+        listed.append(Snippet(f"{name}_near", "angle_near", ("fabs",), {"name": name, **shared}))
+        listed.append(
+            Snippet(
+                f"{name}_complete", "angle_complete", (f"{name}_near", name, "fabs"), {"name": name, **shared}
+            )
+        )
+    return listed
 
 
 def snippet_of_table(table: PiecewisePolynomial, precision: Precision = DOUBLE) -> Snippet:
@@ -103,11 +125,11 @@ def snippet_of_table(table: PiecewisePolynomial, precision: Precision = DOUBLE) 
 
 
 @cache
-def graph(precision: Precision = DOUBLE) -> nx.DiGraph:
+def graph(precision: Precision = DOUBLE, batch: bool = False) -> nx.DiGraph:
     """Return the graph: an edge from each helper to each function that it calls."""
     result = nx.DiGraph()
     result.add_nodes_from(LIBRARY, snippet=None)
-    for snippet in snippets(precision):
+    for snippet in snippets(precision, batch):
         result.add_node(snippet.name, snippet=snippet)
         result.add_edges_from((snippet.name, called) for called in snippet.calls)
     return result
@@ -132,6 +154,7 @@ def needed(
     widest: int = 0,
     chain: int = 1,
     prefix: str = "",
+    batch: bool = False,
 ) -> Needed:
     """Return the helpers and library functions that a module of a target needs, and no others.
 
@@ -141,7 +164,8 @@ def needed(
     the common number of rows of all inverted matrices, 0 if they differ or are large; C unrolls a row of this
     length. ``widest`` is the largest number of rows; C reserves this much memory. ``chain`` is the number of
     angles that depend on one another (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of
-    helpers in C, so that two modules can share one translation unit.
+    helpers in C, so that two modules can share one translation unit. ``batch`` is true for modules with a
+    function for many systems.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())
@@ -149,7 +173,7 @@ def needed(
     ('sin', 'sqrt')
     """
     wanted = sorted(set(functions))
-    whole = graph(precision)
+    whole = graph(precision, batch)
     tables = [snippet_of_table(f, precision) for f in wanted if isinstance(f, PiecewisePolynomial)]
     if tables:
         whole = whole.copy()
