@@ -115,7 +115,6 @@ def compile_method(
     jacobian: bool = False,
     form: str = PRINTED,
     family: str = "",
-    batch: bool = False,
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -125,8 +124,7 @@ def compile_method(
     solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
     embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
-    (:func:`codegen.method.method_of`). ``batch`` adds a function that steps many
-    systems. Errors: SceneError, MethodError, UnknownName, TableauError.
+    (:func:`codegen.method.method_of`). Errors: SceneError, MethodError, UnknownName, TableauError.
     """
     scene = scenes.problem_of(scene)
     parameters = texts(parameters, "parameters", "alpha=1/2")
@@ -156,14 +154,17 @@ def compile_method(
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
-    if batch:
-        best = replace(best, kernel=replace(best.kernel, batch=True))
     if degree and method.adaptive:
         return replace(best, kernel=with_step_control(best.kernel, problem, degree))
     estimate = best.kernel.estimate
     if estimate is None:
         return best
     return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
+
+
+def with_batch(compiled: Compiled) -> Compiled:
+    """Return a compiled method whose module also has a function that steps many independent systems."""
+    return replace(compiled, kernel=replace(compiled.kernel, batch=True))
 
 
 def work(kernel: Kernel) -> int:
@@ -223,8 +224,8 @@ def emit(
             solver=solver,
             form=form,
             family=text(family, "family", "a family, such as rkmk(2)"),
-            batch=batch,
         )
+        compiled = with_batch(compiled) if batch else compiled
     named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
     named["method"] = bare(str(method)) if whole else compiled.method.label

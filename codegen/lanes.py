@@ -80,8 +80,8 @@ def in_place(out: object, size: int, real: str) -> Any:
     kind = _format(real)
     given = out if isinstance(out, np.ndarray) else None
     if given is None or given.ndim != 2 or given.shape[1] != size or given.dtype != kind or not len(given):
-        found = described(out) if given is None else f"an array of shape {given.shape} and type {given.dtype}"
-        raise ValueError(f"expected an array of shape (N, {size}) and type {kind} for out, found {found}")
+        shown = described(out) if given is None else f"an array of shape {given.shape} and type {given.dtype}"
+        raise ValueError(f"expected an array of shape (N, {size}) and type {kind} for out, found {shown}")
     if not given.T.flags.c_contiguous or not given.flags.writeable:
         raise ValueError(
             "expected a writeable array in Fortran order for out; numpy.asfortranarray makes such an array"

@@ -6,7 +6,7 @@ A node is a helper or a function of the target's mathematical library, an edge i
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -69,32 +69,39 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
                 values = {"k": k, "size": size, "last": str(last), "short": short}
                 listed.append(Snippet(f"stumpff_{size}_{k}", "stumpff_small", (), values))
     for orders in stumpff.SETS:
-        name = "stumpff_" + "".join(map(str, orders))
-        library = ["sqrt"]
-        if orders != (0,):
-            library.append("sin")
-        if orders not in ((1,), (2,), (3,), (1, 3)):
-            library.append("cos")
-        series = (*library, *(f"stumpff_series_{k}" for k in orders))
-        values = {"name": name, "orders": orders, "switch": switch}
-        if batch:
-            polynomials = tuple(f"stumpff_series_{k}" for k in orders)
-            listed.append(Snippet(f"{name}_near", "stumpff_lane", polynomials, values))
-        if precision is not DOUBLE or batch:
-            listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
-            continue
-        # The branch near zero is short enough to be inlined at each call. The branch for larger arguments is
-        # called rarely and is a separate function.
-        far, small = f"{name}_far", float(stumpff.SMALL)
-        listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-        # Three functions, each with two polynomials, would be too long for a C compiler to inline.
-        sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
-        calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
-        tiny = float(stumpff.TINY) if "tiny" in sizes else ""
-        listed.append(
-            Snippet(name, "stumpff_near", calls, values | {"tiny": tiny, "small": small, "far": far})
-        )
+        listed += _shared_angle(orders, switch, precision, batch)
     return (*listed, *(trigonometric(precision) if batch else ()))
+
+
+def _shared_angle(
+    orders: tuple[int, ...], switch: Sequence[float], precision: Precision, batch: bool
+) -> list[Snippet]:
+    """Return the snippets of the Stumpff functions ``orders`` of one argument."""
+    listed: list[Snippet] = []
+    name = "stumpff_" + "".join(map(str, orders))
+    library = ["sqrt"]
+    if orders != (0,):
+        library.append("sin")
+    if orders not in ((1,), (2,), (3,), (1, 3)):
+        library.append("cos")
+    series = (*library, *(f"stumpff_series_{k}" for k in orders))
+    values = {"name": name, "orders": orders, "switch": switch}
+    if batch:
+        polynomials = tuple(f"stumpff_series_{k}" for k in orders)
+        listed.append(Snippet(f"{name}_near", "stumpff_lane", polynomials, values))
+    if precision is not DOUBLE or batch:
+        listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
+        return listed
+    # The branch near zero is short enough to be inlined at each call. The branch for larger arguments is
+    # called rarely and is a separate function.
+    far, small = f"{name}_far", float(stumpff.SMALL)
+    listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
+    # Three functions, each with two polynomials, would be too long for a C compiler to inline.
+    sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
+    calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
+    tiny = float(stumpff.TINY) if "tiny" in sizes else ""
+    listed.append(Snippet(name, "stumpff_near", calls, values | {"tiny": tiny, "small": small, "far": far}))
+    return listed
 
 
 def trigonometric(precision: Precision) -> list[Snippet]:
