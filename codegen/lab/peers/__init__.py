@@ -46,9 +46,9 @@ class Run(Protocol):
 class Prepared:
     """A peer that is prepared for one scene and for one tolerance or one number of steps.
 
-    ``run(n)`` integrates over n time spans, by default over one; it raises :class:`PeerFailed` if the run does
-    not reach the end. ``idle`` integrates over an empty interval, to measure the overhead of a call; it is None if the overhead
-    is negligible.
+    ``run(n)`` integrates over n time spans, by default over one; it raises :class:`PeerFailed` if the run
+    does not reach the end. ``idle`` integrates over an empty interval, to measure the overhead of a call; it
+    is None if the overhead is negligible.
     """
 
     run: Run
