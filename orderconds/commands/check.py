@@ -146,8 +146,7 @@ def command(
         orderconds check mine.toml --family 'rkmk(2)' --order 4
     """
     if family is not None:
-        # This call raises an error for an unknown family. Otherwise each file would report the same error.
-        families.get(family)
+        families.get(family)  # This call raises one error for an unknown family, before any file is read.
     job = _Job(
         path="",
         family=family,

@@ -112,9 +112,7 @@ def solve(
     ((Fraction(1, 2), Fraction(1, 2)), 'exact')
     """
     order = integer(order, "order", SOLVED_ORDER)
-    # A symmetric method of even order needs only the conditions up to order - 1, so the limit applies to
-    # these.
-    refuse_too_many_trees(families.get(family), order - 1)
+    refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need only these conditions.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,
