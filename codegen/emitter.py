@@ -18,12 +18,14 @@ from codegen import scenes
 from codegen.artifact import Artifact, digest
 from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
 from codegen.error_estimate import order_of_estimate
+from codegen.errors import MethodError
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
 from codegen.ir.smoothness import features
+from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
@@ -139,6 +141,8 @@ def compile_method(
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
+    if scene.matrices is not None:
+        return _with_arrays(scene, method, jacobian)
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates, degree = [], lowering(method.family).degree(method)
@@ -160,6 +164,19 @@ def compile_method(
     if estimate is None:
         return best
     return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
+
+
+def _with_arrays(scene: Problem, method: Method, jacobian: bool) -> Compiled:
+    """Return a method on a scene whose field is given by formulas of matrices."""
+    refused = "step control" if method.adaptive else "the derivative of a step" if jacobian else ""
+    if refused:
+        raise MethodError(
+            f"{refused} for a scene with large matrices",
+            where=scene.name,
+            expected="steps of constant size, without derivatives",
+        )
+    own = array_method(scene, method)
+    return Compiled(scene, method, scene, own.lowered, own.program, own.trace, own.kernel)
 
 
 def work(kernel: Kernel) -> int:
