@@ -141,7 +141,7 @@ def compile_method(
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
-    if scene.matrices is not None:
+    if scene.matrices is not None and not lowering(method.family).in_coordinates:
         return _with_arrays(scene, method, jacobian)
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
