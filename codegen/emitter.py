@@ -100,6 +100,7 @@ class Compiled(Optimised):
 def optimise_method(scene: Problem, method: Method) -> Optimised:
     """Return the optimised step program of a method on a scene. The group need not have closed forms of
     its operations, because no kernel is built."""
+    scene.require_formulas()
     problem, lowered = problem_for(scene, method), lower(scene, method)
     program, trace = optimise(lowered, problem, composed=lower_composed(scene, method))
     return Optimised(scene, method, problem, lowered, program, trace)

@@ -119,7 +119,7 @@ def _valued(
 
 
 @dataclass(frozen=True)
-class Product:
+class Multiplication:
     """target = left right, or target + left right with ``added``; transposed factors are read by columns.
 
     The arrays of the factors differ from the array of the target.
@@ -175,7 +175,7 @@ class Combination:
     terms: tuple[Term, ...]
 
 
-ArrayStatement = Product | Apply | Combination
+ArrayStatement = Multiplication | Apply | Combination
 
 Renaming = Callable[[Matrix], Matrix]
 """A function that returns the matrix to be used in place of a matrix."""
@@ -225,7 +225,7 @@ class ArrayProgram:
 def _renamed(statement: ArrayStatement, now: Renaming) -> ArrayStatement:
     target = now(statement.target)
     match statement:
-        case Product(left=left, right=right):
+        case Multiplication(left=left, right=right):
             return replace(statement, target=target, left=now(left), right=now(right))
         case Apply(matrix=matrix):
             return replace(statement, target=target, matrix=now(matrix))
@@ -247,7 +247,7 @@ def evaluated(
     zero = domain.rational(0)
     array = arrays.setdefault(target.name, [zero] * target.size)
     match statement:
-        case Product():
+        case Multiplication():
             values = _product(statement, arrays, zero)
         case Apply():
             values = _applied(statement, domain, arrays, symbols)
@@ -266,9 +266,7 @@ def evaluated(
             array[target.place(i, j)] = values[i * target.columns + j]
 
 
-def _applied(
-    statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[str, Scalar]
-) -> list[Scalar]:
+def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[str, Scalar]) -> list[Scalar]:
     target, matrix = statement.target, statement.matrix
     values = [domain.rational(0)] * target.size
     other = arrays[matrix.name]
@@ -285,7 +283,7 @@ def _applied(
     return values
 
 
-def _product(statement: Product, arrays: Arrays, zero: Scalar) -> list[Scalar]:
+def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Scalar]:
     target, left, right = statement.target, statement.left, statement.right
     a, b = arrays[left.name], arrays[right.name]
     start = _entries(target, arrays) if statement.added else [zero] * target.size
@@ -305,7 +303,7 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
     """Return the number of additions and products of a statement, without the formulas of entries."""
     size = statement.target.size
     match statement:
-        case Product():
+        case Multiplication():
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)

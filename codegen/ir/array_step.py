@@ -7,8 +7,8 @@ size r of a core is k times one more than the number of evaluations. With the Gr
     [B S B^T, B T B^T] = B (S G T - T G S) B^T,
     exp(B S B^T) B C = B (C + S phi(G S) G C),   phi(z) = (exp(z) - 1)/z.
 
-A point of the step is X_0 + B D with a small r x k matrix D, its displacement. The field at X is W X^T - X W^T
-with W = V - X (X^T V)/2, so with X = B C and W = B E it has the core E C^T - C E^T.
+A point of the step is X_0 + B D with a small r x k matrix D, its displacement. The generator at X is
+W X^T - X W^T with W = V - X (X^T V)/2, so with X = B C and W = B E it has the core E C^T - C E^T.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from codegen.ir.array_program import (
 from codegen.ir.expr import Expr
 
 TERMS = 8
-"""The number of terms of phi in the counts of operations: a typical number, because it depends on the norm."""
+"""The number of terms of phi in counts of operations. A typical number is used: it depends on the norm."""
 
 MOST_TERMS = 18
 """The number of terms of phi at which the remainder is below the rounding errors if the norm is at most 1."""

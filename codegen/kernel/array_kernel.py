@@ -17,7 +17,7 @@ from codegen.ir.array_program import (
     Combination,
     Entry,
     Matrix,
-    Product,
+    Multiplication,
     Term,
 )
 from codegen.ir.array_step import AddUnit, ArrayStep, Move, StepStatement
@@ -36,11 +36,14 @@ from codegen.scene.field_scene import FieldScene
 from codegen.scene.matrix_field import MatrixField
 from codegen.scene.problem import TIME, Problem
 
-FAMILIES = "explicit methods of the families rkmk, cf and cg are possible, for example rkmk:rk4"
-"""The hint of a refusal."""
-
 STATE, NEW, BASIS, GRAM = "state", "new state", "basis", "gram"
 """The names of arrays: the state, the new state, the basis B and its Gram matrix."""
+
+
+def refused(scene: Problem, what: str, expected: str) -> MethodError:
+    """Return the error for a method that has no step by loops over arrays."""
+    hint = "explicit methods of the families rkmk, cf and cg are possible, for example rkmk:rk4"
+    return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
 @dataclass(frozen=True)
@@ -62,12 +65,8 @@ def array_method(scene: Problem, method: Method) -> ArrayMethod:
     model = _model(not scene.autonomous)
     lowered = lower(model, method)
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
-        raise MethodError(
-            f"the implicit stages of {method.label}",
-            where=scene.name,
-            expected="an explicit method for a scene with large matrices",
-            hint=FAMILIES,
-        )
+        expected = "an explicit method for a scene with large matrices"
+        raise refused(scene, f"the implicit stages of {method.label}", expected)
     program, trace = optimise(lowered, model)
     return ArrayMethod(lowered, program, trace, array_kernel(program, scene))
 
@@ -106,7 +105,7 @@ class _Builder:
 
     program: Program
     scene: Problem
-    field: MatrixField
+    matrices: MatrixField
     domain: ExprDomain = field(default_factory=ExprDomain)
     body: list[StepStatement] = field(default_factory=list)
     cores: dict[Var, Matrix] = field(default_factory=dict)
@@ -116,7 +115,7 @@ class _Builder:
 
     def __post_init__(self) -> None:
         count = sum(isinstance(a.operation, Field) for a in self.program.assigns())
-        n, k = self.field.rows, self.field.columns
+        n, k = self.matrices.rows, self.matrices.columns
         self.k, width = k, k * (1 + count)
         self.argument = Matrix(STATE, n, k)
         self.basis, self.gram = Matrix(BASIS, n, width), Matrix(GRAM, width, width)
@@ -124,9 +123,9 @@ class _Builder:
 
     def step(self) -> ArrayStep:
         """Return the step."""
-        first = self.basis.part(0, 0, self.field.rows, self.k)
+        first = self.basis.part(0, 0, self.matrices.rows, self.k)
         self.sum(first, (self.one, self.argument))
-        self.body.append(Product(self.gram.part(0, 0, self.k, self.k), first, first, True))
+        self.body.append(Multiplication(self.gram.part(0, 0, self.k, self.k), first, first, True))
         for var in self.program.inputs:
             if var.kind is Kind.REAL:
                 self.times[var] = self.domain.space.sym(var.name)
@@ -134,24 +133,15 @@ class _Builder:
                 self.points[var] = None
         for statement in self.program.body:
             if not isinstance(statement, Assign):
-                raise self.refused(f"the implicit equations of {statement.label}", "an explicit method")
+                raise refused(self.scene, f"the equations of {statement.label}", "an explicit method")
             self.run(statement)
         outputs = dict(self.program.outputs)
         if len(outputs) > 1:
-            raise self.refused("an error estimate", "a method without step control")
+            raise refused(self.scene, "an error estimate", "a method without step control")
         (end,) = outputs.values()
-        result = Matrix(NEW, self.field.rows, self.k)
+        result = Matrix(NEW, self.matrices.rows, self.k)
         self.displaced(result, self.points[end])
         return ArrayStep(self.argument, tuple(self.body), result)
-
-    def refused(self, what: str, expected: str) -> MethodError:
-        """Return the error for an operation without a formula for generators of low rank."""
-        return MethodError(
-            f"{what} for {self.field.rows} x {self.k} matrices",
-            where=self.scene.name,
-            expected=expected,
-            hint=FAMILIES,
-        )
 
     def run(self, assign: Assign) -> None:
         """Append the statements of an assignment."""
@@ -168,7 +158,9 @@ class _Builder:
             case Bracket(dual=False):
                 self.cores[target] = self.bracket(target.name, self.cores[args[0]], self.cores[args[1]])
             case InverseDexp(dual=False, order=order):
-                self.cores[target] = self.inverse(target.name, self.cores[args[0]], self.cores[args[1]], order)
+                self.cores[target] = self.inverse(
+                    target.name, self.cores[args[0]], self.cores[args[1]], order
+                )
             # An element of the group is a single exponential, and is stored as the core of its exponent.
             case Exp():
                 self.cores[target] = self.cores[args[0]]
@@ -177,7 +169,8 @@ class _Builder:
             case Advance(coefficient=c):
                 self.times[target] = self.times[args[0]] + c.evaluate(self.domain)
             case _:
-                raise self.refused(f"the operation {operation.name}", "another method")
+                what = f"the operation {operation.name} for generators of low rank"
+                raise refused(self.scene, what, "another method")
 
     def sum(self, target: Matrix, *terms: tuple[Expr, Matrix]) -> Matrix:
         """Append a linear combination."""
@@ -188,12 +181,12 @@ class _Builder:
         """Append target = X_0 + B D."""
         self.sum(target, (self.one, self.argument))
         if displacement is not None:
-            columns = self.basis.part(0, 0, self.field.rows, displacement.rows)
-            self.body.append(Product(target, columns, displacement, added=True))
+            columns = self.basis.part(0, 0, self.matrices.rows, displacement.rows)
+            self.body.append(Multiplication(target, columns, displacement, added=True))
 
     def evaluated(self, target: Var, point: Var, *time: Var) -> Matrix:
         """Append the evaluation of the field; return its core."""
-        n, k, name = self.field.rows, self.k, target.name
+        n, k, name = self.matrices.rows, self.k, target.name
         displacement, x = self.points[point], self.argument
         if displacement is not None:
             x = Matrix(f"{name} point", n, k)
@@ -201,14 +194,14 @@ class _Builder:
         first = k * self.blocks
         w = self.basis.part(0, first, n, k)
         t = self.times[time[0]] if time else self.domain.rational(0)
-        self.body += [self.at_time(s, t, name) for s in self.field.program.moved(x, w, name)]
+        self.body += [self.at_time(s, t, name) for s in self.matrices.program.moved(x, w, name)]
         products, halved = Matrix(f"{name} gram", k, k), Matrix(f"{name} correction", k, k)
-        self.body.append(Product(products, x, w, True))
+        self.body.append(Multiplication(products, x, w, True))
         self.sum(halved, (self.domain.rational(-1, 2), products))
-        self.body.append(Product(w, x, halved, added=True))
+        self.body.append(Multiplication(w, x, halved, added=True))
         self.blocks += 1
         known = self.basis.part(0, 0, n, first + k)
-        self.body.append(Product(self.gram.part(0, first, first + k, k), known, w, True))
+        self.body.append(Multiplication(self.gram.part(0, first, first + k, k), known, w, True))
         above = Term(self.one, self.gram.part(0, first, first, k), True)
         self.body.append(Combination(self.gram.part(first, 0, k, first), (above,)))
         return self.core(name, displacement, first)
@@ -260,8 +253,8 @@ class _Builder:
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
         """Append N - N^T with N = S G T, the core of a bracket; return it."""
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
-        self.body.append(Product(right, self.gram.part(0, 0, x.rows, y.rows), y))
-        self.body.append(Product(product, x, right))
+        self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
+        self.body.append(Multiplication(product, x, right))
         size = max(x.rows, y.rows)
         terms = (Term(self.one, product), Term(-self.one, product, True))
         core = Matrix(name, size, size)

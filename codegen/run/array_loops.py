@@ -19,7 +19,7 @@ from codegen.ir.array_program import (
     Diagonal,
     Entry,
     Matrix,
-    Product,
+    Multiplication,
 )
 from codegen.ir.array_program import Term as Summand
 from codegen.ir.array_step import AddUnit
@@ -33,7 +33,12 @@ GROUP = 4
 """The number of columns whose sums are formed at once."""
 
 _ROW, _COLUMN, _TERM = count("i"), count("j"), count("k")
+_ENTRY = real("entry")
+"""The entry of a constant matrix."""
+
 Index = Term | int
+Group = Callable[[Term | None, int], Iterator[Statement]]
+"""A function of the first column of a group (None: column 0) and the number of columns."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +59,7 @@ class ArrayLoops:
     def statements(self, statement: ArrayStatement | AddUnit) -> Iterator[Statement]:
         """Yield the statements of an assignment."""
         match statement:
-            case Product():
+            case Multiplication():
                 yield from self.product(statement)
             case Apply(from_right=True):
                 yield from self.applied_from_right(statement)
@@ -66,7 +71,7 @@ class ArrayLoops:
                 entry = self.entry(target, _ROW, _ROW)
                 yield For(_ROW, whole(target.rows), (Assign(entry, entry + number(float(unit))),))
 
-    def product(self, p: Product) -> Iterator[Statement]:
+    def product(self, p: Multiplication) -> Iterator[Statement]:
         """Yield the loops of a product."""
 
         def factor(row: Index, k: Term) -> Term:
@@ -167,56 +172,64 @@ class ArrayLoops:
         """Yield the loops of a constant matrix times a matrix."""
         c, target = a.constant, a.target
         if not c.diagonals:
-
-            def group(first: Term | None, columns: int) -> Iterator[Statement]:
-                places = [_shifted(first, n) for n in range(columns)]
-                i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
-                before, entry = constant_entry(c, c.full, c.name, i, j, c.columns * i + j)
-                yield from self.sums(
-                    *(target, _ROW, places, a.matrix.rows),
-                    lambda row, k: entry,
-                    lambda k, column: self.entry(a.matrix, k, column),
-                    before=before,
-                )
-
-            yield For(_ROW, whole(target.rows), tuple(_in_groups(target.columns, group)))
+            yield from self.applied_full(a)
             return
-        if not _covers(c):
+        covered = _covers(c)
+        if not covered:
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
             i, j = _along(diagonal, _ROW)
-            before, entry = constant_entry(c, diagonal.entry, table_name(c, n), i, j, _ROW)
+            before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
             row, column = (j, i) if a.transposed else (i, j)
-            added = n > 0 or not _covers(c)
-            new = real("entry")
-
-            def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
-                for place in (_shifted(first, b) for b in range(columns)):
-                    goal = self.entry(target, row, place)  # noqa: B023 - the function is called in this turn
-                    one = new * self.entry(a.matrix, column, place)  # noqa: B023
-                    yield Assign(goal, goal + one if added else one)  # noqa: B023
-
-            body = (*before, Assign(new, entry), *_in_groups(target.columns, set_columns))
+            columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0 or not covered))
+            body = (*before, Assign(_ENTRY, entry), *columns)
             yield For(_ROW, whole(c.length(diagonal)), body)
+
+    def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
+        """Return the function that sets or changes columns of a row of the target."""
+
+        def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
+            for place in (_shifted(first, b) for b in range(columns)):
+                goal = self.entry(a.target, row, place)
+                one = _ENTRY * self.entry(a.matrix, column, place)
+                yield Assign(goal, goal + one if added else one)
+
+        return set_columns
+
+    def applied_full(self, a: Apply) -> Iterator[Statement]:
+        """Yield the loops of a full matrix times a matrix."""
+        c = a.constant
+        i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
+        before, entry = constant_entry(c.full, c.name, i, j, c.columns * i + j)
+
+        def group(first: Term | None, columns: int) -> Iterator[Statement]:
+            yield from self.sums(
+                *(a.target, _ROW, [_shifted(first, n) for n in range(columns)], a.matrix.rows),
+                lambda row, k: entry,
+                lambda k, column: self.entry(a.matrix, k, column),
+                before=before,
+            )
+
+        yield For(_ROW, whole(a.target.rows), tuple(_in_groups(a.target.columns, group)))
 
     def applied_from_right(self, a: Apply) -> Iterator[Statement]:
         """Yield the loops of a matrix times a constant matrix."""
-        c, target, new = a.constant, a.target, real("entry")
+        c, target = a.constant, a.target
         yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
 
         def inner(i: Term, j: Term, before: Sequence[Statement], entry: Term) -> tuple[Statement, ...]:
             row, column = (j, i) if a.transposed else (i, j)
             goal, line = self.entry(target, _TERM, column), self.entry(a.matrix, _TERM, row)
-            rows = For(_TERM, whole(target.rows), (Assign(goal, goal + line * new),))
-            return (*before, Assign(new, entry), rows)
+            rows = For(_TERM, whole(target.rows), (Assign(goal, goal + line * _ENTRY),))
+            return (*before, Assign(_ENTRY, entry), rows)
 
         if not c.diagonals:
-            before, entry = constant_entry(c, c.full, c.name, _ROW, _COLUMN, c.columns * _ROW + _COLUMN)
+            before, entry = constant_entry(c.full, c.name, _ROW, _COLUMN, c.columns * _ROW + _COLUMN)
             body = For(_COLUMN, whole(c.columns), inner(_ROW, _COLUMN, before, entry))
             yield For(_ROW, whole(c.rows), (body,))
         for n, diagonal in enumerate(c.diagonals):
             i, j = _along(diagonal, _ROW)
-            before, entry = constant_entry(c, diagonal.entry, table_name(c, n), i, j, _ROW)
+            before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
             yield For(_ROW, whole(c.length(diagonal)), inner(i, j, before, entry))
 
 
@@ -229,7 +242,7 @@ class _Place:
 
 
 def constant_entry(
-    matrix: ConstantMatrix, given: Entry, table: str, row: Term, column: Term, place: Term
+    given: Entry, table: str, row: Term, column: Term, place: Term
 ) -> tuple[list[Statement], Term]:
     """Return an entry of a constant matrix, and the statements that compute its indices as numbers.
 
@@ -252,7 +265,11 @@ def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterato
     """Yield the tables of entries that are given as numbers."""
     for c in constants:
         listed: list[tuple[str, Entry, str]] = [
-            (table_name(c, n), d.entry, f"The entries a[i][i + {d.offset}] of a {c.rows} x {c.columns} matrix.")
+            (
+                table_name(c, n),
+                d.entry,
+                f"The entries a[i][i + {d.offset}] of a {c.rows} x {c.columns} matrix.",
+            )
             for n, d in enumerate(c.diagonals)
         ]
         listed.append((c.name, c.full, f"The entries of a {c.rows} x {c.columns} matrix, row by row."))
@@ -265,9 +282,7 @@ def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ..
     return tuple(map(precision.round, entries))
 
 
-def _in_groups(
-    columns: int, group: Callable[[Term | None, int], Iterator[Statement]]
-) -> Iterator[Statement]:
+def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
     """Yield the statements for all columns, in groups; the last group may be smaller."""
     groups, rest = divmod(columns, GROUP)
     if groups == 1:
@@ -299,9 +314,7 @@ def _place(matrix: Matrix, row: Index, column: Index) -> Index:
     """Return the place of an entry in its array."""
     if isinstance(row, int) and isinstance(column, int):
         return matrix.place(row, column)
-    constant = matrix.start + sum(
-        n * x for n, x in ((matrix.step, row), (1, column)) if isinstance(x, int)
-    )
+    constant = matrix.start + sum(n * x for n, x in ((matrix.step, row), (1, column)) if isinstance(x, int))
     place: Term | None = None
     for n, x in ((matrix.step, row), (1, column)):
         if isinstance(x, Term):

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from codegen.ir.array_program import Combination, Matrix, Product
+from codegen.ir.array_program import Combination, Matrix, Multiplication
 from codegen.ir.array_program import Term as Summand
 from codegen.ir.array_step import MOST_TERMS, ArrayStep, Move
 from codegen.ir.expr import Space
@@ -157,7 +157,7 @@ class _Exponential:
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
-        yield from self.loops.statements(Product(self.matrix, self.gram.part(0, 0, m, m), self.core))
+        yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW]
         sums = For(_COLUMN, whole(m), (Assign(square, square - product),))
         yield Assign(square, number(0.0))
@@ -173,7 +173,9 @@ class _Exponential:
         yield from self.begun()
         yield For(part, parts, tuple(self.advanced(scale)))
         lost = For(
-            _PLACE, whole(self.target.size), (Assign(self.loops.array(self.target)[_PLACE], INFINITY - INFINITY),)
+            _PLACE,
+            whole(self.target.size),
+            (Assign(self.loops.array(self.target)[_PLACE], INFINITY - INFINITY),),
         )
         yield If(norm * scale > 1.0, (lost,))
 
@@ -205,7 +207,9 @@ class _Exponential:
         entry = loops.entry(self.total, _ROW, _COLUMN)
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
-        moved_by = Product(self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True)
+        moved_by = Multiplication(
+            self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
+        )
         displaced = tuple(loops.statements(moved_by))
         # The displacement before the first part is zero if no start is given.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
@@ -215,12 +219,12 @@ class _Exponential:
             Assign(total[_PLACE], total[_PLACE] + term[_PLACE]),
         )
         series = (
-            *loops.statements(Product(self.next, self.matrix, self.term)),
+            *loops.statements(Multiplication(self.next, self.matrix, self.term)),
             Assign(factor, scale * real(RECIPROCALS, MOST_TERMS + 1)[order]),
             For(_PLACE, whole(self.total.size), added),
         )
         yield For(order, terms, series)
-        yield from loops.statements(Product(self.next, self.core, self.total))
+        yield from loops.statements(Multiplication(self.next, self.core, self.total))
         result = loops.array(self.target)
         moved = Assign(result[_PLACE], result[_PLACE] + scale * following[_PLACE])
         yield For(_PLACE, whole(self.next.size), (moved,))

@@ -38,7 +38,7 @@ class MatrixFormula:
     """NumPy calls the operators of this class, and does not treat a formula as an entry of an array."""
 
     @property
-    def T(self) -> MatrixFormula:  # noqa: N802 - the name that NumPy and sympy use
+    def T(self) -> MatrixFormula:
         """The transpose."""
         return Transposed(self)
 
@@ -154,7 +154,9 @@ def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None
     for offset in diagonals:
         if not isinstance(offset, int) or not -rows < offset < width:
             raise SceneError(
-                f"the diagonal {offset!r}", where="banded", expected=f"an integer from {1 - rows} to {width - 1}"
+                f"the diagonal {offset!r}",
+                where="banded",
+                expected=f"an integer from {1 - rows} to {width - 1}",
             )
     return Constant(rows, width, dict(diagonals), None)
 

@@ -7,8 +7,8 @@ their transposes, so each stored matrix has n rows or is small.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from math import inf
 
 from codegen.errors import SceneError
@@ -23,7 +23,7 @@ from codegen.ir.array_program import (
     Diagonal,
     Entry,
     Matrix,
-    Product,
+    Multiplication,
     Term,
 )
 from codegen.ir.decimals import exact
@@ -244,10 +244,10 @@ class _Compiler:
             # (A B)^T = B^T A^T has more rows than columns.
             target = self.fresh(columns, rows)
             turned = (not right.transposed, not left.transposed)
-            self.body.append(Product(target, right.matrix, left.matrix, *turned))
+            self.body.append(Multiplication(target, right.matrix, left.matrix, *turned))
             return _Stored(target, True)
         target = self.fresh(rows, columns)
-        self.body.append(Product(target, left.matrix, right.matrix, left.transposed, right.transposed))
+        self.body.append(Multiplication(target, left.matrix, right.matrix, left.transposed, right.transposed))
         return _Stored(target)
 
     def constant(self, given: Constant) -> ConstantMatrix:
@@ -267,8 +267,6 @@ def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
     (term,) = last.terms
     if not before or before[-1].target != term.matrix or term.transposed:
         return body
-    from dataclasses import replace
-
     return [*before[:-1], replace(before[-1], target=last.target)]
 
 
@@ -314,7 +312,9 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
     size = given.rows * given.columns
     if given.diagonals is None:
         assert given.entries is not None
-        entry = _entry(reader, given.entries, (row, column), size, f"the {given.rows} x {given.columns} matrix")
+        entry = _entry(
+            reader, given.entries, (row, column), size, f"the {given.rows} x {given.columns} matrix"
+        )
         return ConstantMatrix(name, given.rows, given.columns, (), entry)
     matrix = ConstantMatrix(name, given.rows, given.columns)
     diagonals = []
@@ -328,7 +328,7 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
 
 def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], size: int, what: str) -> Entry:
     """Return entries as a formula or as numbers."""
-    if isinstance(given, Callable):  # type: ignore[arg-type]
+    if callable(given):
         given = given(*indices)
     numbers = _flat(given)
     if numbers is None:

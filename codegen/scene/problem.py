@@ -13,6 +13,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from codegen.errors import SceneError
 from codegen.groups.actions import Action, LeftMultiplication
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import BodyFrame, ClosedFormSeries, Coadjoint
@@ -117,6 +118,17 @@ class Problem:
     def dimension(self) -> int:
         """Return the dimension of the Lie algebra."""
         return self.group.dim
+
+    def require_formulas(self) -> None:
+        """Raise :class:`codegen.errors.SceneError` if the field has no formulas in coordinates."""
+        if not self.roots:
+            raise SceneError(
+                f"a field without formulas in coordinates, because {self.group.name} has {self.group.dim} "
+                "coordinates",
+                where=self.name,
+                expected="a scene with fewer rows",
+                hint="emit and converge work for every number of rows",
+            )
 
     def as_field(self) -> Problem:
         """Return a Hamiltonian problem as the field f = (xi, n) of the group T*G, which acts on itself."""

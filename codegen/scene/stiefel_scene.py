@@ -132,7 +132,9 @@ def _check(problem: Problem, field: MatrixField) -> None:
 
 
 def _gram(a: Sequence[float], b: Sequence[float], k: int) -> list[float]:
-    return [math.fsum(x * y for x, y in zip(a[i::k], b[j::k], strict=True)) for i in range(k) for j in range(k)]
+    return [
+        math.fsum(x * y for x, y in zip(a[i::k], b[j::k], strict=True)) for i in range(k) for j in range(k)
+    ]
 
 
 def _turned(gram: Sequence[float], k: int) -> list[float]:
