@@ -40,6 +40,7 @@ EXAMPLE = Path(__file__).parents[3] / "examples" / "eigenspace" / "eigenspace.py
 DENSE = Path(__file__).parents[2] / "valid" / "scenes" / "pca_flow.py"
 RITZ = (1.44869057, 12.34353752)
 METHODS = ("rkmk(0):euler", "rkmk:rk4", "rkmk(2):rk4", "cf:cf4", "cg:cg3")
+QUICK = METHODS[0]
 
 
 @cache
@@ -90,10 +91,16 @@ def interpreted(scene, label, domain, y, t):
 
 
 class TestValues:
-    @pytest.mark.parametrize("scene", [principal_components, driven])
-    @pytest.mark.parametrize("label", METHODS)
+    @pytest.mark.parametrize(
+        ("scene", "label"),
+        [
+            *((principal_components, label) for label in METHODS),
+            (driven, QUICK),
+            *(pytest.param(driven, label, marks=pytest.mark.slow) for label in METHODS[1:]),
+        ],
+    )
     def test_a_step_has_the_value_with_formulas_in_coordinates(self, scene, label):
-        own, k = module(scene, label), scene().matrices.columns
+        own, k = module(scene, label, "python"), scene().matrices.columns
         start, h = list(map(float, own.initial)), 2.0**-5
         timed = {"t": 0.25} if own.interface.time else {}
         # A first step leaves the special initial state.
@@ -106,7 +113,7 @@ class TestValues:
         assert defect(after, k) < 4e-15
 
     def test_a_step_has_the_value_of_forty_digits(self):
-        own = module(principal_components, "rkmk:rk4")
+        own = module(principal_components, "rkmk:rk4", "python")
         start = own.step(own.initial, 2.0**-5)
         exact = interpreted(
             principal_components(),
@@ -117,7 +124,9 @@ class TestValues:
         )
         assert max(abs(x - float(y)) for x, y in zip(own.step(start, 2.0**-5), exact, strict=True)) < 2e-15
 
-    @pytest.mark.parametrize("label", ["rkmk(0):euler", "cf:cf4"])
+    @pytest.mark.parametrize(
+        "label", [QUICK, *(pytest.param(label, marks=pytest.mark.slow) for label in METHODS[1:])]
+    )
     def test_python_and_c_compute_the_same_numbers(self, label):
         for scene in (principal_components, driven):
             first, second = module(scene, label), module(scene, label, "python")
@@ -140,15 +149,16 @@ class TestValues:
         assert defect(own.run(own.initial, h, 3), 2) < 1e-15 * (10 + 10 * h)
 
     def test_a_parameter_stays_an_argument(self):
-        kept = load_module(emit(driven(), "cf:cf4", "c", parameters=["c"]))
-        changed = load_module(emit(driven(), "cf:cf4", "c", parameters=["c=2"]))
-        start, fixed = kept.initial, module(driven, "cf:cf4")
+        kept, changed = (
+            load_module(emit(driven(), QUICK, "python", parameters=[text])) for text in ("c", "c=2")
+        )
+        start, fixed = kept.initial, module(driven, QUICK, "python")
         assert list(kept.step(start, 0.1)) == list(fixed.step(start, 0.1))
         assert list(kept.step(start, 0.1, c=2.0)) == list(changed.step(start, 0.1))
 
     def test_single_precision_keeps_its_digits(self):
-        own = load_module(emit(principal_components(), "cf:cf4", "c", precision="single"))
-        double = module(principal_components, "cf:cf4")
+        own = load_module(emit(principal_components(), QUICK, "c", precision="single"))
+        double = module(principal_components, QUICK)
         after, exact = own.run(own.initial, 0.0625, 10), double.run(double.initial, 0.0625, 10)
         assert np.abs(np.array(after) - exact).max() < 2e-5
 
@@ -161,7 +171,7 @@ class TestPrincipalComponents:
         assert np.abs(np.linalg.eigvalsh(X.T @ A @ X) - RITZ).max() < 1e-8
         assert defect(X, 2) < 1e-13
 
-    @pytest.mark.parametrize("label", ["rkmk(0):euler", "cf:cf3"])
+    @pytest.mark.parametrize("label", [QUICK, pytest.param("cf:cf3", marks=pytest.mark.slow)])
     def test_runs_agree_with_steps_in_coordinates(self, label):
         own, dense = module(principal_components, label), load_module(emit(load(str(DENSE)), label, "c"))
         gap = np.array(own.run(own.initial, 0.05, 40)) - dense.run(dense.initial, 0.05, 40)
@@ -179,7 +189,7 @@ class TestPrincipalComponents:
 
 class TestLargeMatrices:
     def test_columns_stay_orthonormal_with_eight_hundred_rows(self):
-        own = load_module(emit(load(str(EXAMPLE)), "cf:cf4", "c"))
+        own = load_module(emit(load(str(EXAMPLE)), QUICK, "c"))
         X = np.linalg.qr(np.random.default_rng(1).normal(size=(800, 4)))[0]
         assert defect(own.run(X.ravel(), 0.1, 200), 4) < 1e-14
 
