@@ -45,6 +45,7 @@ GALLERY = (
     "free_rigid_body_s3",
     "heavy_top",
     "linear_oscillator",
+    "linear_oscillator_sl2",
     "stiff_driven_spin",
 )
 
