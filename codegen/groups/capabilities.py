@@ -216,6 +216,13 @@ class CayleyMap(LieGroup):
         If x' = dcay^{-1}_x y, then cay(x)' = y.cay(x).
         """
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return x y x = 4 y - 2 [x, y] - 4 dcay^{-1}_x y, by a formula without cancellation if the group has
+        one."""
+        terms = zip(y, self.ad(d, x, y), self.dcayinv(d, x, y), strict=True)
+        four, two = d.rational(4), d.rational(2)
+        return tuple(four * (a - c) - two * b for a, b, c in terms)
+
 
 class MatrixElements(MatrixRepresentation, Inverse):
     """Elements are n x n matrices row by row, size = n^2; the matrices act on columns of n scalars.
