@@ -12,3 +12,12 @@ class SceneError(InputError):
 
 class MethodError(InputError):
     """A method that cannot be used on a scene, or a method name that cannot be read."""
+
+
+class UnreadableTableau(MethodError):
+    """A tableau that no family that accepts the scene can read.
+
+    ``claimed`` are the families under which the tableau claims an order.
+    """
+
+    claimed: tuple[str, ...] = ()

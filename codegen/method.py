@@ -12,7 +12,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from codegen.errors import MethodError
+from codegen.errors import MethodError, UnreadableTableau
 from codegen.ir.number import Number
 from orderconds.argument import described
 from orderconds.families import Family, family_class, get, names
@@ -206,16 +206,18 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
     return Method(match["family"], None, number)
 
 
-def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> MethodError:
+def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> UnreadableTableau:
     """Return the error for a tableau that none of the families can read."""
     formats = sorted({f for name in families for f in family_class(name).formats})
-    return MethodError(
+    error = UnreadableTableau(
         f"the tableau {tableau.name} has the format {tableau.family}; it claims no order under "
         f"{', '.join(families)}",
         where=text,
         expected=f"a tableau of format {' or '.join(formats)}",
         hint=f"write for example {_example(families)}",
     )
+    error.claimed = tuple(claim.family.partition("(")[0] for claim in tableau.claims.orders)
+    return error
 
 
 def _unclaimed(
@@ -249,12 +251,14 @@ def _divides_by_zero(family: str, tableau: Tableau) -> bool:
 
 
 def _example(families: Sequence[str]) -> str:
-    """Return the label of a method of the first family that has a tableau in the library."""
+    """Return the label of a method: the first of these families with a tableau of the library that claims an
+    order in the family."""
     for name in families:
-        kind = family_class(name)
-        for example in available():
-            if kind.has_tableau and Tableau.load(find(example)).read_as(kind.formats) is not None:
-                return _label(name, example)
+        for example in available() if family_class(name).has_tableau else ():
+            claims = [c for c in Tableau.load(find(example)).claims.orders if c.family == name]
+            if claims:
+                cutoff = max(claims, key=lambda c: c.order).cutoff
+                return f"{name}:{example}" if cutoff is None else f"{name}({cutoff}):{example}"
     raise AssertionError(families)
 
 
