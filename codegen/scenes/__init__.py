@@ -38,6 +38,7 @@ GALLERY = (
     "duffing_se2",
     "duffing_sl2",
     "fast_heavy_top",
+    "four_level_system",
     "free_rigid_body",
     "free_rigid_body_attitude",
     "free_rigid_body_product",
