@@ -189,7 +189,7 @@ def quadratic(rng: random.Random, symbols: Any, terms: int = 6) -> Any:
 
 
 def polynomials(rng: random.Random, n: int, degree: int = 6) -> list[Any]:
-    """Return n random polynomials in the time, of a degree that no quadrature rule of order six integrates."""
+    """Return n random polynomials in the time; their degree exceeds that of quadrature rules of order six."""
     t = Symbol("t") / 2
     return [sum(rng.choice((-2, -1, 1, 2)) * t**k for k in range(degree + 1)) / 2 for _ in range(n)]
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from codegen.groups.base import LieGroup
 from codegen.groups.bernoulli import bernoulli_over_factorial, bernoulli_sum, last_term
-from codegen.groups.linear_algebra import S, Vector, invert
+from codegen.groups.linear_algebra import S, Vector, invert, matvec
 from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
@@ -240,6 +240,10 @@ class MatrixElements(MatrixRepresentation, Inverse):
     def element(self, matrix: Vector[S]) -> Vector[S]:
         """Return the matrix itself."""
         return matrix
+
+    def exp_times(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return exp(x) y for a column y."""
+        return matvec(self.exp(d, x), y)
 
     @property
     def order(self) -> int:

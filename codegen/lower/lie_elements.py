@@ -7,7 +7,7 @@ combination multiplies only the terms of higher power by h. So the powers of h c
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from codegen.errors import MethodError

@@ -29,7 +29,9 @@ class LinearLowering(FieldLowering):
         """Return the reason why the family does not accept a scene: a field that depends on the state."""
         if scene.linear:
             return None
-        return Objection(", whose field depends on the state", "a scene y' = A(t).y, whose field f contains t only")
+        return Objection(
+            ", whose field depends on the state", "a scene y' = A(t).y, whose field f contains t only"
+        )
 
     @abstractmethod
     def move(self, stages: Stages, x: Var, y: Var) -> Var:

@@ -2,7 +2,7 @@
 the compiler evaluates.
 
 A scene file imports its names from this package:
-``from codegen.scene import FieldScene, HamiltonianScene, param, signal, table``.
+``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from orderconds.lazy import lazy
 if TYPE_CHECKING:
     from codegen.scene.field_scene import FieldScene as FieldScene
     from codegen.scene.hamiltonian_scene import HamiltonianScene as HamiltonianScene
+    from codegen.scene.linear_scene import LinearScene as LinearScene
     from codegen.scene.parameters import Parameter as Parameter
     from codegen.scene.parameters import Signal as Signal
     from codegen.scene.parameters import param as param
@@ -21,12 +22,13 @@ if TYPE_CHECKING:
     from codegen.scene.problem import Problem as Problem
     from codegen.scene.tables import table as table
 
-__all__ = ["FieldScene", "HamiltonianScene", "Problem", "param", "signal", "table"]
+__all__ = ["FieldScene", "HamiltonianScene", "LinearScene", "Problem", "param", "signal", "table"]
 
 lazy(
     __name__,
     field_scene=("FieldScene",),
     hamiltonian_scene=("HamiltonianScene",),
+    linear_scene=("LinearScene",),
     parameters=("Parameter", "Signal", "param", "signal"),
     problem=("Problem",),
     tables=("table",),
