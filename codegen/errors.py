@@ -14,10 +14,10 @@ class MethodError(InputError):
     """A method that cannot be used on a scene, or a method name that cannot be read."""
 
 
-class UnreadableTableau(MethodError):
-    """A tableau that no family that accepts the scene can read.
+class UnclaimedTableau(MethodError):
+    """A tableau that claims no order in any family that accepts the scene.
 
-    ``claimed`` are the families under which the tableau claims an order.
+    ``claimed`` are the families in which the tableau claims an order.
     """
 
     claimed: tuple[str, ...] = ()

@@ -2,8 +2,9 @@
 
 The name determines the function: ``expm3`` is the exponential of a 3 x 3 matrix, ``expm3_d1`` the exponential
 with its derivative, ``inverse5`` the inverse of a 5 x 5 matrix, ``product5`` the product of two 5 x 5
-matrices and ``commutator5`` their commutator. ``expmv5`` is the action of the exponential of a 5 x 5 matrix on
-a vector; ``expmv5_1f`` has only the entries of the matrix that the hexadecimal number names.
+matrices and ``commutator5`` their commutator. ``expmv5`` is the action of the exponential of a 5 x 5 matrix
+on a vector. In ``expmv5_1f`` the bits of the hexadecimal number are set at the entries of the matrix that are
+arguments.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from codegen.errors import MethodError, UnreadableTableau
+from codegen.errors import MethodError, UnclaimedTableau
 from codegen.ir.program import Program
 from codegen.lower.base import Lowering as Lowering
 from codegen.lower.base import Objection as Objection
@@ -57,9 +57,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
         _check(scene, lowering(known))
     try:
         return method_of(given, families_for(scene), family)
-    except UnreadableTableau as error:
-        # The reason why the tableau cannot be read is that a family in which it claims an order does not
-        # accept the scene.
+    except UnclaimedTableau as error:
+        # The reason may be that a family in which the tableau claims an order does not accept the scene.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))

@@ -39,6 +39,12 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         *_product(function, b, p, work),
         For(_ROW, whole(n), (Assign(result[_ROW], result[_ROW] + work[_ROW]),)),
     )
+    computed = (
+        For(_PLACE, whole(entries), (Assign(b[_PLACE], a[_PLACE] * scale),)),
+        Assign(degree, chosen),
+        Assign(result, y),
+        For(_PART, parts, part),
+    )
     body: tuple[Statement, ...] = (
         *map(Array, (b, p, work)),
         *_norm(function, a, norm),
@@ -49,14 +55,15 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
             (Assign(scale, number(0.5) * scale), Assign(parts, parts * 2)),
         ),
         Assign(norm, norm * scale),
-        For(_PLACE, whole(entries), (Assign(b[_PLACE], a[_PLACE] * scale),)),
-        Assign(degree, chosen),
-        Assign(result, y),
-        For(_PART, parts, part),
-        If(norm > bounds[-1], (For(_ROW, whole(n), (Assign(result[_ROW], INFINITY - INFINITY),)),)),
+        If(norm > bounds[-1], (_nan(result),), computed),
     )
     about = f"result = exp(a) y for the {n} x {n} matrix a{_entries(function)}: Taylor polynomials."
     return Function(function.name, about, (a, y, result), body)
+
+
+def _nan(result: Term) -> For:
+    """Return the statement that fills the result with NaNs."""
+    return For(_ROW, whole(result.shape[0]), (Assign(result[_ROW], INFINITY - INFINITY),))
 
 
 def _entries(function: ExponentialAction) -> str:
