@@ -194,6 +194,8 @@ def _newton(
     places = [x.placed() for x in trace]
     _, slopes = problem.tape.jacobians(point[None])
     rows = determined(slopes[0][:, list(solved)].T) if solved else []
+    if len(rows) < len(solved):
+        raise NotProved("Newton's method failed: its Jacobian is singular")
     with precision(BITS):
         values = {j: arb(float(point[j])) for j in solved}
         previous: float | None = None
