@@ -111,6 +111,12 @@ class Problem:
         return not self.inputs and not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
 
     @property
+    def linear(self) -> bool:
+        """True if the field does not depend on the state: y' = A(t).y, a linear problem in time."""
+        state = set(self.symbols)
+        return not any(n.op == "sym" and n.payload in state for n in walk(self.roots))
+
+    @property
     def is_hamiltonian(self) -> bool:
         """True if programs have the state (q, mu) and evaluate the operation ``hamilton``."""
         return self.paired
