@@ -89,7 +89,8 @@ def _components(name: str, group: LieGroup, matrix: sympy.Matrix) -> list[sympy.
             + (f", or a {matrices.order} x {matrices.order} matrix" if matrices is not None else ""),
         )
     d = FloatDomain(0.0)
-    basis = Matrix([[Rational(entry) for entry in matrices.hat(d, e)] for e in units(d, group.dim)]).T
+    directions: tuple[tuple[float, ...], ...] = units(d, group.dim)
+    basis = Matrix([[Rational(entry) for entry in matrices.hat(d, x)] for x in directions]).T
     column = matrix.reshape(matrix.rows**2, 1)
     result = (basis.T * basis).LUsolve(basis.T * column)
     if any(simplify(x) != 0 for x in basis * result - column):
