@@ -56,6 +56,11 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         n = self.order
         return self.vee(d, matmul(matmul(left, self.hat(d, y), n), right, n))
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return A B A for the matrices A of x and B of y."""
+        left, middle = self.hat(d, x), self.hat(d, y)
+        return self.vee(d, matmul(matmul(left, middle, self.order), left, self.order))
+
     def _near_identity(self, d: Domain, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
         """Return 1 - A/2 and 1 + A/2."""
         half: S = d.rational(1, 2)

@@ -65,8 +65,11 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Return the number of each operation of a kernel, as :func:`operations` counts them.
 
-    A kernel without outputs computes the coefficients of a Taylor polynomial, and evaluates the polynomial.
+    A kernel without outputs computes the coefficients of a Taylor polynomial, and evaluates the polynomial,
+    or computes with whole matrices, with a typical number of terms of each exponential.
     """
+    if kernel.arrays is not None:
+        return {STEP: kernel.arrays.operations()}
     expansion = kernel.expansion
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))

@@ -30,6 +30,32 @@ class Recipe:
     version: str = ""
 
 
+LONGEST_STATE = 64
+"""A longer initial state is not printed in full in the usage example."""
+
+MOST_ENTRIES = 16
+"""The largest number of entries of a long state that the example sets."""
+
+
+IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
+"""The comment of an example that does not set the state."""
+
+
+def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
+    """Return the places and values of the entries of a long initial state that are not zero; None for a short
+    state, which the example contains in full.
+
+    If there are more than :data:`MOST_ENTRIES` entries, the result is empty: the manifest contains the state.
+
+    >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
+    (None, ((99, 1.0),))
+    """
+    if len(initial) <= LONGEST_STATE:
+        return None
+    entries = tuple((place, x) for place, x in enumerate(initial) if x)
+    return entries if len(entries) <= MOST_ENTRIES else ()
+
+
 def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
     """Return the lines of one header entry: the word, then its sentences with a hanging indent."""
     indent = " " * 12

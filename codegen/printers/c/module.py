@@ -14,7 +14,7 @@ from codegen.printers.c.text import comment
 from codegen.printers.c.words import RESERVED
 from codegen.printers.interface import Interface
 from codegen.printers.needs import functions_of
-from codegen.printers.recipe import Recipe, header
+from codegen.printers.recipe import IN_MANIFEST, Recipe, entries_set, header
 from codegen.printers.state_fields import layout, times
 from codegen.run.batch import BATCH, LANES, called_by, complete, near
 from codegen.run.identifiers import identify
@@ -268,7 +268,14 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     def number(x: float) -> str:
         return literal(real, real.round(float(x)))
 
-    initial = ", ".join(map(number, recipe.initial))
+    initial, entries = ", ".join(map(number, recipe.initial)), entries_set(recipe.initial)
+    declared = [f"    {real.c_type} state[{interface.size}] = {{{initial}}};"]
+    if entries is not None:
+        declared = [
+            f"    static {real.c_type} state[{interface.size}];",
+            *(f"    state[{place}] = {number(x)};" for place, x in entries),
+            *(() if entries else (f"    /* {IN_MANIFEST} */",)),
+        ]
     # The example starts at t = 0. The arguments have the same order as the parameters of the emitted ``run``.
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
     arguments += [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
@@ -281,7 +288,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
         *(example_input(interface) if interface.inputs else ()),
         "int main(void)",
         "{",
-        f"    {real.c_type} state[{interface.size}] = {{{initial}}};",
+        *declared,
         "    size_t completed;",
         f"    const int status = {interface.prefix}run({', '.join(arguments)});",
         '    printf("status %d after %zu steps\\n", status, completed);',
