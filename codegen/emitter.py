@@ -35,6 +35,7 @@ from codegen.method import Method
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.prefix import default_prefix, prefix_of
 from codegen.printers import DEFAULT
+from codegen.printers import names as target_names
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
@@ -363,9 +364,13 @@ def emit_kernel(
     target.
     """
     interface = Interface.of(kernel, prefix, precision)
-    if kernel.batch and target != "c":
+    if kernel.batch and not known_target(target).batches:
+        able = next(name for name in target_names() if known_target(name).batches)
         raise InputError(
-            f"the target {target}", where="--batch", expected="the target c", hint="add --target c"
+            f"the target {target}",
+            where="--batch",
+            expected="a target with batches",
+            hint=f"add --target {able}",
         )
     files = known_target(target).print_module(kernel, interface, recipe)
     manifest = {
