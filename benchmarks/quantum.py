@@ -5,9 +5,9 @@
 Each solver integrates ``four_level_system`` over its time interval, with the longest steps or the loosest
 tolerance for which the error of the final state is at most the given one. The error is the largest error of
 a component; the reference has 28 digits. All solvers are then timed in turns in this process, and the least
-CPU time counts. DOP853 runs with step-size control and with equal steps. QuTiP runs ``sesolve`` with three of
-its methods; its set-up is not timed. The exit status is 1 if another solver is faster than the commutator-free
-Magnus method of order six. Without QuTiP (pip install qutip) its rows are reported as skipped.
+CPU time counts. DOP853 runs with step-size control and with equal steps. QuTiP runs ``sesolve`` with three
+of its methods; its set-up is not timed. The exit status is 1 if another solver is faster than the
+commutator-free Magnus method of order six. Without QuTiP (pip install qutip) its rows are skipped.
 """
 
 from __future__ import annotations
