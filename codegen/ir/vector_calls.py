@@ -2,7 +2,7 @@
 
 The name determines the function: ``expm3`` is the exponential of a 3 x 3 matrix, ``expm3_d1`` the exponential
 with its derivative, ``inverse5`` the inverse of a 5 x 5 matrix, ``product5`` the product of two 5 x 5
-matrices and ``commutator5`` their commutator.
+matrices, ``commutator5`` their commutator, and ``expsu3`` the exponential of a matrix of su(3).
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import MatrixCommutator, MatrixProduct
+from codegen.ir.unitary_exponential import SpecialUnitaryExponential
 from codegen.ir.vector_function import VectorFunction
 
 if TYPE_CHECKING:
@@ -23,8 +24,9 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
     "inverse": MatrixInverse,
     "product": MatrixProduct,
     "commutator": MatrixCommutator,
+    "expsu": SpecialUnitaryExponential,
 }
-_NAME = re.compile(r"(expm|inverse|product|commutator)(\d+)(?:_d(\d+))?")
+_NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 
 @cache
