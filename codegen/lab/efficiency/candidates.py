@@ -19,10 +19,10 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The largest order for which a method with the fewest brackets is tried, too.
+"""The largest order for which recipes with the fewest brackets are used.
 
-Otherwise a method has a cut-off: for example, ``rkmk(2)`` truncates dexp^{-1} after 2 brackets. For higher
-orders the search for the fewest brackets takes seconds.
+The compiler computes the fewest brackets for a family without cut-off. For higher orders this takes seconds,
+so only variants with a cut-off are used: for example, ``rkmk(2)`` truncates dexp^{-1} after 2 brackets.
 """
 
 
