@@ -162,6 +162,11 @@ def compile_method(
     return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
 
 
+def with_batch(compiled: Compiled) -> Compiled:
+    """Return a compiled method whose module also has a function that steps many independent systems."""
+    return replace(compiled, kernel=replace(compiled.kernel, batch=True))
+
+
 def work(kernel: Kernel) -> int:
     """Estimate the cost of a step in units of one addition. The operations of each block are counted SWEEPS
     times, all other operations once."""
@@ -187,6 +192,7 @@ def emit(
     jacobian: bool = False,
     form: str = PRINTED,
     family: str = "",
+    batch: bool = False,
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -197,7 +203,8 @@ def emit(
     become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run
     with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks:
     ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
-    classical form of the scene, by default the equations as printed. Errors: the errors of
+    classical form of the scene, by default the equations as printed. ``batch`` adds a C function that steps
+    many independent systems (:meth:`codegen.integrator.Integrator.run_batch`). Errors: the errors of
     :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
     name in C.
     """
@@ -218,6 +225,7 @@ def emit(
             form=form,
             family=text(family, "family", "a family, such as rkmk(2)"),
         )
+        compiled = with_batch(compiled) if batch else compiled
     named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
     named["method"] = bare(str(method)) if whole else compiled.method.label
@@ -275,6 +283,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options = ["--frame body"] if scene.body_group is not None else []
     options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
     options += ["--adaptive"] if compiled.method.adaptive else []
+    options += ["--batch"] if compiled.kernel.batch else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
@@ -340,6 +349,10 @@ def emit_kernel(
     target.
     """
     interface = Interface.of(kernel, prefix, precision)
+    if kernel.batch and target != "c":
+        raise InputError(
+            f"the target {target}", where="--batch", expected="the target c", hint="add --target c"
+        )
     files = known_target(target).print_module(kernel, interface, recipe)
     manifest = {
         **(about or {}),

@@ -49,6 +49,9 @@ if TYPE_CHECKING:
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
 )
 @click.option(
+    "--batch", is_flag=True, help="Also emit a C function that steps many independent systems at once."
+)
+@click.option(
     "--adaptive",
     is_flag=True,
     help="Also emit a function with step-size control; the embedded row of the tableau estimates the error.",
@@ -78,6 +81,7 @@ def command(
     frame: str,
     form: str,
     jacobian: bool,
+    batch: bool,
     adaptive: bool,
     precision: str,
     solver: str,
@@ -96,19 +100,16 @@ def command(
         orderconds emit dipole -m vcg:midpoint -t c -t python -o out
         orderconds emit driven_spin -m ambient:dop853 --adaptive --parameter nu -o out
     """
-    from codegen.emitter import bare, compile_method, emit_compiled
-    from codegen.ir.precision import precision as known_precision
+    from codegen.emitter import bare, compile_method, emit_compiled, with_batch
     from codegen.printers import DEFAULT
-    from codegen.printers import target as known_target
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing; name the folder to write to, or give --explain or --json")
-    for name in targets:
-        known_target(name)
-    known_precision(precision)
+    _require_known(targets, precision)
     compiled = compile_method(
         scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
+    compiled = with_batch(compiled) if batch else compiled
     _warn(compiled, scene, method)
     if chosen := family_note(compiled, method):
         click.echo(f"note: {chosen}", err=True)
@@ -127,6 +128,16 @@ def command(
         more = explained(compiled) if explain else {}
         screen.print_json([record | more for record in records])
     return 0
+
+
+def _require_known(targets: tuple[str, ...], precision: str) -> None:
+    """Raise UnknownName for an unknown target or precision."""
+    from codegen.ir.precision import precision as known_precision
+    from codegen.printers import target as known_target
+
+    for name in targets:
+        known_target(name)
+    known_precision(precision)
 
 
 def explained(compiled: Compiled) -> dict[str, object]:

@@ -301,7 +301,8 @@ class Kernel:
     kernel for each of its parts, and h and t are the length and the start of the part. ``outlined`` are
     functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
     momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted code can have a
-    run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``.
+    run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``. With
+    ``batch``, emitted code also has a function that steps many independent systems.
     """
 
     name: str
@@ -318,6 +319,7 @@ class Kernel:
     outlined: tuple[Function, ...] = ()
     carried: Carried | None = None
     expansion: Expansion | None = None
+    batch: bool = False
 
     @property
     def adaptive(self) -> bool:

@@ -45,12 +45,19 @@ class Array:
 
 @dataclass(frozen=True)
 class For:
-    """A loop: the body is executed for index = 0, ..., count - 1, or in ``reverse`` order."""
+    """A loop: the body is executed for index = 0, ..., count - 1, or in ``reverse`` order.
+
+    The passes through an ``independent`` or ``parallel`` loop may be executed in any order. A compiler should
+    execute those of an independent loop with vector instructions, and those of a parallel loop on several
+    processors.
+    """
 
     index: Term
     count: Term
     body: tuple[Statement, ...]
     reverse: bool = False
+    independent: bool = False
+    parallel: bool = False
 
 
 @dataclass(frozen=True)
@@ -109,7 +116,8 @@ RAISES_STATUS, RAISES_NAN = "status", "nan"
 @dataclass(frozen=True)
 class Function:
     """A function of the unit. ``public`` functions can be called from outside the unit; functions marked
-    ``often`` should be inlined."""
+    ``often`` should be inlined. A function marked ``near`` evaluates functions of reals without branches
+    (:mod:`codegen.run.batch`)."""
 
     name: str
     about: str
@@ -119,6 +127,7 @@ class Function:
     guard: str = ""
     public: bool = False
     often: bool = False
+    near: bool = False
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.needs import functions_of
 from codegen.printers.recipe import Recipe, header
 from codegen.printers.state_fields import layout, times
+from codegen.run.batch import BATCH, LANES, called_by, complete, near
 from codegen.run.identifiers import identify
 from codegen.run.language import Unit, terms
 from codegen.run.numbers import numbers_held
@@ -32,6 +33,9 @@ from codegen.templates import environment
 # would depend on the machine.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
+
+VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno")
+"""Further flags for modules with a batch. The results depend on none of these flags."""
 
 FRAMES = 640
 """The number of bytes of the stack for return addresses, saved registers and the frames of helpers."""
@@ -68,6 +72,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         widest=max((len(loop.unknowns) for loop in kernel.loops if loop.newton is not None), default=0),
         chain=chain(kernel),
         prefix=interface.prefix,
+        batch=interface.batch,
     )
     public = {f.name: f for f in unit.functions if f.public}
     # The width is 96, because the comment adds a star and spaces to each line, and lines have at most 100
@@ -85,8 +90,14 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "time": interface.time,
         "blocks": interface.blocks,
         "inputs": interface.inputs,
+        "parameters": interface.parameters,
         "statuses": statuses(unit),
         "adaptive": interface.adaptive,
+        "batch": interface.batch,
+        "vectorised": LANES in unit.parts,
+        "build": " ".join(
+            ("-std=c11", *(VECTOR_FLAGS if interface.batch else ("-O2",)), "-ffp-contract=off")
+        ),
         "variations": interface.variations,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
@@ -131,7 +142,8 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 def helpers(unit: Unit) -> list[str]:
     """Return the helpers and library functions that a unit calls, sorted."""
-    names = set(functions_of(unit)) | {"isfinite"}
+    names = _forms(unit) if BATCH in unit.parts else set(functions_of(unit))
+    names |= {"isfinite"}
     for function in unit.functions:
         for term in terms(function.body):
             if term.op == "finite" and term.args[0].shape:
@@ -140,6 +152,17 @@ def helpers(unit: Unit) -> list[str]:
                 names.add({"abs": "fabs", "greatest": "greater"}.get(term.text, term.text))
     # pow and copysign are in math.h and need no helper.
     return sorted(names - {"power", "copysign"})
+
+
+def _forms(unit: Unit) -> set[str]:
+    """Return the functions that a unit with a batch calls, each in the form that its caller uses."""
+    names: set[str] = set()
+    for function in unit.functions:
+        form = near if function.near else complete
+        names |= {
+            form(name) for name in called_by(function.body) if name not in unit.parts and name != "sample"
+        }
+    return names
 
 
 def inverted(kernel: Kernel) -> int:
@@ -173,11 +196,13 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     """Return the names that the module declares at file scope; no variable may hide these names."""
     prefix, upper = interface.prefix, interface.prefix.upper()
-    names = {"step", "run", "run_adaptive", "jacobian", "statistics", "input", "hold"}
+    names = {"step", "run", "run_adaptive", "jacobian", "run_batch", "statistics", "input", "hold"}
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
     names |= {snippet.name for snippet in snippets(interface.format)}
-    return frozenset({f"{prefix}{name}" for name in names} | {f"{upper}{name}" for name in (*STATUSES, "H")})
+    return frozenset(
+        {f"{prefix}{name}" for name in names} | {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
+    )
 
 
 def prototypes(interface: Interface) -> str:
@@ -207,6 +232,14 @@ def prototypes(interface: Interface) -> str:
         f"int {prefix}jacobian(const {real} *state, {time}{real} h, {parameters}{held}{real} *jacobian);\n"
     )
     run += derived if interface.variations else ""
+    rows = f"const {real} *parameters, " if interface.parameters else ""
+    rows += f"const {real} *inputs, " if interface.inputs else ""
+    run += (
+        f"int {prefix}run_batch(size_t lanes, size_t stride, {real} *state, {time}{real} h, size_t steps, "
+        f"{rows}int *statuses, size_t *completed);\n"
+        if interface.batch
+        else ""
+    )
     known = ((record, bool(blocks)), (callback, bool(interface.inputs)), (adaptive, interface.adaptive))
     return "".join(text for text, there in known if there) + run
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import ClassVar
 
 from codegen.ir.precision import DOUBLE, Precision
@@ -33,10 +33,14 @@ def literal(precision: Precision, x: float) -> str:
     return precision.text(x) + precision.suffix
 
 
-def style(precision: Precision, prefix: str = "") -> Style:
-    """Return the constants and function names of C: ``0.5f``, ``sqrtf``, helpers with the module's prefix."""
+def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = str) -> Style:
+    """Return the constants and function names of C: ``0.5f``, ``sqrtf``, helpers with the module's prefix.
+
+    ``forms`` maps the name of a function to the name of the form that a module uses.
+    """
 
     def called(name: str) -> str:
+        name = forms(name)
         if name not in LIBRARY:
             return prefix + name
         # isfinite is a macro for all types and gets no suffix. All other functions get the suffix, because
@@ -61,10 +65,11 @@ class Terms(Infix):
         prefix: str,
         pointers: Collection[str],
         tables: Collection[str] = (),
+        forms: Callable[[str], str] = str,
     ) -> None:
         self.identifiers, self.precision, self.prefix = identifiers, precision, prefix
         self.pointers, self.tables = frozenset(pointers), frozenset(tables)
-        self.style = style(precision, prefix)
+        self.style = style(precision, prefix, forms)
 
     def negated(self, test: Term) -> Text:
         """Return the text of the negation of a test."""
