@@ -122,9 +122,9 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, without and with step-size control.
 
-    For each order only the smallest cut-off that gives this order is used. Up to the order :data:`SEARCHED`, a
-    recipe with the fewest brackets is added. Orders below half the classical order are omitted, because other
-    tableaux reach these orders with fewer stages.
+    For each order only the smallest cut-off that gives this order is used. Up to the order :data:`SEARCHED`,
+    a recipe with the fewest brackets is added. Orders below half the classical order are omitted, because
+    other tableaux reach these orders with fewer stages.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
