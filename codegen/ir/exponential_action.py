@@ -27,7 +27,7 @@ HALVINGS = 13
 
 SPARSE = 12
 """The largest number of rows for which a call contains only the entries of A that are not zero. The sums over
-these entries are written out in emitted code."""
+these entries are unrolled in emitted code."""
 
 
 @cache
