@@ -122,6 +122,7 @@ class Generator(MatrixFormula):
     """A(t + c h)."""
 
     c: Fraction
+
     @property
     def place(self) -> Place:
         """The set that contains the values."""

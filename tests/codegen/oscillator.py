@@ -1,7 +1,7 @@
 """Table 4.1 of Marthinsen's thesis from emitted C: orders, properties and energy errors of fourteen methods.
 
-The methods integrate the oscillator H = ((1 + eps sin(alpha t)) q.q + p.p)/2 with eps = 0.1, alpha = 0.123 and
-h = 0.3 over 166666 steps. The reference is Lie-Gauss with h = 0.02.
+The methods integrate the oscillator H = ((1 + eps sin(alpha t)) q.q + p.p)/2 with eps = 0.1, alpha = 0.123
+and h = 0.3 over 166666 steps. The reference is Lie-Gauss with h = 0.02.
 """
 
 from __future__ import annotations
@@ -154,29 +154,31 @@ PREFACE = """<!-- written by `python .ci/oscillator.py`; do not edit -->
 
 # Energy errors of a driven oscillator
 
-The methods of Table 4.1 of Marthinsen's thesis integrate H = ((1 + 0.1 sin(0.123 t)) q.q + p.p)/2 with four degrees
-of freedom, h = 0.3 and 166666 steps. The program emits each method in C. The error is the largest difference from
-the energy of Lie-Gauss with h = 0.02. The scenes are `linear_oscillator_sl2` for methods that begin with `magnus` or
-`step`, and `linear_oscillator` for all other methods.
+The methods of Table 4.1 of Marthinsen's thesis integrate H = ((1 + 0.1 sin(0.123 t)) q.q + p.p)/2 with four
+degrees of freedom, h = 0.3 and 166666 steps. The program emits each method in C. The error is the largest
+difference from the energy of Lie-Gauss with h = 0.02. The scenes are `linear_oscillator_sl2` for methods
+that begin with `magnus` or `step`, and `linear_oscillator` for all other methods.
 
-The properties are C (canonical), S (symmetric) and E (exponential: exact for constant matrices). They follow from the
-coefficients of the tableaux, and for stated steps from their formulas.
+The properties are C (canonical), S (symmetric) and E (exponential: exact for constant matrices). They
+follow from the coefficients of the tableaux, and for stated steps from their formulas.
 
 | method | `--method` | order | properties | error | printed |
 |---|---|---|---|---|---|
 """
 
 NOTES = """
-The printed errors of *ExpNonCan* and *ExpSymNonCan* do not come from the printed formulas, which are used here. The
-letter C requires that a step is symplectic for every A(t) in the algebra. For this oscillator the exponents of both
-methods are in the algebra, so that both are canonical here. *ExpSymNonCan* has order 2; its printed order is 1.
+The printed errors of *ExpNonCan* and *ExpSymNonCan* do not come from the printed formulas, which are used
+here. The letter C requires that a step is symplectic for every A(t) in the algebra. For this oscillator the
+exponents of both methods are in the algebra, so that both are canonical here. *ExpSymNonCan* has order 2;
+its printed order is 1.
 """
 
 
 def page() -> str:
     """Return the page docs/reference/oscillator.md."""
     lines = [
-        f"| {row.name} | `{row.method}` | {order(row)} | {properties(row)} | {error(row):.3e} | {row.printed} |"
+        f"| {row.name} | `{row.method}` | {order(row)} | {properties(row)} | {error(row):.3e} "
+        f"| {row.printed} |"
         for row in ROWS
     ]
     return PREFACE + "\n".join(lines) + "\n" + NOTES

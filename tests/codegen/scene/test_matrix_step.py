@@ -38,13 +38,14 @@ def test_types_follow_from_the_parts():
     assert (inside.place, outside.place) == (Place.ALGEBRA, Place.MATRIX)
     assert (expm(inside).place, expm(outside).place) == (Place.GROUP, Place.MATRIX)
     assert (expm(inside) * expm(h * A(1))).place is Place.GROUP
-    assert (IDENTITY + h * A(0)).place is logm(expm(inside)).place is Place.MATRIX
+    assert (IDENTITY + h * A(0)).place is Place.MATRIX
+    assert logm(expm(inside)).place is Place.MATRIX
     assert projected(outside).place is Place.ALGEBRA
 
 
 @pytest.mark.parametrize(
     "entries",
-    [(0.3, -1, 2, 0.7), (0.3, 1, 0.5, 0.7), (1, 0, 0, 1), (0.5, 2, 0, 0.5), (-0.2, -1, 1, -0.3)],
+    [(0.3, -1, 2, 0.7), (1.3, 1, 0.5, 0.7), (1, 0, 0, 1), (0.5, 2, 0, 0.5), (-0.2, -1, 1, -0.3)],
     ids=["turn", "hyperbolic", "unit", "shear", "turn by more than a quarter"],
 )
 @pytest.mark.parametrize("digits", [16, 40])
@@ -146,7 +147,10 @@ def test_larger_matrices_have_exp_of_the_algebra_only():
     ("given", "match"),
     [
         ({"steps": {"x": (PROJECTION, 0)}}, "the order 0"),
-        ({"steps": {"x": (PROJECTION, 1)}, "matrix": Matrix([[0, 1], [-1, 0]])}, "does not depend on the time"),
+        (
+            {"steps": {"x": (PROJECTION, 1)}, "matrix": Matrix([[0, 1], [-1, 0]])},
+            "does not depend on the time",
+        ),
         ({"action": LeftMultiplication(), "y0": (1, 0, 0, 1)}, "the action left multiplication"),
     ],
     ids=["order", "constant matrix", "action"],

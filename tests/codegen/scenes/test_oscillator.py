@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.codegen.oscillator import H, ROWS, energies, error, order, properties
+from tests.codegen.oscillator import ROWS, H, energies, error, order, properties
 from tests.orderconds.tableau.test_linear_oscillator import energies as energies_of_matrices
 from tests.orderconds.tableau.test_linear_oscillator import exponential, field, step_matrices
 
@@ -67,7 +67,9 @@ def test_the_properties_and_orders_of_the_table_follow_from_the_coefficients():
 
 @pytest.mark.slow
 def test_the_page_shows_the_errors_of_the_table():
-    shown = re.findall(r"^\| ([^|]+) \| `([^`]+)` \| (\d) \| (\w*) \| (\S+) \|", PAGE.read_text(), re.MULTILINE)
+    shown = re.findall(
+        r"^\| ([^|]+) \| `([^`]+)` \| (\d) \| (\w*) \| (\S+) \|", PAGE.read_text(), re.MULTILINE
+    )
     assert [name for name, *_ in shown] == NAMES
     assert all(float(x[4]) == pytest.approx(row.error, rel=0.001) for x, row in zip(shown, ROWS, strict=True))
     assert [x[3] for x in shown] == PRINTED
