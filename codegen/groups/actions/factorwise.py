@@ -37,7 +37,7 @@ class FactorwiseAction(Action):
         factors = group.require(DirectProduct).factors
         if len(factors) != len(self.actions):
             raise SceneError(
-                f"{len(self.actions)} actions of the {len(factors)} factors of {group.name}",
+                f"found {len(self.actions)} actions for the {len(factors)} factors of {group.name}",
                 where=where,
                 expected="one action for each factor",
             )
