@@ -43,6 +43,10 @@ METHODS = ("rkmk(0):euler", "rkmk:rk4", "rkmk(2):rk4", "cf:cf4", "cg:cg3")
 QUICK = METHODS[0]
 
 
+def slow(*values):
+    return pytest.param(*values, marks=pytest.mark.slow)
+
+
 @cache
 def principal_components():
     X = unknown(5, 2)
@@ -96,7 +100,7 @@ class TestValues:
         [
             *((principal_components, label) for label in METHODS),
             (driven, QUICK),
-            *(pytest.param(driven, label, marks=pytest.mark.slow) for label in METHODS[1:]),
+            *(slow(driven, label) for label in METHODS[1:]),
         ],
     )
     def test_a_step_has_the_value_with_formulas_in_coordinates(self, scene, label):
@@ -124,9 +128,7 @@ class TestValues:
         )
         assert max(abs(x - float(y)) for x, y in zip(own.step(start, 2.0**-5), exact, strict=True)) < 2e-15
 
-    @pytest.mark.parametrize(
-        "label", [QUICK, *(pytest.param(label, marks=pytest.mark.slow) for label in METHODS[1:])]
-    )
+    @pytest.mark.parametrize("label", [QUICK, *map(slow, METHODS[1:])])
     def test_python_and_c_compute_the_same_numbers(self, label):
         for scene in (principal_components, driven):
             first, second = module(scene, label), module(scene, label, "python")
@@ -163,6 +165,22 @@ class TestValues:
         assert np.abs(np.array(after) - exact).max() < 2e-5
 
 
+class TestStepControl:
+    @pytest.mark.parametrize("target", ["python", slow("c")])
+    @pytest.mark.parametrize(
+        "label", ["cf43", pytest.param("rkmk(4):dormand_prince5", marks=pytest.mark.slow)]
+    )
+    def test_a_run_with_step_control_makes_the_steps_of_a_run_in_coordinates(self, label, target):
+        own, dense = (
+            load_module(emit(s, label, target, adaptive=True))
+            for s in (principal_components(), load(str(DENSE)))
+        )
+        runs = [m.adaptive(m.initial, t=0.0, end=1.0, rtol=1e-6, atol=1e-8) for m in (own, dense)]
+        assert (runs[0].accepted, runs[0].rejected) == (runs[1].accepted, runs[1].rejected)
+        assert runs[0].accepted > 5
+        assert np.abs(np.array(runs[0].state) - runs[1].state).max() < 1e-12
+
+
 class TestPrincipalComponents:
     def test_emitted_lie_euler_finds_the_ritz_values(self):
         own = module(principal_components, "rkmk(0):euler")
@@ -171,7 +189,7 @@ class TestPrincipalComponents:
         assert np.abs(np.linalg.eigvalsh(X.T @ A @ X) - RITZ).max() < 1e-8
         assert defect(X, 2) < 1e-13
 
-    @pytest.mark.parametrize("label", [QUICK, pytest.param("cf:cf3", marks=pytest.mark.slow)])
+    @pytest.mark.parametrize("label", [QUICK, slow("cf:cf3")])
     def test_runs_agree_with_steps_in_coordinates(self, label):
         own, dense = module(principal_components, label), load_module(emit(load(str(DENSE)), label, "c"))
         gap = np.array(own.run(own.initial, 0.05, 40)) - dense.run(dense.initial, 0.05, 40)
@@ -276,10 +294,16 @@ class TestRefusals:
         with pytest.raises(MethodError, match=words):
             compile_method(tridiagonal(40), label)
 
-    def test_step_control_and_derivatives_are_refused(self):
-        for options in ({"adaptive": True}, {"jacobian": True}):
-            with pytest.raises(MethodError, match="large matrices"):
-                compile_method(tridiagonal(40), "rkmk(2):fehlberg5", **options)
+    def test_arrays_that_may_overflow_the_stack_are_refused(self, monkeypatch):
+        monkeypatch.setattr("codegen.printers.c.module.LARGEST_STACK", 2**20)
+        emit(tridiagonal(900), QUICK, "c")
+        monkeypatch.setattr("codegen.printers.c.module.LARGEST_STACK", 2**17)
+        with pytest.raises(SceneError, match="MiB of the stack"):
+            emit(tridiagonal(900), QUICK, "c")
+
+    def test_the_derivative_of_a_step_is_refused(self):
+        with pytest.raises(MethodError, match="large matrices"):
+            compile_method(tridiagonal(40), "rkmk:rk4", jacobian=True)
 
     def test_operations_of_the_group_are_refused(self):
         scene = tridiagonal(40)
