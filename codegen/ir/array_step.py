@@ -58,7 +58,7 @@ class Move:
         """The number of additions and multiplications if phi has :data:`TERMS` terms."""
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        products = m**3 + m * m + m * k * rows + (TERMS + 1) * m * m * k
+        products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 
 

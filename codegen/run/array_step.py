@@ -172,12 +172,15 @@ class _Exponential:
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
-        product = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW]
-        sums = For(_COLUMN, whole(m), (Assign(square, square - product),))
+        product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
+        diagonal = matrix[(m + 1) * _ROW]
+        # Each product occurs twice in the trace. The sums of different rows do not depend on each other.
+        below = For(_COLUMN, _ROW, (Assign(total, total + product),))
+        added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
         # -trace((G S)^2) is the square of the Frobenius norm of B S B^T. The eigenvalues of a skew matrix are
         # pairs with equal absolute values, so half of the square bounds the square of the spectral norm.
-        yield For(_ROW, whole(m), (sums,))
+        yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))
