@@ -304,7 +304,8 @@ class Kernel:
     functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
     momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted code can have a
     run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or
-    makes the step ``arrays``.
+    makes the step ``arrays``. With ``batch``, emitted code also has a function that steps many independent
+    systems.
     """
 
     name: str
@@ -322,6 +323,7 @@ class Kernel:
     carried: Carried | None = None
     expansion: Expansion | None = None
     arrays: ArrayStep | None = None
+    batch: bool = False
 
     @property
     def adaptive(self) -> bool:

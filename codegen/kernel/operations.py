@@ -124,7 +124,7 @@ def costs(kernel: Kernel) -> list[str]:
         # At its beginning a run computes m and outward(q, m), at its end outward(q', m') (see class Carried).
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
-        lines.append(f"{first} where a run begins, {last} where it ends")
+        lines.append(f"{first} at the beginning of a run, {last} at its end")
     for each_kernel in kernel.deferred.kernels if kernel.deferred is not None else ():
         (line,) = sentences(operations(arrange(each_kernel)))
         lines.append(f"{line.removesuffix(' a step')} once in a run of steps")

@@ -71,7 +71,7 @@ class Lowering(ABC):
     """
 
     reads_coordinates: ClassVar[bool] = False
-    """Whether the methods parametrise the group by the coordinate map of the scene
+    """True if the methods parametrise the group by the coordinate map of the scene
     (:mod:`codegen.groups.coordinate_maps`). Other families use the exponential map."""
 
     in_coordinates: ClassVar[bool] = False

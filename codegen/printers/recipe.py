@@ -13,10 +13,10 @@ class Recipe:
     or a path.
 
     ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
-    ``left_out`` has one sentence for each simplification. ``initial``, ``h`` and ``steps`` are the initial
-    state, step size and number of steps in the usage example. ``defaults`` are the scene's values of run-time
-    parameters. ``command`` is the command that regenerates the file. ``version`` is the version of
-    orderconds.
+    ``left_out`` has one line for each part of the general step that this scene and method do not need.
+    ``initial``, ``h`` and ``steps`` are the initial state, step size and number of steps in the usage
+    example. ``defaults`` are the scene's values of run-time parameters. ``command`` is the command that
+    regenerates the file. ``version`` is the version of orderconds.
     """
 
     title: str

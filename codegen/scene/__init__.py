@@ -2,6 +2,7 @@
 the compiler evaluates.
 
 A scene file imports its names from this package:
+``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``.
 ``from codegen.scene import FieldScene, HamiltonianScene, param, signal, table``. Scenes with large matrices
 use ``StiefelScene``, ``unknown``, ``banded`` and ``full``.
 """
@@ -15,6 +16,7 @@ from orderconds.lazy import lazy
 if TYPE_CHECKING:
     from codegen.scene.field_scene import FieldScene as FieldScene
     from codegen.scene.hamiltonian_scene import HamiltonianScene as HamiltonianScene
+    from codegen.scene.linear_scene import LinearScene as LinearScene
     from codegen.scene.matrix_formula import banded as banded
     from codegen.scene.matrix_formula import full as full
     from codegen.scene.matrix_formula import unknown as unknown
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
 __all__ = [
     "FieldScene",
     "HamiltonianScene",
+    "LinearScene",
     "Problem",
     "StiefelScene",
     "banded",
@@ -43,6 +46,7 @@ lazy(
     __name__,
     field_scene=("FieldScene",),
     hamiltonian_scene=("HamiltonianScene",),
+    linear_scene=("LinearScene",),
     matrix_formula=("banded", "full", "unknown"),
     parameters=("Parameter", "Signal", "param", "signal"),
     problem=("Problem",),

@@ -111,6 +111,12 @@ class Problem:
         return not self.inputs and not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
 
     @property
+    def linear(self) -> bool:
+        """True if the field does not depend on the state: y' = A(t).y, a linear problem in time."""
+        state = set(self.symbols)
+        return not any(n.op == "sym" and n.payload in state for n in walk(self.roots))
+
+    @property
     def is_hamiltonian(self) -> bool:
         """True if programs have the state (q, mu) and evaluate the operation ``hamilton``."""
         return self.paired
@@ -198,9 +204,8 @@ class Problem:
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of the functions of ad_x in ``word`` applied to v; with ``dual``, ad*_x replaces
-        ad_x.
-        """
+        """Return F v, where F is the product of the functions of ad_x in ``word``; with ``dual``, of
+        ad*_x."""
         return self.group.require(ClosedFormSeries).series(domain, word, dual, x, v)
 
     @property
@@ -233,8 +238,8 @@ class Problem:
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots
         if self.inputs and isinstance(domain, ExprDomain):
-            # Emitted code reads its inputs at the stage times. All other domains use the formulas of the
-            # signals.
+            # In emitted code, the caller passes the values of the inputs at the stage times. Domains that
+            # compute with numbers or series evaluate the formulas of the signals.
             roots = self.open_roots
             formulas = evaluate(list(self.signals.values()), domain, values)
             samples = domain.sample(self.inputs, values[TIME])
