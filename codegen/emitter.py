@@ -171,15 +171,15 @@ def with_batch(compiled: Compiled) -> Compiled:
 
 def _with_arrays(scene: Problem, method: Method, jacobian: bool) -> Compiled:
     """Return a method on a scene whose field is given by formulas of matrices."""
-    refused = "step control" if method.adaptive else "the derivative of a step" if jacobian else ""
-    if refused:
-        raise MethodError(
-            f"{refused} for a scene with large matrices",
-            where=scene.name,
-            expected="steps of constant size, without derivatives",
-        )
+    if jacobian:
+        what = "the derivative of a step for a scene with large matrices"
+        raise MethodError(what, where=scene.name, expected="a scene with formulas in coordinates")
     own = array_method(scene, method)
-    return Compiled(scene, method, scene, own.lowered, own.program, own.trace, own.kernel)
+    kernel = own.kernel
+    if kernel.estimate is not None:
+        order = order_of_estimate(method, scene)
+        kernel = replace(kernel, estimate=replace(kernel.estimate, order=order))
+    return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
 
 
 def work(kernel: Kernel) -> int:
