@@ -35,6 +35,7 @@ from codegen.method import Method
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.prefix import default_prefix, prefix_of
 from codegen.printers import DEFAULT
+from codegen.printers import names as target_names
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
@@ -170,15 +171,15 @@ def with_batch(compiled: Compiled) -> Compiled:
 
 def _with_arrays(scene: Problem, method: Method, jacobian: bool) -> Compiled:
     """Return a method on a scene whose field is given by formulas of matrices."""
-    refused = "step control" if method.adaptive else "the derivative of a step" if jacobian else ""
-    if refused:
-        raise MethodError(
-            f"{refused} for a scene with large matrices",
-            where=scene.name,
-            expected="steps of constant size, without derivatives",
-        )
+    if jacobian:
+        what = "the derivative of a step for a scene with large matrices"
+        raise MethodError(what, where=scene.name, expected="a scene with formulas in coordinates")
     own = array_method(scene, method)
-    return Compiled(scene, method, scene, own.lowered, own.program, own.trace, own.kernel)
+    kernel = own.kernel
+    if kernel.estimate is not None:
+        order = order_of_estimate(method, scene)
+        kernel = replace(kernel, estimate=replace(kernel.estimate, order=order))
+    return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
 
 
 def work(kernel: Kernel) -> int:
@@ -363,9 +364,13 @@ def emit_kernel(
     target.
     """
     interface = Interface.of(kernel, prefix, precision)
-    if kernel.batch and target != "c":
+    if kernel.batch and not known_target(target).batches:
+        able = next(name for name in target_names() if known_target(name).batches)
         raise InputError(
-            f"the target {target}", where="--batch", expected="the target c", hint="add --target c"
+            f"the target {target}",
+            where="--batch",
+            expected="a target with batches",
+            hint=f"add --target {able}",
         )
     files = known_target(target).print_module(kernel, interface, recipe)
     manifest = {

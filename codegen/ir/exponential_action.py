@@ -26,8 +26,8 @@ HALVINGS = 13
 """The largest number of halvings. For larger matrices the result is NaN, because it would take too long."""
 
 SPARSE = 12
-"""The largest number of rows for which a call contains only the entries of A that are not zero. The sums over
-these entries are written out in emitted code."""
+"""The largest number of rows for which a call contains only the entries of A that are not zero. Emitted code
+then has one sum for each row, without a loop."""
 
 
 @cache

@@ -243,7 +243,8 @@ class Sample:
 class Estimate:
     """An error estimate: the new state minus an embedded solution of lower order, component by component.
 
-    After one step from the same state, both solutions differ from the exact flow by O(h^order).
+    After one step from the same state, both solutions differ from the exact flow by O(h^order). There are no
+    ``errors`` if the kernel computes with whole matrices.
     """
 
     errors: tuple[Expr, ...]

@@ -50,6 +50,7 @@ class Target:
     compiler: str = ""
     observer: str = ""
     stack: str = ""
+    batches: bool = False
 
     @property
     def print_module(self) -> PrintModule:

@@ -9,7 +9,7 @@ from codegen.errors import SceneError
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import MatrixElements
-from codegen.groups.linear_algebra import units
+from codegen.groups.linear_algebra import Vector, units
 from codegen.ir.domain import FloatDomain
 from codegen.scene.arguments import check_group
 from codegen.scene.field_scene import FieldScene
@@ -89,8 +89,8 @@ def _components(name: str, group: LieGroup, matrix: sympy.Matrix) -> list[sympy.
             + (f", or a {matrices.order} x {matrices.order} matrix" if matrices is not None else ""),
         )
     d = FloatDomain(0.0)
-    directions: tuple[tuple[float, ...], ...] = units(d, group.dim)
-    basis = Matrix([[Rational(entry) for entry in matrices.hat(d, x)] for x in directions]).T
+    elements: tuple[Vector[float], ...] = units(d, group.dim)
+    basis = Matrix([[Rational(entry) for entry in matrices.hat(d, e)] for e in elements]).T
     column = matrix.reshape(matrix.rows**2, 1)
     result = (basis.T * basis).LUsolve(basis.T * column)
     if any(simplify(x) != 0 for x in basis * result - column):

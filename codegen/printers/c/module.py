@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from codegen.errors import SceneError
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
 from codegen.ir.precision import DOUBLE
@@ -49,6 +50,9 @@ stores pairs of floats in vector registers of 16 bytes, that is 8 bytes for each
 equations, an optimiser moves common subexpressions out of the loop, and these values need more space. The
 largest measured values with equations were 8.8 bytes in double precision and 8.0 bytes in single precision.
 """
+
+LARGEST_STACK = 6 * 2**20
+"""The largest permitted bound on the stack of a call. Most systems limit the stack to 8 MiB."""
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
 """The compilers for which tests compare the bound with the stack that calls use."""
@@ -176,7 +180,8 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
 
     At -O0 a compiler uses about the bound without the margin, because each name has its own slot. Tests
-    compare the bound with ``-fstack-usage`` and with a painted stack.
+    compare the bound with ``-fstack-usage`` and with a painted stack. :class:`SceneError` is raised if the
+    bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # The function ``invert`` has local variables (scalars, a row, a permutation), so a step that inverts a
@@ -190,6 +195,13 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     numbers = numbers_held(unit)
     # The bound is rounded up to 64 bytes, to include the alignment of vector registers.
     bound = -(-(each * numbers + frames) // 64) * 64
+    if bound > LARGEST_STACK:
+        raise SceneError(
+            f"a step that needs {bound / 2**20:.1f} MiB of the stack",
+            where=interface.module,
+            expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
+            hint="use fewer rows, a method with fewer stages, or the target python",
+        )
     margin = f", {bound - size * numbers - frames} of them as a margin" if each > size else ""
     return f"at most {bound} bytes with {MEASURED}{margin}; functions of the mathematical library add to this"
 
