@@ -17,9 +17,11 @@ from typing import Any
 from codegen import scenes
 from codegen.artifact import Artifact, digest
 from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
+from codegen.argument import count
 from codegen.error_estimate import order_of_estimate
+from codegen.errors import MethodError
 from codegen.ir.domain import FloatDomain
-from codegen.ir.kernel import Kernel, Loop
+from codegen.ir.kernel import Kernel, Loop, Observed
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
@@ -59,6 +61,9 @@ SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
 """The cost of operations in units of an addition; two forms of a step are compared by these costs. Additions
 and products cost 1, and functions that are not listed cost 12."""
+
+MOST_EVENTS = 64
+"""The largest number of event functions."""
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
 """Names of the headers and modules that emitted files or their examples include. No emitted file may have
@@ -115,6 +120,8 @@ def compile_method(
     jacobian: bool = False,
     form: str = PRINTED,
     family: str = "",
+    integrate: bool = False,
+    events: int = 0,
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -124,7 +131,9 @@ def compile_method(
     solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
     embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
-    (:func:`codegen.method.method_of`). Errors: SceneError, MethodError, UnknownName, TableauError.
+    (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
+    times, ``events`` is the number of its event functions. Errors: SceneError, MethodError, UnknownName,
+    TableauError.
     """
     scene = scenes.problem_of(scene)
     parameters = texts(parameters, "parameters", "alpha=1/2")
@@ -154,12 +163,27 @@ def compile_method(
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
+    if integrate or events:
+        best = replace(best, kernel=replace(best.kernel, observed=_observed(method, degree, events)))
     if degree and method.adaptive:
         return replace(best, kernel=with_step_control(best.kernel, problem, degree))
     estimate = best.kernel.estimate
     if estimate is None:
         return best
     return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
+
+
+def _observed(method: Method, degree: int, events: int) -> Observed:
+    """Return the request for a run to a given end time."""
+    if count(events, "events") > MOST_EVENTS:
+        raise InputError(f"{events} event functions", where="events", expected=f"at most {MOST_EVENTS}")
+    if degree and method.adaptive:
+        raise MethodError(
+            f"a run to a given end time for {method.label} with step control",
+            expected="an adaptive method with an embedded row, or steps of constant size",
+            hint="leave out --adaptive or --integrate",
+        )
+    return Observed(events)
 
 
 def work(kernel: Kernel) -> int:
@@ -187,6 +211,8 @@ def emit(
     jacobian: bool = False,
     form: str = PRINTED,
     family: str = "",
+    integrate: bool = False,
+    events: int = 0,
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -197,7 +223,9 @@ def emit(
     become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run
     with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks:
     ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
-    classical form of the scene, by default the equations as printed. Errors: the errors of
+    classical form of the scene, by default the equations as printed. ``integrate`` adds a run to a given end
+    time with output at given times and, if adaptive, bounds on step sizes. ``events`` is the number of event
+    functions of this run. Errors: the errors of
     :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
     name in C.
     """
@@ -217,6 +245,8 @@ def emit(
             solver=solver,
             form=form,
             family=text(family, "family", "a family, such as rkmk(2)"),
+            integrate=integrate,
+            events=events,
         )
     named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
@@ -276,6 +306,9 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
     options += ["--adaptive"] if compiled.method.adaptive else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
+    observed = compiled.kernel.observed
+    options += ["--integrate"] if observed is not None and not observed.events else []
+    options += [f"--events {observed.events}"] if observed is not None and observed.events else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]

@@ -54,6 +54,18 @@ if TYPE_CHECKING:
     help="Also emit a function with step-size control; the embedded row of the tableau estimates the error.",
 )
 @click.option(
+    "--integrate",
+    is_flag=True,
+    help="Also emit a run to a given end time: output at given times, bounds on steps, resuming.",
+)
+@click.option(
+    "--events",
+    type=click.IntRange(0),
+    default=0,
+    metavar="N",
+    help="Number of event functions whose zeros the run of --integrate finds; implies --integrate.",
+)
+@click.option(
     "--precision", default="double", help="Floating-point precision: double (the default) or single."
 )
 @click.option(
@@ -79,6 +91,8 @@ def command(
     form: str,
     jacobian: bool,
     adaptive: bool,
+    integrate: bool,
+    events: int,
     precision: str,
     solver: str,
     explain: bool,
@@ -106,8 +120,9 @@ def command(
     for name in targets:
         known_target(name)
     known_precision(precision)
+    more = {"integrate": integrate, "events": events}
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
+        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form, **more
     )
     _warn(compiled, scene, method)
     if chosen := family_note(compiled, method):

@@ -276,6 +276,14 @@ class Expansion:
 
 
 @dataclass(frozen=True)
+class Observed:
+    """The request for a run to a given end time, with output at given times, and with zeros of ``events``
+    event functions of the caller."""
+
+    events: int = 0
+
+
+@dataclass(frozen=True)
 class Function:
     """A function that a kernel calls in several places: it evaluates ``body`` and returns ``outputs``, both
     from ``inputs`` alone.
@@ -301,7 +309,8 @@ class Kernel:
     kernel for each of its parts, and h and t are the length and the start of the part. ``outlined`` are
     functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
     momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted code can have a
-    run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``.
+    run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``. With
+    ``observed`` emitted code has a run to a given end time.
     """
 
     name: str
@@ -318,6 +327,7 @@ class Kernel:
     outlined: tuple[Function, ...] = ()
     carried: Carried | None = None
     expansion: Expansion | None = None
+    observed: Observed | None = None
 
     @property
     def adaptive(self) -> bool:

@@ -15,6 +15,9 @@ from codegen.ir.precision import DOUBLE, Precision, precision
 LISTS = ("parameters", "blocks", "inputs", "solvers")
 """The fields of :class:`Interface` that are tuples; in JSON they are lists."""
 
+RUN = ("integrated", "controlled", "events")
+"""The fields that describe the run to a given end time."""
+
 
 @dataclass(frozen=True)
 class Interface:
@@ -25,7 +28,9 @@ class Interface:
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
     of all numbers (:mod:`codegen.ir.precision`); ``inputs`` are the run-time functions of time, in order;
     ``adaptive`` is true if there is a run with step control; ``solvers`` are the methods that solve the
-    blocks. ``variations`` is the size of the Jacobian, 0 without one.
+    blocks. ``variations`` is the size of the Jacobian, 0 without one. ``integrated`` is true if there is a run
+    to a given end time, ``controlled`` if step control chooses the steps of this run. ``events`` is the
+    number of its event functions.
     """
 
     prefix: str
@@ -38,6 +43,9 @@ class Interface:
     adaptive: bool = False
     variations: int = 0
     solvers: tuple[str, ...] = ()
+    integrated: bool = False
+    controlled: bool = False
+    events: int = 0
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
@@ -58,6 +66,9 @@ class Interface:
             adaptive=kernel.adaptive,
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
+            integrated=kernel.observed is not None,
+            controlled=kernel.observed is not None and kernel.estimate is not None,
+            events=0 if kernel.observed is None else kernel.observed.events,
         )
 
     @property
@@ -78,7 +89,9 @@ class Interface:
     def as_json(self) -> dict[str, Any]:
         """Return plain data for the manifest; :meth:`from_json` reads it back."""
         # Tuples become lists, so that the data equal the data read from a JSON file.
-        return asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
+        data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
+        # Manifests of modules without this run do not mention it.
+        return data if self.integrated else {k: x for k, x in data.items() if k not in RUN}
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from codegen.ir.expr import walk
 from codegen.run.language import Call, Unit, statements, terms
 
+LANGUAGE = frozenset({"sample", "measure"})
+"""Calls of functions that the caller of the module supplies."""
+
 
 def functions_of(unit: Unit) -> tuple[str, ...]:
     """Return the functions that are called in expressions and in call statements, sorted."""
@@ -15,6 +18,6 @@ def functions_of(unit: Unit) -> tuple[str, ...]:
                 # Calls inside expressions are not statements, so both are searched.
                 names |= {n.payload for n in walk([term.value]) if n.op == "call"}
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
-        names |= {name for name in calls if name not in unit.parts and name != "sample"}
+        names |= {name for name in calls if name not in unit.parts and name not in LANGUAGE}
     # The names are sorted, so that emitted text does not depend on the order of a set.
     return tuple(sorted(names))

@@ -298,6 +298,15 @@ class _Compiler:
         given = [self.term(a) for a in arguments]
         stores = [self.store(r) for r in results if not r.shape]
         machine = self.machine
+        if function == "measure":
+            functions, time, state = given
+            values = self.identifiers.of(results[0])
+
+            def measure(env: Environment) -> bool:
+                env[values] = list(functions(env)(time(env), state(env)))
+                return False
+
+            return measure
         if function == "sample":
             inputs, time = given
             array = self.identifiers.of(results[0])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.run import deferred_flows, jacobian, step_control, taylor_control
+from codegen.run import deferred_flows, integration, jacobian, step_control, taylor_control
 from codegen.run.arithmetic import outlined
 from codegen.run.cause import cause, is_searched, step_arguments
 from codegen.run.continuation import continued
@@ -25,6 +25,7 @@ def unit_of(plan: Plan) -> Unit:
     else:
         functions += _steps(plan)
     functions += (*step_control.functions(plan), *taylor_control.functions(plan), *jacobian.functions(plan))
+    functions += integration.functions(plan)
     # t and h are always included, so that no other name gets the identifiers t and h.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
     vectors = used(functions)

@@ -128,6 +128,8 @@ class Terms(Infix):
         # A signal becomes two arguments, because C has no closures.
         if term.kind is Kind.SIGNAL:
             return "input, context"
+        if term.kind is Kind.EVENTS:
+            return "event, data"
         if not term.own and term.text in self.tables:
             return self.prefix + term.text
         return self.identifiers.of(term)

@@ -292,7 +292,7 @@ class _Body:
         """Yield the lines of a call."""
         given = [self.terms.line(a) for a in statement.arguments]
         results = [self.terms.line(r) for r in statement.results]
-        name = "sampled" if statement.function == "sample" else statement.function
+        name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
         # ``invert`` is a snippet with the same name in both targets.
         called = "invert" if name == "invert" else f"_{name}"

@@ -25,6 +25,9 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
 
+ROOM = 1024
+"""The number of events of one call; a run with more events ends early and can be continued."""
+
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
 """The default options of an adaptive run."""
 
@@ -167,6 +170,9 @@ class _Module:
             ),
             "adaptive": self.adaptive(inputs, given, optional, counted),
             "jacobian": self.jacobian(time, inputs, given),
+            "integrate": self.integrate(inputs, given, optional, counted),
+            "events": interface.events,
+            "room": ROOM,
         }
         return environment("python").get_template("module/module.py.j2").render(variables)
 
@@ -183,6 +189,30 @@ class _Module:
             ),
             "floats": ["end", "rtol", "atol", *self.parameters],
             "arguments": ", ".join([*arguments, *counted, "accepted", "rejected"]),
+        }
+
+    def integrate(
+        self, inputs: list[str], given: list[str], optional: list[str], counted: list[str]
+    ) -> dict[str, object] | None:
+        """Return the variables of the template for a run to a given end time."""
+        interface = self.interface
+        if not interface.integrated:
+            return None
+        controlled = interface.controlled
+        tolerances = ["rtol", "atol", "least", "greatest"] if controlled else []
+        options = ["rtol=1e-6", "atol=1e-9", "least=0.0", 'greatest=float("inf")'] if controlled else []
+        events = ["event=None", "stops=()"] if interface.events else []
+        first = ["state", "t", "end", *inputs, "h=0.0" if controlled else "h"]
+        buffers = ["event", "stops", "room", "event_times", "event_rows", "event_numbers", "found"]
+        arguments = ["state", "now", "end", "size" if controlled else "h", *tolerances, "limit"]
+        arguments += [*self.parameters, *inputs, "times", "len(times)", "rows", "written"]
+        arguments += [*(buffers if interface.events else []), *counted]
+        arguments += ["accepted", "rejected"] if controlled else ["accepted"]
+        return {
+            "run": ", ".join([*first, *keywords([*options, "limit=100000", "times=()", *events, *given, *optional])]),
+            "floats": ["end", *tolerances, *([] if controlled else ["h"]), *self.parameters],
+            "arguments": ", ".join(arguments),
+            "controlled": controlled,
         }
 
     def jacobian(self, time: list[str], inputs: list[str], given: list[str]) -> dict[str, object] | None:
