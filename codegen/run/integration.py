@@ -16,7 +16,6 @@ from codegen.run.step_control import ATOL, RTOL, Controlled
 from codegen.run.terms import (
     BAD_EVENT,
     BAD_STEP,
-    EVENT,
     LEAST_STEP,
     LIMIT,
     OK,
@@ -134,7 +133,7 @@ class _Constant:
                 (
                     *self.moved(),
                     If(STATUS.equals(code(OK)), (self.observed(),)),
-                    If(either(STATUS.equals(code(OK)), STATUS.equals(code(EVENT))), self.accept()),
+                    If(self.observation.sound, self.accept()),
                 ),
             ),
         )
@@ -146,7 +145,7 @@ class _Constant:
         if self.own_step:
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
-            return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now)]
+            return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
         time = (self.now,) if plan.time else ()
         nothing = (absent(Rows(plan).trajectory), whole(0))
         last = (*plan.counted, absent(count("completed", 1, optional=True, cell=True)))
@@ -210,7 +209,7 @@ class _Adaptive(Controlled):
             self.plan.state(), self.trial, self.now, self.following, self.stop
         )
         accepted = (Assign(self.following, self.stop[0]), *super().accept(), *self.limited())
-        return (observed, If(either(STATUS.equals(code(OK)), STATUS.equals(code(EVENT))), accepted))
+        return (observed, If(self.observation.sound, accepted))
 
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step."""

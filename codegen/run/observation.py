@@ -94,6 +94,12 @@ class Observation:
         return self.following - self.now
 
     @property
+    def sound(self) -> Term:
+        """The test that a step was observed without an error."""
+        good = STATUS.equals(code(OK))
+        return either(good, STATUS.equals(code(EVENT))) if self.events else good
+
+    @property
     def outputs(self) -> tuple[Term, ...]:
         """The arguments for output times."""
         return self.times, self.amount, self.rows, self.written
@@ -124,7 +130,8 @@ class Observation:
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
         events: tuple[Statement, ...] = ()
         if self.events:
-            arrays = tuple(map(Array, (*self.memory, self.measured)))
+            # The arrays are cleared, because compilers cannot prove that all entries are assigned.
+            arrays = tuple(Array(x, zero=True) for x in (*self.memory, self.measured))
             measured = (*self.measure(now, state), Assign(self.values, self.measured), *self.signed())
             events = (Assign(self.found[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))
         return (
@@ -304,7 +311,7 @@ class Observation:
         located += (self.signs, self.values, self.low, self.high, self.inner, self.measured)
         good = STATUS.equals(code(OK))
         body: tuple[Statement, ...] = (
-            *map(Array, (self.inner, self.measured, self.high)),
+            *(Array(x, zero=True) for x in (self.inner, self.measured, self.high)),
             Assign(STATUS, code(OK)),
             Assign(self.stop[0], self.following),
             Assign(self.low, number(0.0)),
@@ -400,7 +407,7 @@ class Observation:
             Array(self.inner),
             Assign(STATUS, code(OK)),
             *found,
-            If(either(good, STATUS.equals(code(EVENT))), outputs),
+            If(self.sound, outputs),
             Return(STATUS),
         )
         parameters = (*passed, *self.outputs, *self.buffers, *self.memory, self.stop)
