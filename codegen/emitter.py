@@ -16,6 +16,7 @@ from typing import Any
 
 from codegen import scenes
 from codegen.artifact import Artifact, digest
+from codegen.continuous_extension import extension_of
 from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
 from codegen.argument import count
 from codegen.error_estimate import order_of_estimate
@@ -122,6 +123,7 @@ def compile_method(
     family: str = "",
     integrate: bool = False,
     events: int = 0,
+    dense: bool = False,
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -132,7 +134,8 @@ def compile_method(
     embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
-    times, ``events`` is the number of its event functions. Errors: SceneError, MethodError, UnknownName,
+    times, ``events`` is the number of its event functions, and ``dense`` uses the continuous extension of the
+    tableau at output times. Errors: SceneError, MethodError, UnknownName,
     TableauError.
     """
     scene = scenes.problem_of(scene)
@@ -163,8 +166,11 @@ def compile_method(
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
-    if integrate or events:
-        best = replace(best, kernel=replace(best.kernel, observed=_observed(method, degree, events)))
+    if integrate or events or dense:
+        observed = _observed(method, degree, events)
+        if dense:
+            observed = replace(observed, extension=extension_of(method, scene))
+        best = replace(best, kernel=replace(best.kernel, observed=observed))
     if degree and method.adaptive:
         return replace(best, kernel=with_step_control(best.kernel, problem, degree))
     estimate = best.kernel.estimate
@@ -213,6 +219,7 @@ def emit(
     family: str = "",
     integrate: bool = False,
     events: int = 0,
+    dense: bool = False,
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -225,7 +232,7 @@ def emit(
     ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
     classical form of the scene, by default the equations as printed. ``integrate`` adds a run to a given end
     time with output at given times and, if adaptive, bounds on step sizes. ``events`` is the number of event
-    functions of this run. Errors: the errors of
+    functions of this run; ``dense`` uses the continuous extension of the tableau at output times. Errors: the errors of
     :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
     name in C.
     """
@@ -247,6 +254,7 @@ def emit(
             family=text(family, "family", "a family, such as rkmk(2)"),
             integrate=integrate,
             events=events,
+            dense=dense,
         )
     named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
@@ -308,6 +316,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
     observed = compiled.kernel.observed
     options += ["--integrate"] if observed is not None and not observed.events else []
+    options += ["--dense"] if observed is not None and observed.extension is not None else []
     options += [f"--events {observed.events}"] if observed is not None and observed.events else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
@@ -339,6 +348,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
             *(("solved by", choice.text()) for choice in compiled.solvers),
             *((("precision", SINGLE_IS + COUNTED * bool(compiled.solvers)),) if single else ()),
             *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
+            *_output_facts(compiled.kernel),
         ),
         initial=start_of(scene),
         h=float((last - first) / PARTS),
@@ -348,6 +358,15 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
         command=command,
         version=__version__,
     )
+
+
+def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
+    """Return the line of the header about the continuous extension, if the module has one."""
+    extension = None if kernel.observed is None else kernel.observed.extension
+    if extension is None:
+        return ()
+    text = f"inside steps by the continuous extension of the tableau, of order {extension.order} and degree"
+    return (("output", f"{text} {extension.degree} in the coordinates of the exponential"),)
 
 
 def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:

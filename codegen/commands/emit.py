@@ -59,6 +59,11 @@ if TYPE_CHECKING:
     help="Also emit a run to a given end time: output at given times, bounds on steps, resuming.",
 )
 @click.option(
+    "--dense",
+    is_flag=True,
+    help="Compute output inside steps by the continuous extension of the tableau; implies --integrate.",
+)
+@click.option(
     "--events",
     type=click.IntRange(0),
     default=0,
@@ -93,6 +98,7 @@ def command(
     adaptive: bool,
     integrate: bool,
     events: int,
+    dense: bool,
     precision: str,
     solver: str,
     explain: bool,
@@ -120,7 +126,7 @@ def command(
     for name in targets:
         known_target(name)
     known_precision(precision)
-    more = {"integrate": integrate, "events": events}
+    more = {"integrate": integrate, "events": events, "dense": dense}
     compiled = compile_method(
         scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form, **more
     )

@@ -276,11 +276,27 @@ class Expansion:
 
 
 @dataclass(frozen=True)
+class Continuous:
+    """A continuous extension of order ``order``: the solution at the time t + theta h is exp(sigma(theta)).y.
+
+    The outputs of ``coefficients`` are the coefficients of theta, ..., theta^``degree`` of sigma, one after
+    the other. ``moved`` computes exp(x).y from a state y that is followed by the coordinates x.
+    """
+
+    coefficients: Kernel
+    moved: Kernel
+    degree: int
+    order: int
+
+
+@dataclass(frozen=True)
 class Observed:
     """The request for a run to a given end time, with output at given times, and with zeros of ``events``
-    event functions of the caller."""
+    event functions of the caller. States at output times are computed by the ``extension``, or without one by
+    shorter steps."""
 
     events: int = 0
+    extension: Continuous | None = None
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from codegen.ir.precision import DOUBLE, Precision, precision
 LISTS = ("parameters", "blocks", "inputs", "solvers")
 """The fields of :class:`Interface` that are tuples; in JSON they are lists."""
 
-RUN = ("integrated", "controlled", "events")
+RUN = ("integrated", "controlled", "events", "dense")
 """The fields that describe the run to a given end time."""
 
 
@@ -30,7 +30,7 @@ class Interface:
     ``adaptive`` is true if there is a run with step control; ``solvers`` are the methods that solve the
     blocks. ``variations`` is the size of the Jacobian, 0 without one. ``integrated`` is true if there is a run
     to a given end time, ``controlled`` if step control chooses the steps of this run. ``events`` is the
-    number of its event functions.
+    number of its event functions. ``dense`` is the order of its continuous extension, 0 without one.
     """
 
     prefix: str
@@ -46,6 +46,7 @@ class Interface:
     integrated: bool = False
     controlled: bool = False
     events: int = 0
+    dense: int = 0
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
@@ -69,6 +70,7 @@ class Interface:
             integrated=kernel.observed is not None,
             controlled=kernel.observed is not None and kernel.estimate is not None,
             events=0 if kernel.observed is None else kernel.observed.events,
+            dense=_order_of_extension(kernel),
         )
 
     @property
@@ -98,3 +100,9 @@ class Interface:
         """Return the interface that :meth:`as_json` wrote."""
         # Lists become tuples, because JSON has no tuples. A list that is missing in a manifest is empty.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))
+
+
+def _order_of_extension(kernel: Kernel) -> int:
+    """Return the order of the continuous extension of a kernel, 0 without one."""
+    extension = None if kernel.observed is None else kernel.observed.extension
+    return 0 if extension is None else extension.order

@@ -1,8 +1,9 @@
 """Output at given times and events, inside the steps of a run.
 
 A state inside a step is the result of one step from the beginning of this step to the given time. It is on
-the manifold, and it has the order of the method, for every family. The steps of the run do not depend on
-output times.
+the manifold, and it has the order of the method, for every family. If a continuous extension was requested,
+it computes the states at output times (:mod:`codegen.run.dense_output`). The steps of the run do not depend
+on output times.
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of
 sign between two of these times. Two zeros of one function between two of these times are not found. A value
@@ -15,6 +16,7 @@ find the same event again.
 
 from __future__ import annotations
 
+from codegen.run.dense_output import DenseOutput
 from codegen.run.language import Array, Assign, Call, For, Function, If, Return, Statement, While
 from codegen.run.plan import STEP, TIME, Plan
 from codegen.run.terms import (
@@ -22,6 +24,7 @@ from codegen.run.terms import (
     BAD_TIMES,
     EVENT,
     EVENT_FUNCTIONS,
+    NOT_FINITE,
     OK,
     STATUS,
     Kind,
@@ -87,6 +90,8 @@ class Observation:
         self.numbers = count("event_numbers", 0, optional=True)
         self.signs, self.values, self.measured = (real(x, k) for x in ("signs", "values", "measured"))
         self.ahead = real("ahead", k)
+        extension = plan.kernel.observed.extension
+        self.dense = None if extension is None else DenseOutput(plan, extension)
 
     @property
     def length(self) -> Term:
@@ -151,7 +156,10 @@ class Observation:
     def functions(self) -> tuple[Function, ...]:
         """Return the functions, callees first."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
-        return self.inside(), self.in_order(), *located, self.observed()
+        dense = () if self.dense is None else self.dense.functions()
+        # Without events, an extension computes all states inside steps.
+        inside = (self.inside(),) if self.events or self.dense is None else ()
+        return *inside, self.in_order(), *located, *dense, self.observed()
 
     def inside(self) -> Function:
         """Return the function that computes a state inside a step."""
@@ -369,6 +377,26 @@ class Observation:
             If(self.low >= self.target, (Assign(self.target, self.target + 1.0 / PARTS),)),
         )
 
+    known = flag("known")
+
+    def begin_extension(self) -> tuple[Statement, ...]:
+        """Return the statements before the states inside a step are computed."""
+        if self.dense is None:
+            return ()
+        # The array is cleared, because compilers cannot prove that it is filled before it is read.
+        return Array(self.dense.powers, zero=True), Assign(self.known, truth(False))
+
+    def inner_state(self, state: Term, time: Term) -> tuple[Statement, ...]:
+        """Return the statements that compute the state at an output time inside a step."""
+        if self.dense is None:
+            return self.state_at(state, time - self.now)
+        first = (self.dense.coefficients(state, self.now, self.length), Assign(self.known, truth(True)))
+        return (
+            If(negated(self.known), first),
+            self.dense.state_at(state, (time - self.now) / self.length),
+            If(negated(all_finite(self.inner)), (Assign(STATUS, code(NOT_FINITE)),)),
+        )
+
     def observed(self) -> Function:
         """Return the function that observes one step: events first, then the output times before the first
         event that ends the run."""
@@ -386,7 +414,7 @@ class Observation:
             If(
                 inside,
                 (
-                    *self.state_at(state, time - self.now),
+                    *self.inner_state(state, time),
                     If(good, (Assign(self.rows[place], self.inner),)),
                 ),
                 (Assign(self.rows[place], self.after),),
@@ -405,6 +433,7 @@ class Observation:
         )
         body: tuple[Statement, ...] = (
             Array(self.inner),
+            *self.begin_extension(),
             Assign(STATUS, code(OK)),
             *found,
             If(self.sound, outputs),

@@ -93,6 +93,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "controlled": interface.controlled,
         "events": interface.events,
         "compared": PARTS,
+        "dense": interface.dense,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
         # Prototypes and definitions are printed by the same functions, so they cannot differ.

@@ -213,6 +213,7 @@ class _Module:
             "floats": ["end", *tolerances, *([] if controlled else ["h"]), *self.parameters],
             "arguments": ", ".join(arguments),
             "controlled": controlled,
+            "dense": interface.dense,
         }
 
     def jacobian(self, time: list[str], inputs: list[str], given: list[str]) -> dict[str, object] | None:
