@@ -59,7 +59,8 @@ def _judged(
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
     """Return the condition for the coefficient of theta^p of a tree with n nodes."""
-    return condition if p == n else replace(condition, rhs=0 * condition.rhs)
+    rhs = condition.rhs if p == n else 0 * condition.rhs
+    return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")
 
 
 def _is_smooth(method: RungeKutta, extension: Extension, ring: Ring) -> bool | None:
