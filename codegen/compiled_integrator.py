@@ -8,8 +8,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from codegen.arrival import Arrival, Reached, Status
 from codegen.event import EventValues
-from codegen.integrator import Arrival, Begun, Integrator, Reached, Signals, Status
+from codegen.integrator import Begun, Integrator, Signals
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
 from codegen.run.status import reason
@@ -68,7 +69,9 @@ class CompiledIntegrator(Integrator):
                 given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
                 why = f"expected finite numbers and no negative tolerance, found {given}"
             failed = begun.failed(status, accepted[0], final, why)
-            failed.arrival = Arrival(failed.state, t[0], h[0], accepted[0], rejected[0], None, (), failed.status)
+            failed.arrival = Arrival(
+                failed.state, t[0], h[0], accepted[0], rejected[0], None, (), failed.status
+            )
             raise failed
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
@@ -95,9 +98,12 @@ class CompiledIntegrator(Integrator):
                 *([] if buffers is None else buffers.arguments),
                 *(*counted, *counts),
             )
-        given = "t={}, end={}, h={}".format(*span) + f", tolerances and bounds {bounds}" * interface.controlled
-        why = "" if status in (Status.OK, Status.EVENT) else reason(Status(status).name, self._block(counted), span[2])
+        why = ""
+        if status not in (Status.OK, Status.EVENT):
+            why = reason(Status(status).name, self._block(counted), span[2])
         if status == Status.BAD_STEP:
+            given = "t={}, end={}, h={}".format(*span)
+            given += ", rtol={}, atol={}, least={}, greatest={}".format(*bounds) * interface.controlled
             bounded = "a positive tolerance, and 0 <= least <= greatest"
             expected = bounded if interface.controlled else "a step size other than 0"
             why = f"expected finite numbers, {expected}; found {given}"

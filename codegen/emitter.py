@@ -6,19 +6,15 @@ method and options only, so the same arguments give the same bytes.
 
 from __future__ import annotations
 
-import keyword
-import re
-import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import PurePath
 from typing import Any
 
 from codegen import scenes
-from codegen.artifact import Artifact, digest
-from codegen.continuous_extension import extension_of
-from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
 from codegen.argument import count
+from codegen.artifact import Artifact, digest
+from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
+from codegen.continuous_extension import extension_of
 from codegen.error_estimate import order_of_estimate
 from codegen.errors import MethodError
 from codegen.ir.domain import FloatDomain
@@ -28,12 +24,14 @@ from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
 from codegen.ir.smoothness import features
 from codegen.kernel.column_choice import fastest
+from codegen.kernel.compensation import compensated as add_carries
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
 from codegen.lower import lower, lower_composed, lowering, method_for, problem_for
 from codegen.method import Method
+from codegen.module_name import bare, default_prefix, prefix_of, quoted
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -55,6 +53,8 @@ SINGLE_IS = "single: constants are rounded once, implicit stages converge to sin
 NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
 """A remark in the header of emitted code, for a scene whose field is not smooth."""
 
+COMPENSATED = "compensated: the second half of the state is the rounding errors, which are zero initially"
+
 COUNTED = "; the numbers of sweeps above are for double precision"
 """A remark in the header if the solvers were compared in double precision."""
 
@@ -65,10 +65,6 @@ and products cost 1, and functions that are not listed cost 12."""
 
 MOST_EVENTS = 64
 """The largest number of event functions."""
-
-HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""Names of the headers and modules that emitted files or their examples include. No emitted file may have
-such a name."""
 
 
 @dataclass(frozen=True)
@@ -99,6 +95,8 @@ class Compiled(Optimised):
     solvers: tuple[Choice, ...] = ()
     asked: str = AUTO
     form: ClassicalForm | None = None
+    compensated: bool = False
+    """True if the state contains a carry for each coordinate."""
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
@@ -124,6 +122,7 @@ def compile_method(
     integrate: bool = False,
     events: int = 0,
     dense: bool = False,
+    compensate: bool = False,
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -135,7 +134,8 @@ def compile_method(
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
     times, ``events`` is the number of its event functions, and ``dense`` uses the continuous extension of the
-    tableau at output times. Errors: SceneError, MethodError, UnknownName,
+    tableau at output times. ``compensate`` extends the state by the carries of compensated summation
+    (:mod:`codegen.kernel.compensation`). Errors: SceneError, MethodError, UnknownName,
     TableauError.
     """
     scene = scenes.problem_of(scene)
@@ -163,6 +163,9 @@ def compile_method(
     if known_solver(solver) and best.kernel.loops:
         kernel, choices = solved(best.program, problem, start_of(scene), solver, best.kernel)
         best = replace(best, kernel=kernel, solvers=choices, asked=solver)
+    if compensate:
+        _refuse_with_carries(method, {"jacobian": jacobian, "adaptive": method.adaptive, "dense": dense})
+        best = compensated(best)
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
@@ -177,6 +180,24 @@ def compile_method(
     if estimate is None:
         return best
     return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
+
+
+def compensated(compiled: Compiled) -> Compiled:
+    """Return a compiled method with a carry for each coordinate in its state; raise MethodError if the step
+    adds no increment to the old state."""
+    kernel = add_carries(compiled.kernel, compiled.program, compiled.problem)
+    return replace(compiled, kernel=kernel, compensated=True)
+
+
+def _refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
+    """Raise :class:`MethodError` for options that compensated summation does not support."""
+    for option, requested in options.items():
+        if requested:
+            raise MethodError(
+                f"compensated summation with --{option} for {method.label}",
+                expected="steps of constant size, without a Jacobian and without a continuous extension",
+                hint=f"leave out --{option} or --compensate",
+            )
 
 
 def _observed(method: Method, degree: int, events: int) -> Observed:
@@ -220,6 +241,7 @@ def emit(
     integrate: bool = False,
     events: int = 0,
     dense: bool = False,
+    compensate: bool = False,
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -232,9 +254,10 @@ def emit(
     ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
     classical form of the scene, by default the equations as printed. ``integrate`` adds a run to a given end
     time with output at given times and, if adaptive, bounds on step sizes. ``events`` is the number of event
-    functions of this run; ``dense`` uses the continuous extension of the tableau at output times. Errors: the errors of
-    :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
-    name in C.
+    functions of this run; ``dense`` uses the continuous extension of the tableau at output times.
+    ``compensate`` extends the state by the carries of compensated summation, which are zero initially.
+    Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and InputError for a
+    prefix that is not a valid name in C.
     """
     known_target(target)
     known_precision(precision)
@@ -255,6 +278,7 @@ def emit(
             integrate=integrate,
             events=events,
             dense=dense,
+            compensate=compensate,
         )
     named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
@@ -318,6 +342,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += ["--integrate"] if observed is not None and not observed.events else []
     options += ["--dense"] if observed is not None and observed.extension is not None else []
     options += [f"--events {observed.events}"] if observed is not None and observed.events else []
+    options += ["--compensate"] if compiled.compensated else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
@@ -333,6 +358,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     single = target is not DOUBLE
     # A method without a tableau has no coefficients that could be rounded.
     tableau = method.coefficients is not None
+    carries = (0.0,) * (len(scene.symbols) if compiled.compensated else 0)
     digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
     return Recipe(
         title=f"{scene.title}: one step by {method.label}",
@@ -349,8 +375,9 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
             *((("precision", SINGLE_IS + COUNTED * bool(compiled.solvers)),) if single else ()),
             *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
             *_output_facts(compiled.kernel),
+            *((("summation", COMPENSATED),) if compiled.compensated else ()),
         ),
-        initial=start_of(scene),
+        initial=(*start_of(scene), *carries),
         h=float((last - first) / PARTS),
         steps=PARTS,
         defaults={p: float(scene.parameters[p]) for p in scene.runtime},
@@ -471,61 +498,3 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
 def flows_of(problem: Problem) -> str:
     """Describe the exact flows that a splitting composes."""
     return "; ".join(f"{name}, {flow.text()}" for name, flow in problem.flows.items())
-
-
-def bare(name: str) -> str:
-    """Return a name without folders, because emitted text must not contain a path of the machine.
-
-    >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
-    ('vcg:mine.toml', 'top.py')
-    """
-    name, bracket, values = name.partition("[")
-    family, colon, rest = name.rpartition(":") if re.match(r"[a-z_]+(\(\d+\))?:", name) else ("", "", name)
-    return f"{family}{colon}{PurePath(rest).name}{bracket}{values}"
-
-
-def quoted(word: str) -> str:
-    """Quote a word if a shell would otherwise interpret characters in it.
-
-    >>> quoted("rkmk(2):rk4"), quoted("linear_oscillator+u")
-    ("'rkmk(2):rk4'", 'linear_oscillator+u')
-    """
-    return shlex.quote(word)
-
-
-def default_prefix(scene: Problem, method: Method) -> str:
-    """Return the prefix SCENE_FAMILY_TABLEAU_, or SCENE_TABLEAU_ if the tableau's name starts with the
-    family.
-
-    A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
-    """
-    family = method.family + ("" if method.cutoff is None else str(method.cutoff))
-    tableau = method.name
-    named = bool(tableau) and tableau.startswith(method.family)
-    parts = [scene.name, *([] if named else [family]), tableau]
-    name = re.sub(r"\W", "_", "_".join(filter(None, parts)), flags=re.ASCII)
-    return prefix_of(name, "this name is the scene's file name: rename the file, or use --prefix NAME")
-
-
-def prefix_of(name: str, hint: str = "") -> str:
-    """Return a prefix that ends in one underscore; raise an InputError if it is not an identifier of C and
-    Python.
-
-    The names of the files begin with the prefix. It must not be a keyword, because Python cannot import a
-    module with this name. It must not be the name of a header or module that emitted code includes.
-    """
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
-        raise InputError(
-            f"the prefix {name!r}",
-            where="--prefix",
-            expected="a letter, then letters, digits and _",
-            hint=hint,
-        )
-    module = name.rstrip("_")
-    if keyword.iskeyword(module) or module in HEADERS:
-        raise InputError(
-            f"the prefix {name!r}",
-            where="--prefix",
-            expected="a name that is neither a keyword of Python nor a standard header",
-        )
-    return module + "_"

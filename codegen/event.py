@@ -82,6 +82,7 @@ class EventValues:
         self.failure: BaseException | None = None
 
     def __call__(self, t: float, state: Sequence[float]) -> list[float]:
+        """Return the values."""
         try:
             form = self.restore(list(state))
             values = [real(event.function(t, form), "the value of an event") for event in self.events]

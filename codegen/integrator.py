@@ -8,19 +8,21 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from enum import IntEnum
 from functools import cached_property
 from typing import Any
 
-from codegen.argument import count, described, monotone, real
+from codegen.argument import count, described, monotone, numbers, real
+from codegen.arrival import Arrival as Arrival
+from codegen.arrival import Reached, joined
+from codegen.arrival import Status as Status
 from codegen.artifact import Artifact
 from codegen.event import Crossing, Event, EventFunction, EventValues, events_of
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
-from codegen.state_form import Batch, Fields, State, StateForm, batch_of, read
+from codegen.state_form import Fields, State, StateForm, batch_of, read
 
 Signals = Callable[[float], Sequence[float]]
 """A function from the time to the run-time inputs."""
@@ -28,23 +30,6 @@ Signals = Callable[[float], Sequence[float]]
 
 SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
 """The solvers of implicit blocks, the most robust first."""
-
-
-class Status(IntEnum):
-    """The result of a step; emitted code returns these numbers."""
-
-    OK = 0
-    NOT_CONVERGED = 1
-    NOT_FINITE = 2
-    BAD_STEP = 3
-    LIMIT = 4
-    TOO_FAR = 5
-    SINGULAR = 6
-    TOO_SHORT = 7
-    EVENT = 8
-    BAD_TIMES = 9
-    LEAST_STEP = 10
-    BAD_EVENT = 11
 
 
 class StepFailed(ArithmeticError):
@@ -60,40 +45,6 @@ class StepFailed(ArithmeticError):
     def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
         super().__init__(f"step {step + 1}: {reason}")
         self.status, self.step, self.state, self.reason = status, step, state, reason
-
-
-@dataclass(frozen=True)
-class Arrival:
-    """The result of an adaptive run: the last state and its time, the proposed size of the next step, and the
-    numbers of accepted and rejected steps."""
-
-    state: State
-    t: float
-    h: float
-    accepted: int
-    rejected: int
-    states: State = None
-    """The states at the times ``t_eval``; None without such times."""
-    crossings: tuple[Crossing, ...] = ()
-    """The events that a run of ``integrate`` has found, in order."""
-    status: Status = Status.OK
-    """EVENT if a terminal event ended the run."""
-
-
-@dataclass(frozen=True)
-class Reached:
-    """The results of one call of the emitted run to an end time, before they have the form of the caller's
-    state. Each of the ``events`` is (index, time, direction, state)."""
-
-    status: int
-    state: Sequence[float]
-    t: float
-    h: float
-    rows: Sequence[Sequence[float]]
-    events: Sequence[tuple[int, float, int, Sequence[float]]]
-    accepted: int
-    rejected: int
-    reason: str
 
 
 @dataclass
@@ -193,7 +144,7 @@ class Integrator(ABC):
 
         ``inputs`` are the run-time inputs, in the interface's order; they are constant during the step.
         """
-        held = None if inputs is None else _numbers(inputs)
+        held = None if inputs is None else numbers(inputs)
         function = None if held is None else lambda t: held
         return self.run(state, h, 1, t, statistics, function, **parameters)
 
@@ -312,7 +263,7 @@ class Integrator(ABC):
                 self.adaptive(x, t, end, h, inputs=inputs, t_eval=t_eval, **options, **parameters)  # type: ignore[arg-type]
                 for x in batch.states
             ]
-            return _joined(arrivals, batch)
+            return joined(arrivals, batch)
         tolerances = (real(rtol, "rtol"), real(atol, "atol"))
         begun = self._begin(state, parameters, inputs, statistics)
         if times is None:
@@ -443,9 +394,9 @@ class Integrator(ABC):
             raise TypeError("this module has no derivative of its step; emit it with jacobian=True")
         if bool(self.interface.inputs) != (inputs is not None):
             raise TypeError(f"expected values for {', '.join(self.interface.inputs) or 'no inputs'}")
-        held = None if inputs is None else list(_numbers(inputs))
-        form, numbers = read(state, self.interface.size, self.fields)
-        begun = Begun(form, numbers, self._values(parameters), solvers=self.interface.solvers)
+        held = None if inputs is None else list(numbers(inputs))
+        form, values = read(state, self.interface.size, self.fields)
+        begun = Begun(form, values, self._values(parameters), solvers=self.interface.solvers)
         return form.matrix(self._derive(begun, real(t, "t"), real(h, "h"), held))
 
     def _begin(
@@ -464,10 +415,10 @@ class Integrator(ABC):
             raise TypeError(f"expected a function of the time for inputs, found {described(inputs)}")
         if statistics is not None and not isinstance(statistics, Statistics):
             raise TypeError(f"expected Statistics for statistics, found {described(statistics)}")
-        form, numbers = read(state, self.interface.size, self.fields)
+        form, values = read(state, self.interface.size, self.fields)
         return Begun(
             form,
-            numbers,
+            values,
             self._values(parameters),
             inputs,
             statistics,
@@ -521,21 +472,6 @@ class Integrator(ABC):
         times: Sequence[float],
     ) -> Reached:
         """Run to the end; ``span`` is (t, end, h), ``bounds`` is (rtol, atol, least, greatest)."""
-
-
-def _numbers(inputs: object) -> tuple[float, ...]:
-    """Return the values of run-time inputs that are constant during a step."""
-    if isinstance(inputs, str) or not isinstance(inputs, Iterable):
-        raise TypeError(f"expected a sequence of numbers for inputs, found {described(inputs)}")
-    return tuple(real(x, "inputs") for x in inputs)
-
-
-def _joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
-    """Return the result of adaptive runs from all states of a batch."""
-    last = arrivals[-1]
-    states = None if last.states is None else batch.joined([x.states for x in arrivals])
-    accepted, rejected = sum(x.accepted for x in arrivals), sum(x.rejected for x in arrivals)
-    return Arrival(batch.joined([x.state for x in arrivals]), last.t, last.h, accepted, rejected, states)
 
 
 def _loaded(

@@ -71,6 +71,11 @@ if TYPE_CHECKING:
     help="Number of event functions whose zeros the run of --integrate finds; implies --integrate.",
 )
 @click.option(
+    "--compensate",
+    is_flag=True,
+    help="Use compensated summation: the state also contains the rounding error of each coordinate.",
+)
+@click.option(
     "--precision", default="double", help="Floating-point precision: double (the default) or single."
 )
 @click.option(
@@ -99,6 +104,7 @@ def command(
     integrate: bool,
     events: int,
     dense: bool,
+    compensate: bool,
     precision: str,
     solver: str,
     explain: bool,
@@ -116,8 +122,9 @@ def command(
         orderconds emit dipole -m vcg:midpoint -t c -t python -o out
         orderconds emit driven_spin -m ambient:dop853 --adaptive --parameter nu -o out
     """
-    from codegen.emitter import bare, compile_method, emit_compiled
+    from codegen.emitter import compile_method, emit_compiled
     from codegen.ir.precision import precision as known_precision
+    from codegen.module_name import bare
     from codegen.printers import DEFAULT
     from codegen.printers import target as known_target
 
@@ -126,9 +133,20 @@ def command(
     for name in targets:
         known_target(name)
     known_precision(precision)
-    more = {"integrate": integrate, "events": events, "dense": dense}
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form, **more
+        scene,
+        method,
+        parameters,
+        inputs,
+        frame,
+        adaptive,
+        solver=solver,
+        jacobian=jacobian,
+        form=form,
+        integrate=integrate,
+        events=events,
+        dense=dense,
+        compensate=compensate,
     )
     _warn(compiled, scene, method)
     if chosen := family_note(compiled, method):

@@ -12,7 +12,6 @@ from pathlib import Path
 from codegen import scenes
 from codegen.artifact import write_text, writing
 from codegen.build import find_compiler
-from codegen.emitter import bare, quoted
 from codegen.lab.default_methods import REPORT_SCENES
 from codegen.lab.measurement_cache import FOLDER, MeasurementCache
 from codegen.lab.page.documents import OVERVIEW, page_name, render, render_overview
@@ -20,6 +19,7 @@ from codegen.lab.progress import Progress
 from codegen.lab.registry import selected
 from codegen.lab.scene_results import SceneResults, measure_scene
 from codegen.lab.subject import EFFORTS, Subject, subject
+from codegen.module_name import bare, quoted
 from orderconds.errors import InputError
 from orderconds.input_file import reason
 

@@ -28,8 +28,8 @@ class Interface:
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
     of all numbers (:mod:`codegen.ir.precision`); ``inputs`` are the run-time functions of time, in order;
     ``adaptive`` is true if there is a run with step control; ``solvers`` are the methods that solve the
-    blocks. ``variations`` is the size of the Jacobian, 0 without one. ``integrated`` is true if there is a run
-    to a given end time, ``controlled`` if step control chooses the steps of this run. ``events`` is the
+    blocks. ``variations`` is the size of the Jacobian, 0 without one. ``integrated`` is true if there is a
+    run to a given end time, ``controlled`` if step control chooses the steps of this run. ``events`` is the
     number of its event functions. ``dense`` is the order of its continuous extension, 0 without one.
     """
 

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from codegen.ir.expr import walk
-from codegen.run.language import Call, Unit, statements, terms
-
-LANGUAGE = frozenset({"sample", "measure"})
-"""Calls of functions that the caller of the module supplies."""
+from codegen.run.language import LANGUAGE, Call, Unit, statements, terms
 
 
 def functions_of(unit: Unit) -> tuple[str, ...]:

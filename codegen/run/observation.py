@@ -283,7 +283,9 @@ class Observation:
             *(Assign(x, number(1.0)) for x in (low_weight, high_weight)),
             Assign(side, number(0.0)),
             Assign(trials, whole(0)),
-            Assign(longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))),
+            Assign(
+                longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
+            ),
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
             # Near the time zero the width is bounded by the spacing of fractions of a step.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),

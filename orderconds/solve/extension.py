@@ -11,7 +11,6 @@ field at the new state, such that the derivative at the end is this field.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from fractions import Fraction
 from operator import add, sub
 
@@ -20,7 +19,6 @@ from orderconds.checking import check
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau import RungeKutta, Tableau
-from orderconds.tableau.extension import Extension
 from orderconds.tableau.methods import Row
 from orderconds.tableau.record import from_data
 from orderconds.tableau.write import as_data
@@ -44,7 +42,7 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
         raise TableauError(
             f"a tableau of format {tableau.family}", where=where, expected="a Runge-Kutta method, format rk"
         )
-    if ring.is_zero(ring.one - ring.one) is not True or any(ring.is_zero(x - x) is not True for x in method.b):
+    if any(ring.is_zero(x - x) is not True for row in (*method.A, method.b) for x in row):
         raise TableauError("rounded coefficients", where=where, expected="exact coefficients")
     (own,) = check(tableau, family="rk").orders
     wanted = range(own.order, 0, -1) if order is None else [order]
@@ -62,11 +60,12 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
     data = as_data(tableau) | {"dense": {"order": q, "b": texts}}
     found = from_data(data, tableau.path or tableau.name, tableau.path)
     computed = check(found).dense
-    assert computed is not None and computed.order >= q
+    assert computed is not None
+    assert computed.order >= q
     if computed.order == q:
         return found
     data["dense"]["order"] = computed.order
-    return replace(from_data(data, tableau.path or tableau.name, tableau.path))
+    return from_data(data, tableau.path or tableau.name, tableau.path)
 
 
 def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:

@@ -19,18 +19,18 @@ from orderconds.input_file import read_bytes
 from orderconds.ring.protocol import Ring
 from orderconds.tableau.claims import Claims, OrderClaim
 from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate, rounded_and_exact
+from orderconds.tableau.extension import Extension
 from orderconds.tableau.file_format import Claim, CutoffClaim, Data, Format, Number, ProofEntry, RootEntry
 from orderconds.tableau.formats import (
     FORMATS,
     CommutatorFreeFile,
     EmbeddedEntry,
-    ExtensionEntry,
     EmbeddedProduct,
+    ExtensionEntry,
     LowStorage,
     StageEntry,
 )
 from orderconds.tableau.grammar import Chain, Constant, Expression, parse
-from orderconds.tableau.extension import Extension
 from orderconds.tableau.method_properties import PROPERTIES
 from orderconds.tableau.methods import LowerOrder
 from orderconds.tableau.products import Method

@@ -9,6 +9,7 @@ from msgspec import Meta, Struct, field
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.extension import Extension
 from orderconds.tableau.file_format import (
     Coefficient,
     Format,
@@ -18,7 +19,6 @@ from orderconds.tableau.file_format import (
     row_places,
     verify_length,
 )
-from orderconds.tableau.extension import Extension
 from orderconds.tableau.methods import (
     CommutatorFree,
     Embedded,
@@ -31,7 +31,6 @@ from orderconds.tableau.methods import (
 )
 from orderconds.tableau.product_formats import CompositionFile, MagnusFile, SplittingFile
 from orderconds.tableau.products import Method
-
 
 MAX_DEGREE = 40
 """The largest degree of the polynomials of a continuous extension."""

@@ -41,9 +41,7 @@ def emitted(name: str, method: str, dense: bool) -> Integrator:
 def exact(name: str, times: tuple[float, ...]) -> list[list[float]]:
     made = compile_method(scene(name), "rkmk(5):dop853", adaptive=True)
     integrator = load(emit_compiled(made, "c", prefix="exact_"))
-    return list(
-        integrator.adaptive(integrator.initial, 0, 1, rtol=1e-14, atol=1e-14, t_eval=times).states
-    )
+    return list(integrator.adaptive(integrator.initial, 0, 1, rtol=1e-14, atol=1e-14, t_eval=times).states)
 
 
 def slope(name: str, method: str, dense: bool, steps: tuple[int, int], where: float) -> float:

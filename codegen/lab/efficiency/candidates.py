@@ -8,10 +8,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from codegen.certify import certified_order
-from codegen.emitter import bare, quoted
 from codegen.errors import MethodError
 from codegen.lower import families_for, lowering
 from codegen.method import Method, parse, with_estimate
+from codegen.module_name import bare, quoted
 from codegen.scene.classical_forms import PRINTED, classical_forms
 from codegen.scene.problem import Problem
 from orderconds.families import Family, family_class

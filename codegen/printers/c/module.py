@@ -184,7 +184,9 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
     names |= {snippet.name for snippet in snippets(interface.format)}
-    return frozenset({"event", "data"} if interface.events else ()) | frozenset({f"{prefix}{name}" for name in names} | {f"{upper}{name}" for name in (*STATUSES, "H")})
+    local = {"event", "data"} if interface.events else set[str]()
+    constants = {f"{upper}{name}" for name in (*STATUSES, "H")}
+    return frozenset({f"{prefix}{name}" for name in names} | constants | local)
 
 
 def prototypes(interface: Interface) -> str:
@@ -231,7 +233,9 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
         f"{real} *event_rows, size_t *event_numbers, size_t *found, "
     )
     tolerances = f"{real} rtol, {real} atol, {real} least, {real} greatest, "
-    chosen = f"{real} *t, {real} end, " + (f"{real} *h, {tolerances}" if interface.controlled else f"{real} h, ")
+    chosen = f"{real} *t, {real} end, " + (
+        f"{real} *h, {tolerances}" if interface.controlled else f"{real} h, "
+    )
     outputs = f"const {real} *times, size_t count, {real} *rows, size_t *written, "
     last = "size_t *accepted, size_t *rejected" if interface.controlled else "size_t *completed"
     return (event if interface.events else "") + (

@@ -209,7 +209,9 @@ class _Module:
         arguments += [*(buffers if interface.events else []), *counted]
         arguments += ["accepted", "rejected"] if controlled else ["accepted"]
         return {
-            "run": ", ".join([*first, *keywords([*options, "limit=100000", "times=()", *events, *given, *optional])]),
+            "run": ", ".join(
+                [*first, *keywords([*options, "limit=100000", "times=()", *events, *given, *optional])]
+            ),
             "floats": ["end", *tolerances, *([] if controlled else ["h"]), *self.parameters],
             "arguments": ", ".join(arguments),
             "controlled": controlled,
