@@ -114,7 +114,7 @@ class CompiledIntegrator(Integrator):
             t[0],
             h[0],
             [flat[i : i + size] for i in range(0, len(flat), size)],
-            [] if buffers is None else buffers.found(),
+            [] if buffers is None else buffers.crossings(),
             counts[0][0],
             counts[1][0] if interface.controlled else 0,
             why,
@@ -175,7 +175,7 @@ class _Buffers:
         buffers = [self.times, self.rows, self.numbers, self.count]
         return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
 
-    def found(self) -> list[tuple[int, float, int, list[float]]]:
+    def crossings(self) -> list[tuple[int, float, int, list[float]]]:
         """Return the events that the call has found."""
         n = self.size
         events = []

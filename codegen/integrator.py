@@ -349,7 +349,8 @@ class Integrator(ABC):
     ) -> Arrival:
         """Integrate, and continue after each call whose buffer of events is full."""
         t, end, h = span
-        restore, rows = begun.form.restore, []
+        restore = begun.form.restore
+        rows: list[Sequence[float]] = []
         crossings: list[Crossing] = []
         accepted = rejected = 0
         values = EventValues(events, self.interface.events, restore)

@@ -69,9 +69,9 @@ class InterpretedIntegrator(Integrator):
             done, why = failure.arrival, failure.reason
         finally:
             self._count(counts, begun.statistics)
-        found = [(k, time, direction, state) for time, k, direction, state in done.events]
+        events = [(k, time, direction, state) for time, k, direction, state in done.events]
         return Reached(
-            *(done.status, done.state, done.t, done.h, done.rows, found),
+            *(done.status, done.state, done.t, done.h, done.rows, events),
             *(done.accepted, done.rejected, why),
         )
 

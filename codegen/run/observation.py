@@ -74,7 +74,7 @@ class Observation:
     times, amount = real("times", 0, optional=True), count("count")
     written = count("written", 1, cell=True)
     now, following, end = real("now"), real("then"), real("end")
-    room, found = count("room"), count("found", 1, cell=True)
+    room, event_count = count("room"), count("event_count", 1, cell=True)
     low, middle, target, high = real("low"), real("middle"), real("target"), real("high", 1)
     stop = real("stop_time", 1, cell=True)
 
@@ -116,7 +116,7 @@ class Observation:
             return ()
         return (
             *(EVENT_FUNCTIONS, self.stops, self.room),
-            *(self.event_times, self.event_rows, self.numbers, self.found),
+            *(self.event_times, self.event_rows, self.numbers, self.event_count),
         )
 
     @property
@@ -138,7 +138,7 @@ class Observation:
             # The arrays are cleared, because compilers cannot prove that all entries are assigned.
             arrays = tuple(Array(x, zero=True) for x in (*self.memory, self.measured))
             measured = (*self.measure(now, state), Assign(self.values, self.measured), *self.signed())
-            events = (Assign(self.found[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))
+            events = (Assign(self.event_count[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))
         return (
             Assign(place, whole(0)),
             Call(ORDERED, (now, end, self.times, self.amount), (ordered,)),
@@ -352,7 +352,7 @@ class Observation:
 
     def recorded(self) -> tuple[Statement, ...]:
         """Return the statements that store the event at ``high`` for each function with a change of sign."""
-        i, rising, place = count("i"), count("rising"), self.found[0]
+        i, rising, place = count("i"), count("rising"), self.event_count[0]
         ends = select(rising > 0, self.stops[i] % 2, self.stops[i] // 2)
         stored = (
             Assign(rising, select(self.signs[i] < 0.0, whole(1), whole(0))),
@@ -406,9 +406,9 @@ class Observation:
         outcome, due, stop = Term("name", (), Kind.STATUS, "outcome"), flag("due"), self.stop[0]
         time = self.times[place]
         passed = (state, self.after, self.now, self.following, *plan.parameters, *plan.sampled())
-        found = (Assign(stop, self.following),)
+        search: tuple[Statement, ...] = (Assign(stop, self.following),)
         if self.events:
-            found = (Call(EVENTS, (*passed, *self.buffers, *self.memory, self.stop), (STATUS,)),)
+            search = (Call(EVENTS, (*passed, *self.buffers, *self.memory, self.stop), (STATUS,)),)
         beyond = select(self.following > self.now, time > stop, time < stop)
         inside = select(self.following > self.now, time < stop, time > stop)
         good = STATUS.equals(code(OK))
@@ -437,7 +437,7 @@ class Observation:
             Array(self.inner),
             *self.begin_extension(),
             Assign(STATUS, code(OK)),
-            *found,
+            *search,
             If(self.sound, outputs),
             Return(STATUS),
         )

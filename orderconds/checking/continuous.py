@@ -27,7 +27,7 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
     extension, method, ring = tableau.extension, tableau.method, tableau.ring
     if extension is None or not isinstance(method, RungeKutta):
         return None
-    certificate, failing = "exact", ()
+    certificate, failing = "exact", tuple[Failure, ...]()
     order, limit = 0, extension.order + 1
     while order < limit:
         verdicts, failing = _judged(method, extension, ring, order + 1)

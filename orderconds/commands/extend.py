@@ -33,14 +33,14 @@ def command(tableau: str, order: int | None, output: str | None, as_json: bool) 
     from orderconds.solve.extension import extended
     from orderconds.tableau import Tableau, dumps
 
-    found = extended(Tableau.load(tableau), order)
-    text = dumps(found)
+    extension = extended(Tableau.load(tableau), order)
+    text = dumps(extension)
     if output is not None:
         put(output, text.encode())
     if as_json:
-        dense = check(found).dense
+        dense = check(extension).dense
         assert dense is not None
-        screen.print_json({"name": found.name, "dense": dense.as_json(), "file": output, "tableau": text})
+        screen.print_json({"name": extension.name, "dense": dense.as_json(), "file": output, "tableau": text})
     elif output is None:
         click.echo(text, nl=False)
     return 0

@@ -58,12 +58,12 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
         )
     texts = [_trimmed([ring.text(x) for x in row]) for row in zip(*rows, strict=True)]
     data = as_data(tableau) | {"dense": {"order": q, "b": texts}}
-    found = from_data(data, tableau.path or tableau.name, tableau.path)
-    computed = check(found).dense
+    result = from_data(data, tableau.path or tableau.name, tableau.path)
+    computed = check(result).dense
     assert computed is not None
     assert computed.order >= q
     if computed.order == q:
-        return found
+        return result
     data["dense"]["order"] = computed.order
     return from_data(data, tableau.path or tableau.name, tableau.path)
 

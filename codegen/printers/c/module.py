@@ -230,7 +230,7 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
     event = f"typedef void (*{prefix}event)({real} t, const {real} *state, {real} *values, void *data);\n"
     buffers = (
         f"{prefix}event event, void *data, const size_t *stops, size_t room, {real} *event_times, "
-        f"{real} *event_rows, size_t *event_numbers, size_t *found, "
+        f"{real} *event_rows, size_t *event_numbers, size_t *event_count, "
     )
     tolerances = f"{real} rtol, {real} atol, {real} least, {real} greatest, "
     chosen = f"{real} *t, {real} end, " + (

@@ -14,7 +14,7 @@ from codegen.printers.needs import functions_of
 from codegen.printers.python.functions import FunctionPrinter, class_of
 from codegen.printers.python.terms import Constants
 from codegen.printers.python.text import quoted
-from codegen.printers.python.words import PUBLIC, RESERVED
+from codegen.printers.python.words import INTEGRATION, PUBLIC, RESERVED
 from codegen.printers.recipe import Recipe, header
 from codegen.printers.state_fields import layout, times
 from codegen.run.identifiers import Identifiers, identify
@@ -59,7 +59,8 @@ class _Module:
         """The identifiers in each function."""
         underscored = {f"_{f.name}" for f in self.unit.functions}
         classes = {class_of(record) for record in self.unit.records}
-        return identify(self.unit, RESERVED | PUBLIC | underscored | classes)
+        own = INTEGRATION if self.interface.integrated else frozenset[str]()
+        return identify(self.unit, RESERVED | PUBLIC | own | underscored | classes)
 
     @cached_property
     def constants(self) -> Constants:
@@ -203,7 +204,7 @@ class _Module:
         options = ["rtol=1e-6", "atol=1e-9", "least=0.0", 'greatest=float("inf")'] if controlled else []
         events = ["event=None", "stops=()"] if interface.events else []
         first = ["state", "t", "end", *inputs, "h=0.0" if controlled else "h"]
-        buffers = ["event", "stops", "room", "event_times", "event_rows", "event_numbers", "found"]
+        buffers = ["event", "stops", "room", "event_times", "event_rows", "event_numbers", "event_count"]
         arguments = ["state", "now", "end", "size" if controlled else "h", *tolerances, "limit"]
         arguments += [*self.parameters, *inputs, "times", "len(times)", "rows", "written"]
         arguments += [*(buffers if interface.events else []), *counted]

@@ -11,8 +11,7 @@ _WORDS = """
     cos exp log sinh cosh inf nan isfinite copysign quotient choose signed_stumpff0 signed_stumpff1
     signed_stumpff2 signed_stumpff3 invert fabs slope2 slope3 curvature2 curvature3 signed_slope1
     signed_slope2 signed_slope3 float32 errstate self OK NOT_CONVERGED NOT_FINITE BAD_STEP LIMIT TOO_FAR
-    SINGULAR TOO_SHORT EVENT BAD_TIMES LEAST_STEP BAD_EVENT StepFailed Statistics Arrival step run
-    run_adaptive jacobian integrate
+    SINGULAR TOO_SHORT StepFailed Statistics step run run_adaptive jacobian
 """
 
 # Builtins that a module calls are included: a parameter ``max`` would hide the function.
@@ -21,9 +20,16 @@ RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split()) | frozenset(LIB
 
 _PUBLIC = """
     state steps stride statistics counted rows completed status rtol atol limit end now size accepted rejected
-    matrix inputs failure given times written event stops room event_times event_rows event_numbers found
-    events arrival least greatest
+    matrix inputs failure given
 """
 
 PUBLIC = frozenset(_PUBLIC.split())
 """Local names of the public functions, which no parameter may have."""
+
+_INTEGRATION = """
+    EVENT BAD_TIMES LEAST_STEP BAD_EVENT Arrival integrate times written event stops room event_times
+    event_rows event_numbers event_count events arrival least greatest
+"""
+
+INTEGRATION = frozenset(_INTEGRATION.split())
+"""Names of a run to a given end time, and its local names; reserved in modules with this run only."""
