@@ -1,13 +1,21 @@
-"""The results of runs with step control, and of runs to a given end time."""
+"""The results of runs: statuses, errors, arrivals, statistics, and the checked arguments of a call."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 from codegen.event import Crossing
-from codegen.state_form import Batch, State
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
+from codegen.state_form import Batch, State, StateForm
+
+Signals = Callable[[float], Sequence[float]]
+"""A function from the time to the run-time inputs."""
+
+
+SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
+"""The solvers of implicit blocks, the most robust first."""
 
 
 class Status(IntEnum):
@@ -25,6 +33,21 @@ class Status(IntEnum):
     BAD_TIMES = 9
     LEAST_STEP = 10
     BAD_EVENT = 11
+
+
+class StepFailed(ArithmeticError):
+    """The error of a failed step: its status, the number of steps completed before it, and the state after
+    these steps.
+
+    After a run that chooses its steps, and after ``integrate``, ``arrival`` contains the last good state, its
+    time, and the size of the next step. The run can be continued from there.
+    """
+
+    arrival: Arrival | None = None
+
+    def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
+        super().__init__(f"step {step + 1}: {reason}")
+        self.status, self.step, self.state, self.reason = status, step, state, reason
 
 
 @dataclass(frozen=True)
@@ -59,6 +82,45 @@ class Reached:
     accepted: int
     rejected: int
     reason: str
+
+
+@dataclass
+class Statistics:
+    """Counts of a run: ``sweeps`` of each block in all steps, and ``most``, the largest number of sweeps of a
+    block in one step. ``failed`` is the index of the block that failed, counted from 1, or 0 if no block
+    failed.
+
+    ``matrices`` is the number of Newton matrices that were computed.
+    """
+
+    sweeps: list[int] = field(default_factory=list)
+    most: int = 0
+    failed: int = 0
+    matrices: int = 0
+
+
+@dataclass(frozen=True)
+class Begun:
+    """The checked arguments of a call: the form of the state, the numbers of the state, the parameter values,
+    the inputs and the statistics."""
+
+    form: StateForm
+    numbers: list[float]
+    values: list[float]
+    inputs: Signals | None = None
+    statistics: Statistics | None = None
+    solvers: tuple[str, ...] = ()
+
+    def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
+        """Return the error of a failed step; its state has the type of the caller's state.
+
+        If an implicit block did not converge, the message names the other solvers.
+        """
+        if status == Status.NOT_CONVERGED:
+            others = [s for s in SOLVERS if s not in self.solvers]
+            options = f", or emit with the solver {' or '.join(others)}" if others else ""
+            reason += f"; take shorter steps{options}"
+        return StepFailed(Status(status), step, self.form.restore(state), reason)
 
 
 def joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:

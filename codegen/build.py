@@ -13,11 +13,12 @@ import hashlib
 import os
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -112,7 +113,7 @@ def build(
         except OSError as error:
             if error.errno not in UNWRITABLE or not lasting:
                 raise InputError(
-                    f"cannot write there: {reason(error)}",
+                    f"cannot write to this path: {reason(error)}",
                     where=str(directory),
                     hint="free some space, or set XDG_CACHE_HOME to another folder",
                 ) from None
@@ -142,15 +143,7 @@ def compile_files(
     # compiler is killed.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
-        answer = subprocess.run(
-            command,
-            cwd=directory,
-            env=environment,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            check=False,
-        )
+        answer = _finished(command, directory, environment)
     except FileNotFoundError:
         raise CompilerMissing(
             f"the compiler {compiler.command[0]} no longer exists", where="$CC", hint="set CC to a C compiler"
@@ -163,3 +156,27 @@ def compile_files(
             where=", ".join(sources),
             hint=f"the compiler is {compiler.version or compiler.command[0]}; set CC to use another one",
         )
+
+
+def _finished(
+    command: Sequence[str], directory: Path, environment: Mapping[str, str]
+) -> subprocess.CompletedProcess[str]:
+    """Run a compiler and return its output. If the call is interrupted, all processes of the compiler end."""
+    # A compiler starts other programs, such as an assembler. They would continue if only the compiler were
+    # killed, so all of them belong to one process group.
+    with subprocess.Popen(
+        command,
+        cwd=directory,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        errors="replace",
+        process_group=0,
+    ) as process:
+        try:
+            output, messages = process.communicate()
+        except BaseException:
+            os.killpg(process.pid, signal.SIGKILL)
+            raise
+    return subprocess.CompletedProcess(command, process.returncode, output, messages)

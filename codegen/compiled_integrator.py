@@ -8,9 +8,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from codegen.arrival import Arrival, Reached, Status
+from codegen.arrival import Arrival, Begun, Reached, Signals, Status
 from codegen.event import EventValues
-from codegen.integrator import Begun, Integrator, Signals
+from codegen.integrator import Integrator
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
 from codegen.run.status import reason
@@ -119,6 +119,33 @@ class CompiledIntegrator(Integrator):
             counts[1][0] if interface.controlled else 0,
             why,
         )
+
+    def _call_batch(self, table: Any, moment: tuple[float, float, int], values: Any, held: Any) -> Any:
+        if not self.interface.batch:
+            return super()._call_batch(table, moment, values, held)
+        import numpy as np
+
+        (t, h, steps), number, real = moment, table.shape[1], self.interface.format.c_type
+        statuses, completed = np.zeros(number, np.int32), np.zeros(number, np.uintp)
+
+        def pointer(array: Any, kind: str) -> Any:
+            return self._ffi.cast(f"{kind} *", self._ffi.from_buffer(array))
+
+        time = [t] if self.interface.time else []
+        data = [pointer(x, real) for x in (values, held) if len(x)]
+        run = getattr(self._library, f"{self.interface.prefix}run_batch")
+        run(
+            number,
+            number,
+            pointer(table, real),
+            *time,
+            h,
+            steps,
+            *data,
+            pointer(statuses, "int"),
+            pointer(completed, "size_t"),
+        )
+        return statuses, completed
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:

@@ -11,18 +11,18 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from codegen import scenes
-from codegen.argument import count
 from codegen.artifact import Artifact, digest
 from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
-from codegen.continuous_extension import extension_of
+from codegen.command_names import bare, quoted
 from codegen.error_estimate import order_of_estimate
 from codegen.errors import MethodError
 from codegen.ir.domain import FloatDomain
-from codegen.ir.kernel import Kernel, Loop, Observed
+from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
 from codegen.ir.smoothness import features
+from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.compensation import compensated as add_carries
 from codegen.kernel.operations import STEP, step_operations
@@ -31,14 +31,15 @@ from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
 from codegen.lower import lower, lower_composed, lowering, method_for, problem_for
 from codegen.method import Method
-from codegen.module_name import bare, default_prefix, prefix_of, quoted
 from codegen.passes import Optimiser, PassReport, optimise, summaries
+from codegen.prefix import default_prefix, prefix_of
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.run.trial import PARTS
+from codegen.run_options import observed_run, refuse_with_carries
 from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
 from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem
@@ -54,7 +55,6 @@ NOT_SMOOTH = "the order holds for steps in which the solution crosses none of th
 """A remark in the header of emitted code, for a scene whose field is not smooth."""
 
 COMPENSATED = "compensated: the second half of the state is the rounding errors, which are zero initially"
-
 COUNTED = "; the numbers of sweeps above are for double precision"
 """A remark in the header if the solvers were compared in double precision."""
 
@@ -62,9 +62,6 @@ SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
 """The cost of operations in units of an addition; two forms of a step are compared by these costs. Additions
 and products cost 1, and functions that are not listed cost 12."""
-
-MOST_EVENTS = 64
-"""The largest number of event functions."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +99,7 @@ class Compiled(Optimised):
 def optimise_method(scene: Problem, method: Method) -> Optimised:
     """Return the optimised step program of a method on a scene. The group need not have closed forms of
     its operations, because no kernel is built."""
+    scene.require_formulas()
     problem, lowered = problem_for(scene, method), lower(scene, method)
     program, trace = optimise(lowered, problem, composed=lower_composed(scene, method))
     return Optimised(scene, method, problem, lowered, program, trace)
@@ -151,6 +149,8 @@ def compile_method(
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
+    if scene.matrices is not None and not lowering(method.family).in_coordinates:
+        return _with_arrays(scene, method, jacobian, integrate or events or dense or compensate)
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates, degree = [], lowering(method.family).degree(method)
@@ -164,15 +164,13 @@ def compile_method(
         kernel, choices = solved(best.program, problem, start_of(scene), solver, best.kernel)
         best = replace(best, kernel=kernel, solvers=choices, asked=solver)
     if compensate:
-        _refuse_with_carries(method, {"jacobian": jacobian, "adaptive": method.adaptive, "dense": dense})
+        refuse_with_carries(method, {"jacobian": jacobian, "adaptive": method.adaptive, "dense": dense})
         best = compensated(best)
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
     if integrate or events or dense:
-        observed = _observed(method, degree, events)
-        if dense:
-            observed = replace(observed, extension=extension_of(method, scene))
+        observed = observed_run(method, scene, degree, events, dense)
         best = replace(best, kernel=replace(best.kernel, observed=observed))
     if degree and method.adaptive:
         return replace(best, kernel=with_step_control(best.kernel, problem, degree))
@@ -183,34 +181,28 @@ def compile_method(
 
 
 def compensated(compiled: Compiled) -> Compiled:
-    """Return a compiled method with a carry for each coordinate in its state; raise MethodError if the step
-    adds no increment to the old state."""
+    """Return a compiled method with carries; raise MethodError if the step adds no increment to the state."""
     kernel = add_carries(compiled.kernel, compiled.program, compiled.problem)
     return replace(compiled, kernel=kernel, compensated=True)
 
 
-def _refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` for options that compensated summation does not support."""
-    for option, requested in options.items():
-        if requested:
-            raise MethodError(
-                f"compensated summation with --{option} for {method.label}",
-                expected="steps of constant size, without a Jacobian and without a continuous extension",
-                hint=f"leave out --{option} or --compensate",
-            )
+def with_batch(compiled: Compiled) -> Compiled:
+    """Return a compiled method whose module also has a function that steps many independent systems."""
+    return replace(compiled, kernel=replace(compiled.kernel, batch=True))
 
 
-def _observed(method: Method, degree: int, events: int) -> Observed:
-    """Return the request for a run to a given end time."""
-    if count(events, "events") > MOST_EVENTS:
-        raise InputError(f"{events} event functions", where="events", expected=f"at most {MOST_EVENTS}")
-    if degree and method.adaptive:
+def _with_arrays(scene: Problem, method: Method, jacobian: bool, run: bool | int) -> Compiled:
+    """Return a method on a scene whose field is given by formulas of matrices."""
+    refused = "step control" if method.adaptive else "the derivative of a step" if jacobian else ""
+    refused = refused or "a run to an end time, or compensated summation," * bool(run)
+    if refused:
         raise MethodError(
-            f"a run to a given end time for {method.label} with step control",
-            expected="an adaptive method with an embedded row, or steps of constant size",
-            hint="leave out --adaptive or --integrate",
+            f"{refused} for a scene with large matrices",
+            where=scene.name,
+            expected="steps of constant size, without derivatives",
         )
-    return Observed(events)
+    own = array_method(scene, method)
+    return Compiled(scene, method, scene, own.lowered, own.program, own.trace, own.kernel)
 
 
 def work(kernel: Kernel) -> int:
@@ -238,6 +230,7 @@ def emit(
     jacobian: bool = False,
     form: str = PRINTED,
     family: str = "",
+    batch: bool = False,
     integrate: bool = False,
     events: int = 0,
     dense: bool = False,
@@ -252,9 +245,10 @@ def emit(
     become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run
     with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks:
     ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
-    classical form of the scene, by default the equations as printed. ``integrate`` adds a run to a given end
-    time with output at given times and, if adaptive, bounds on step sizes. ``events`` is the number of event
-    functions of this run; ``dense`` uses the continuous extension of the tableau at output times.
+    classical form of the scene, by default the equations as printed. ``batch`` adds a C function that steps
+    many independent systems (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a
+    given end time with output at given times and, if adaptive, bounds on step sizes. ``events`` is the number
+    of event functions of this run; ``dense`` uses the continuous extension of the tableau at output times.
     ``compensate`` extends the state by the carries of compensated summation, which are zero initially.
     Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and InputError for a
     prefix that is not a valid name in C.
@@ -280,6 +274,7 @@ def emit(
             dense=dense,
             compensate=compensate,
         )
+        compiled = with_batch(compiled) if batch else compiled
     named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
     named["method"] = bare(str(method)) if whole else compiled.method.label
@@ -337,6 +332,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options = ["--frame body"] if scene.body_group is not None else []
     options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
     options += ["--adaptive"] if compiled.method.adaptive else []
+    options += ["--batch"] if compiled.kernel.batch else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
     observed = compiled.kernel.observed
     options += ["--integrate"] if observed is not None and not observed.events else []
@@ -419,6 +415,10 @@ def emit_kernel(
     target.
     """
     interface = Interface.of(kernel, prefix, precision)
+    if kernel.batch and target != "c":
+        raise InputError(
+            f"the target {target}", where="--batch", expected="the target c", hint="add --target c"
+        )
     files = known_target(target).print_module(kernel, interface, recipe)
     manifest = {
         **(about or {}),

@@ -7,86 +7,29 @@ array with one state in each row (:mod:`codegen.state_form`). Results have the f
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
+from codegen import lanes
 from codegen.argument import count, described, monotone, numbers, real
 from codegen.arrival import Arrival as Arrival
-from codegen.arrival import Reached, joined
+from codegen.arrival import Begun, joined
+from codegen.arrival import Signals as Signals
+from codegen.arrival import Statistics as Statistics
 from codegen.arrival import Status as Status
+from codegen.arrival import StepFailed as StepFailed
 from codegen.artifact import Artifact
-from codegen.event import Crossing, Event, EventFunction, EventValues, events_of
-from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
+from codegen.lanes import BatchRun
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
-from codegen.state_form import Fields, State, StateForm, batch_of, read
-
-Signals = Callable[[float], Sequence[float]]
-"""A function from the time to the run-time inputs."""
+from codegen.run_to_end import RunToEnd
+from codegen.state_form import Fields, State, batch_of, read
 
 
-SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
-"""The solvers of implicit blocks, the most robust first."""
-
-
-class StepFailed(ArithmeticError):
-    """The error of a failed step: its status, the number of steps completed before it, and the state after
-    these steps.
-
-    After a run that chooses its steps, and after ``integrate``, ``arrival`` contains the last good state, its
-    time, and the size of the next step. The run can be continued from there.
-    """
-
-    arrival: Arrival | None = None
-
-    def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
-        super().__init__(f"step {step + 1}: {reason}")
-        self.status, self.step, self.state, self.reason = status, step, state, reason
-
-
-@dataclass
-class Statistics:
-    """Counts of a run: ``sweeps`` of each block in all steps, and ``most``, the largest number of sweeps of a
-    block in one step. ``failed`` is the index of the block that failed, counted from 1, or 0 if no block
-    failed.
-
-    ``matrices`` is the number of Newton matrices that were computed.
-    """
-
-    sweeps: list[int] = field(default_factory=list)
-    most: int = 0
-    failed: int = 0
-    matrices: int = 0
-
-
-@dataclass(frozen=True)
-class Begun:
-    """The checked arguments of a call: the form of the state, the numbers of the state, the parameter values,
-    the inputs and the statistics."""
-
-    form: StateForm
-    numbers: list[float]
-    values: list[float]
-    inputs: Signals | None = None
-    statistics: Statistics | None = None
-    solvers: tuple[str, ...] = ()
-
-    def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
-        """Return the error of a failed step; its state has the type of the caller's state.
-
-        If an implicit block did not converge, the message names the other solvers.
-        """
-        if status == Status.NOT_CONVERGED:
-            others = [s for s in SOLVERS if s not in self.solvers]
-            options = f", or emit with the solver {' or '.join(others)}" if others else ""
-            reason += f"; take shorter steps{options}"
-        return StepFailed(Status(status), step, self.form.restore(state), reason)
-
-
-class Integrator(ABC):
+class Integrator(RunToEnd):
     """A loaded module: ``interface`` lists its arguments, ``defaults`` the scene's parameter values."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
@@ -294,88 +237,66 @@ class Integrator(ABC):
         restore = begun.form.restore
         return Arrival(restore(rows[-1]), t, h, accepted, rejected, restore(rows[:-1]))
 
-    def integrate(
+    def run_batch(
         self,
-        state: State,
+        states: State,
+        h: float,
+        steps: int,
         t: float = 0.0,
-        end: float | None = None,
-        h: float = 0.0,
+        inputs: object = None,
         *,
-        rtol: float = 1e-6,
-        atol: float = 1e-9,
-        least: float = 0.0,
-        greatest: float = math.inf,
-        limit: int = 100_000,
-        events: Sequence[Event | EventFunction] = (),
-        statistics: Statistics | None = None,
-        inputs: Signals | None = None,
-        t_eval: Sequence[float] | None = None,
-        **parameters: float,
-    ) -> Arrival:
-        """Integrate from t to end, with output at the times ``t_eval``, and find zeros of ``events``.
+        out: object = None,
+        **parameters: object,
+    ) -> BatchRun:
+        """Return the states of many independent systems after ``steps`` steps of size h from time t.
 
-        A module that was emitted as adaptive chooses its steps, of sizes between ``least`` and ``greatest``;
-        ``h`` is the size of the first step. Other modules make steps of size ``h``, of which the last one may
-        be shorter, and ignore the tolerances and bounds. Output times and events do not change the steps,
-        except that a terminal event ends the run. ``end`` is by default the last output time.
+        ``states`` has shape (N, size), one state in each row, or is a tuple of such arrays for the parts of a
+        state. A parameter is a number, or an array of N numbers. ``inputs`` are constant in all steps: an
+        array of shape (number of inputs,) or (N, number of inputs). ``out`` is an array of shape (N, size) in
+        Fortran order, which receives the result; if ``out is states``, no state is copied.
 
-        TypeError is raised for a module without this run (``emit(..., integrate=True)``), ValueError for
-        times that are not in order or not between t and end. StepFailed is raised if a step fails, or if
-        ``limit`` steps do not reach the end; its ``arrival`` has all results before the failure.
+        A failed system raises no error: the result contains its status (:class:`Status`), its number of
+        completed steps, and its last good state. Other systems are not affected. Emit the module with
+        ``batch=True`` to step the systems by vector instructions. Other modules step one system after
+        another, with the same arguments and results.
         """
-        if not self.interface.integrated:
-            raise TypeError("this module has no run to an end time; emit it with integrate=True")
-        t, h, limit = real(t, "t"), real(h, "h"), count(limit, "limit")
-        times = monotone(t, () if t_eval is None else t_eval)
-        end = real(end if end is not None or not times else times[-1], "end")
-        if times and (end - times[-1]) * (times[-1] - t) < 0:
-            raise ValueError(f"expected an end that is not before the last time in t_eval, found {end}")
-        bounds = tuple(
-            real(x, n) for x, n in ((rtol, "rtol"), (atol, "atol"), (least, "least"), (greatest, "greatest"))
-        )
-        begun = self._begin(state, parameters, inputs, statistics)
-        functions = events_of(events, self.interface.events)
-        arrival = self._continued(begun, functions, (t, end, h), bounds, limit, times)
-        return arrival if t_eval is not None else replace(arrival, states=None)
+        size, real_type, names = self.interface.size, self.interface.format.c_type, self.interface.inputs
+        t, h, steps = real(t, "t"), real(h, "h"), count(steps, "steps")
+        if bool(names) != (inputs is not None):
+            raise TypeError(f"expected {'values for ' + ', '.join(names) if names else 'no inputs'}")
+        if out is not None:
+            table = lanes.in_place(out, size, real_type)
+            if out is not states:
+                given = lanes.columns(states, size, real_type, self.fields)
+                if given.shape != table.shape:
+                    raise ValueError(f"expected {given.shape[1]} states in out, found {table.shape[1]}")
+                table[...] = given
+        else:
+            table = lanes.columns(states, size, real_type, self.fields)
+        number = table.shape[1]
+        pairs = lanes.chosen(self.interface.parameters, self.defaults, parameters)
+        values = lanes.rows_of(pairs, number, real_type)
+        held = lanes.rows_of(_held(names, inputs, number), number, real_type)
+        statuses, completed = self._call_batch(table, (t, h, steps), values, held)
+        return BatchRun(table.T, statuses, completed)
 
-    def _continued(
-        self,
-        begun: Begun,
-        events: Sequence[Event],
-        span: tuple[float, float, float],
-        bounds: tuple[float, ...],
-        limit: int,
-        times: Sequence[float],
-    ) -> Arrival:
-        """Integrate, and continue after each call whose buffer of events is full."""
-        t, end, h = span
-        restore = begun.form.restore
-        rows: list[Sequence[float]] = []
-        crossings: list[Crossing] = []
-        accepted = rejected = 0
-        values = EventValues(events, self.interface.events, restore)
-        while True:
-            run = self._integrate(
-                begun, values, (t, end, h), bounds, limit - accepted - rejected, times[len(rows) :]
-            )
-            accepted, rejected = accepted + run.accepted, rejected + run.rejected
-            rows += run.rows
-            for k, time, direction, state in run.events:
-                if events[k].direction in (0, direction):
-                    crossings.append(Crossing(k, time, direction, restore(state)))
-            state = restore(run.state)
-            states = restore(rows)
-            arrival = Arrival(state, run.t, run.h, accepted, rejected, states, tuple(crossings))
-            if values.failure is not None:
-                raise values.failure
-            if run.status not in (Status.OK, Status.EVENT):
-                failed = begun.failed(run.status, accepted, run.state, run.reason)
-                failed.arrival = arrival
-                raise failed
-            stopped = any(x.t == run.t and events[x.event].terminal for x in crossings)
-            if run.status == Status.OK or stopped:
-                return replace(arrival, status=Status(run.status))
-            begun, t, h = replace(begun, numbers=list(run.state)), run.t, run.h
+    def _call_batch(self, table: Any, moment: tuple[float, float, int], values: Any, held: Any) -> Any:
+        """Step all systems in place, and return their statuses and numbers of completed steps."""
+        import numpy as np
+
+        (t, h, steps), number = moment, table.shape[1]
+        statuses, completed = np.zeros(number, np.int32), np.full(number, steps, np.uintp)
+        form, _ = read([0.0] * self.interface.size, self.interface.size)
+        for i in range(number):
+            inputs = held[:, i].tolist()
+            signal = (lambda t, inputs=inputs: inputs) if self.interface.inputs else None
+            begun = Begun(form, table[:, i].tolist(), values[:, i].tolist(), signal)
+            try:
+                table[:, i], _ = self._call(begun, t, h, steps, 0)
+            except StepFailed as failure:
+                statuses[i], completed[i] = failure.status, failure.step
+                table[:, i] = failure.state
+        return statuses, completed
 
     def jacobian(
         self,
@@ -462,17 +383,19 @@ class Integrator(ABC):
     ) -> Arrival:
         """Run with step control; ``span`` is (t, end, h)."""
 
-    @abstractmethod
-    def _integrate(
-        self,
-        begun: Begun,
-        values: EventValues,
-        span: tuple[float, float, float],
-        bounds: tuple[float, ...],
-        limit: int,
-        times: Sequence[float],
-    ) -> Reached:
-        """Run to the end; ``span`` is (t, end, h), ``bounds`` is (rtol, atol, least, greatest)."""
+
+def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
+    """Return the name and the values of each run-time input of a batch."""
+    import numpy as np
+
+    if not names:
+        return []
+    table = np.asarray(inputs)
+    if table.shape not in ((len(names),), (number, len(names))):
+        raise ValueError(
+            f"expected inputs of shape ({len(names)},) or ({number}, {len(names)}), found {table.shape}"
+        )
+    return [(name, table[..., k]) for k, name in enumerate(names)]
 
 
 def _loaded(

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from codegen.arrival import Arrival, Reached
+from codegen.arrival import Arrival, Begun, Reached
 from codegen.event import EventValues
-from codegen.integrator import Begun, Integrator
+from codegen.integrator import Integrator
 from codegen.printers.interface import Interface
 
 

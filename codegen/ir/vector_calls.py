@@ -2,7 +2,9 @@
 
 The name determines the function: ``expm3`` is the exponential of a 3 x 3 matrix, ``expm3_d1`` the exponential
 with its derivative, ``inverse5`` the inverse of a 5 x 5 matrix, ``product5`` the product of two 5 x 5
-matrices and ``commutator5`` their commutator.
+matrices and ``commutator5`` their commutator. ``expmv5`` is the action of the exponential of a 5 x 5 matrix
+on a vector. In ``expmv5_1f`` the bits of the hexadecimal number are set at the entries of the matrix that are
+arguments.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING
 
+from codegen.ir.exponential_action import ExponentialAction
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import MatrixCommutator, MatrixProduct
 from codegen.ir.vector_function import VectorFunction
@@ -24,6 +27,7 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
     "product": MatrixProduct,
     "commutator": MatrixCommutator,
 }
+_ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
 _NAME = re.compile(r"(expm|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 
@@ -34,6 +38,9 @@ def vector_function(name: str) -> VectorFunction | None:
     >>> vector_function("expm3_d1"), vector_function("sin")
     (MatrixExponential(n=3, level=1), None)
     """
+    action = _ACTION.fullmatch(name)
+    if action is not None:
+        return ExponentialAction(int(action[1]), int(action[2] or "0", 16))
     match = _NAME.fullmatch(name)
     if match is None:
         return None

@@ -12,6 +12,7 @@ from pathlib import Path
 from codegen import scenes
 from codegen.artifact import write_text, writing
 from codegen.build import find_compiler
+from codegen.command_names import bare, quoted
 from codegen.lab.default_methods import REPORT_SCENES
 from codegen.lab.measurement_cache import FOLDER, MeasurementCache
 from codegen.lab.page.documents import OVERVIEW, page_name, render, render_overview
@@ -19,7 +20,6 @@ from codegen.lab.progress import Progress
 from codegen.lab.registry import selected
 from codegen.lab.scene_results import SceneResults, measure_scene
 from codegen.lab.subject import EFFORTS, Subject, subject
-from codegen.module_name import bare, quoted
 from orderconds.errors import InputError
 from orderconds.input_file import reason
 
@@ -95,7 +95,7 @@ def write_file(path: Path, text: str | None) -> Path:
             write_text(path, text)
     except OSError as error:
         raise InputError(
-            f"cannot write there: {reason(error)}",
+            f"cannot write to this path: {reason(error)}",
             where=str(path.parent),
             expected="a folder that can be written to",
         ) from None

@@ -10,6 +10,7 @@ from typing import Generic, TypeVar
 
 from codegen.artifact import Artifact
 from codegen.certify import certified_order
+from codegen.command_names import bare, quoted
 from codegen.emitter import Compiled, compile_method, emit_compiled
 from codegen.errors import SceneError
 from codegen.lab.default_methods import report_methods
@@ -20,7 +21,6 @@ from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.lower import method_for
 from codegen.method import Method
-from codegen.module_name import bare, quoted
 from codegen.printers import DEFAULT
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError

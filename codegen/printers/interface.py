@@ -28,9 +28,10 @@ class Interface:
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
     of all numbers (:mod:`codegen.ir.precision`); ``inputs`` are the run-time functions of time, in order;
     ``adaptive`` is true if there is a run with step control; ``solvers`` are the methods that solve the
-    blocks. ``variations`` is the size of the Jacobian, 0 without one. ``integrated`` is true if there is a
-    run to a given end time, ``controlled`` if step control chooses the steps of this run. ``events`` is the
-    number of its event functions. ``dense`` is the order of its continuous extension, 0 without one.
+    blocks. ``variations`` is the size of the Jacobian, 0 without one. ``batch`` is true if there is a
+    function for many independent systems. ``integrated`` is true if there is a run to a given end time,
+    ``controlled`` if step control chooses the steps of this run. ``events`` is the number of its event
+    functions. ``dense`` is the order of its continuous extension, 0 without one.
     """
 
     prefix: str
@@ -43,6 +44,7 @@ class Interface:
     adaptive: bool = False
     variations: int = 0
     solvers: tuple[str, ...] = ()
+    batch: bool = False
     integrated: bool = False
     controlled: bool = False
     events: int = 0
@@ -67,6 +69,7 @@ class Interface:
             adaptive=kernel.adaptive,
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
+            batch=kernel.batch,
             integrated=kernel.observed is not None,
             controlled=kernel.observed is not None and kernel.estimate is not None,
             events=0 if kernel.observed is None else kernel.observed.events,

@@ -194,6 +194,8 @@ def _newton(
     places = [x.placed() for x in trace]
     _, slopes = problem.tape.jacobians(point[None])
     rows = determined(slopes[0][:, list(solved)].T) if solved else []
+    if len(rows) < len(solved):
+        raise NotProved("Newton's method failed: its Jacobian is singular")
     with precision(BITS):
         values = {j: arb(float(point[j])) for j in solved}
         previous: float | None = None
@@ -278,7 +280,8 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # Two equal decimals in a file would count as one unknown.
+            # Each decimal in the file is one unknown, and equal decimals are the same unknown. Decimals that
+            # agree up to the sign therefore get more digits, until they differ.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1

@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -104,7 +105,7 @@ def test_a_full_disk_is_bad_input_and_leaves_nothing(monkeypatch, tmp_path):
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr("orderconds.output_file.os.fsync", full)
-    with pytest.raises(InputError, match=r"cannot write there: no space left on device; free some space"):
+    with pytest.raises(InputError, match="cannot write to this path: no space left on device; free some"):
         build(SOURCE)
     assert list(cache_directory().iterdir()) == []
     monkeypatch.undo()
@@ -253,3 +254,34 @@ def test_a_compiler_that_says_it_succeeded_and_wrote_nothing_is_told(monkeypatch
     with pytest.raises(CompileError, match=r"answer\.c: true wrote no output"):
         build(SOURCE)
     assert list(cache_directory().iterdir()) == []
+
+
+def test_an_interrupted_build_ends_every_process_of_the_compiler(monkeypatch, tmp_path):
+    compiler = tmp_path / "cc"
+    compiler.write_text(
+        '#!/bin/sh\ncase "$1" in --version) echo cc 1;; *) sleep 300 & echo $! > "$MARK"; wait;; esac\n'
+    )
+    compiler.chmod(0o755)
+    mark = tmp_path / "mark"
+    monkeypatch.setenv("CC", str(compiler))
+    monkeypatch.setenv("MARK", str(mark))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    program = f"from codegen.build import build\nbuild({SOURCE!r})\n"
+    with subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.DEVNULL) as process:
+        while not mark.exists() or not mark.read_text().strip():
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        process.wait()
+    child = int(mark.read_text())
+    deadline = time.monotonic() + 10
+    while _is_running(child) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not _is_running(child)
+
+
+def _is_running(process: int) -> bool:
+    """Return True if a process exists and is not a zombie."""
+    shown = subprocess.run(
+        ["ps", "-o", "stat=", "-p", str(process)], capture_output=True, text=True, check=False
+    )
+    return bool(shown.stdout.strip()) and not shown.stdout.strip().startswith("Z")

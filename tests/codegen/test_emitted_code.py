@@ -21,7 +21,7 @@ from codegen.emitter import emit
 from codegen.groups import SO3, Rotation
 from codegen.integrator import Statistics, Status, StepFailed
 from codegen.loader import load
-from codegen.module_name import prefix_of
+from codegen.prefix import prefix_of
 from codegen.printers.c.module import FLAGS
 from codegen.scene import FieldScene, param
 from orderconds.errors import InputError

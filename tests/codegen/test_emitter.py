@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from codegen.command_names import bare
 
 from codegen.emitter import emit, emit_compiled
 from codegen.errors import MethodError, SceneError
@@ -15,7 +16,7 @@ from codegen.ir.interpret import interpret
 from codegen.loader import load
 from codegen.lower import families_for, lowering, problem_for
 from codegen.lower.flow_words import FlowLowering
-from codegen.module_name import bare, default_prefix, prefix_of
+from codegen.prefix import default_prefix, prefix_of
 from codegen.regenerate import entries
 from codegen.scenes import load as load_scene
 from orderconds.errors import InputError, UnknownName, ZeroWeight

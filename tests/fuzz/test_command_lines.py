@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import csv
+import io
 import json
 import os
 import shutil
@@ -76,6 +78,9 @@ def is_whole(content: bytes, words: list[str]) -> bool:
         return True  # conditions as text, LaTeX or SymPy source: the last line is complete
     if content.endswith((b"</svg>\n", b"</html>\n")):
         return True
+    if content.startswith(b"scene,method,"):  # the rows of a report
+        rows = list(csv.reader(io.StringIO(content.decode())))
+        return content.endswith(b"\n") and {len(row) for row in rows} == {len(rows[0])}
     for read_back in (tomllib.loads, json.loads, ast.parse):
         with suppress(ValueError, SyntaxError):
             return bool(read_back(content.decode()))

@@ -121,7 +121,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     ),
     "recommend backwards": (
         lambda: codegen.recommend(RIGID, 1e-3, span=(1, 0)),
-        "span: 1, 0; expected an end that is later than the beginning",
+        "span: 1, 0; expected an end later than the beginning of the span",
     ),
     "recommend one tableau": (
         lambda: codegen.recommend(RIGID, 1e-3, tableaux="rk4"),

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from codegen.certify import certified_order
+from codegen.command_names import bare, quoted
 from codegen.errors import MethodError
 from codegen.lower import families_for, lowering
 from codegen.method import Method, parse, with_estimate
-from codegen.module_name import bare, quoted
 from codegen.scene.classical_forms import PRINTED, classical_forms
 from codegen.scene.problem import Problem
 from orderconds.families import Family, family_class
@@ -134,7 +134,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
         # On some scenes a family has fewer order conditions, so a method has a higher order.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
-        except MethodError:  # No recipe, because the family cannot use the tableau on this scene.
+        except MethodError:
+            # The family cannot use the tableau on this scene, so the tableau has no recipe in this family.
             return
         order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
         if order >= least:

@@ -1,11 +1,9 @@
-"""The name of an emitted module, and names of scenes and methods in the command that regenerates it."""
+"""Prefixes of emitted modules: the start of every external name, and the names of the files."""
 
 from __future__ import annotations
 
 import keyword
 import re
-import shlex
-from pathlib import PurePath
 
 from codegen.method import Method
 from codegen.scene.problem import Problem
@@ -14,26 +12,6 @@ from orderconds.errors import InputError
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
 """Names of the headers and modules that emitted files or their examples include. No emitted file may have
 such a name."""
-
-
-def bare(name: str) -> str:
-    """Return a name without folders, because emitted text must not contain a path of the machine.
-
-    >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
-    ('vcg:mine.toml', 'top.py')
-    """
-    name, bracket, values = name.partition("[")
-    family, colon, rest = name.rpartition(":") if re.match(r"[a-z_]+(\(\d+\))?:", name) else ("", "", name)
-    return f"{family}{colon}{PurePath(rest).name}{bracket}{values}"
-
-
-def quoted(word: str) -> str:
-    """Quote a word if a shell would otherwise interpret characters in it.
-
-    >>> quoted("rkmk(2):rk4"), quoted("linear_oscillator+u")
-    ("'rkmk(2):rk4'", 'linear_oscillator+u')
-    """
-    return shlex.quote(word)
 
 
 def default_prefix(scene: Problem, method: Method) -> str:
