@@ -124,7 +124,7 @@ class Sampler:
         return self.group.mul(self.domain, exp(self.domain, self.vector()), exp(self.domain, self.vector()))
 
     def equal(self, a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:
-        """Whether two tuples agree: exactly, or to rounding relative to the larger."""
+        """Return True if two tuples agree: exactly, or to rounding relative to the larger."""
         pairs = list(zip(a, b, strict=True))
         if isinstance(self.domain, SeriesDomain):
             return all(self.domain.ring.is_zero(x - y) is True for x, y in pairs)
@@ -338,7 +338,8 @@ def starting(scene: Any, domain: Any) -> dict[str, Any]:
 
 
 def same(scene: Any, before: Any, after: Any, ring: Any = QQ, order: int = 4) -> bool:
-    """Whether two programs are equal steps: exactly over power series, and in doubles to rounding."""
+    """Return True if two programs compute equal steps: exact in power series, and up to rounding in
+    doubles."""
     exact = SeriesDomain(ring, order)
     results = [interpret(p, scene, exact, starting(scene, exact)) for p in (before, after)]
     assert sorted(results[0]) == sorted(results[1])

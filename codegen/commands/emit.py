@@ -43,7 +43,8 @@ if TYPE_CHECKING:
 @click.option(
     "--form",
     default="printed",
-    help="Form of the equations: printed (the default), body-matrix, quaternion; see the header of the file.",
+    help="Form of the equations: printed (as the scene states them; the default), body-matrix or quaternion. "
+    "The header of the emitted file describes the form.",
 )
 @click.option(
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
@@ -67,7 +68,7 @@ if TYPE_CHECKING:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Print the program after each compiler pass, and the operations that the step does not need.",
+    help="Print the program after each compiler pass, and the operations that the pass has removed.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(
@@ -90,7 +91,9 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
-    A warning is printed if no solver of an implicit method converges in the first steps of the example.
+    A warning is printed if no solver of an implicit method converges in the first steps from the initial
+    state of the scene.
+
     Without -o no file is written; --explain or --json is then required and prints a description of the
     module.
 
@@ -176,15 +179,16 @@ def family_note(compiled: Compiled, method: str) -> str:
 
 
 def _warn(compiled: Compiled, scene: str, method: str) -> None:
-    """Print a warning for each implicit block that no solver solves in the first steps of the example."""
+    """Print a warning for each system of equations that no solver solves in the first steps from the initial
+    state of the scene."""
     for choice in compiled.solvers:
         if not choice.converges:
             click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
 
 
 def explanation(compiled: Compiled) -> str:
-    """Return a text with the lowered program, the program after each compiler pass, the operation counts and
-    the simplifications.
+    """Return a text with the program before the first compiler pass, the program after each pass, the
+    operation counts and the simplifications.
     """
     from codegen.emitter import left_out
     from codegen.kernel.operations import sentences, step_operations

@@ -25,7 +25,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
 
     @cached_property
     def _contains_cubes(self) -> bool:
-        """Whether the algebra contains x^3 for each of its elements x.
+        """True if the algebra contains x^3 for each of its elements x.
 
         x^3 is a polynomial of degree three in the coordinates of x. The test evaluates it at one point with
         large coordinates. A component of x^3 outside the algebra that does not vanish identically vanishes at

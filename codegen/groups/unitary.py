@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from codegen.groups.linear_algebra import S, Vector
 from codegen.groups.matrix import RotationGroup
 from codegen.ir.domain import Domain
+from codegen.ir.unitary_exponential import ROWS, SIZE
 
 
 class Unitary(RotationGroup):
@@ -48,6 +49,18 @@ class SU(Unitary):
     def __init__(self, n: int) -> None:
         self._generate(f"SU({n})", n, [{(j, j): 1, (j + 1, j + 1): -1} for j in range(n - 1)])
 
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the matrix exponential; for three rows, by the Cayley-Hamilton theorem."""
+        if self.rows != ROWS:
+            return super().exp(d, x)
+        parts = d.vector(f"expsu{ROWS}", x)
+        real, imaginary = (
+            [half[i : i + ROWS] for i in range(0, SIZE, ROWS)] for half in (parts[:SIZE], parts[SIZE:])
+        )
+        upper = (y for a, b in zip(real, imaginary, strict=True) for y in (*a, *(-z for z in b)))
+        lower = (y for a, b in zip(real, imaginary, strict=True) for y in (*b, *a))
+        return (*upper, *lower)
+
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations of the unitary group, and det g = 1."""
         n, width = self.rows, self.n
@@ -57,7 +70,10 @@ class SU(Unitary):
 
 
 def _real(n: int, real: dict[tuple[int, int], int], imaginary: dict[tuple[int, int], int]) -> list[list[int]]:
-    """Return the real matrix of a complex matrix, given by its entries that are not zero."""
+    """Return the real 2n x 2n matrix of a complex n x n matrix.
+
+    ``real`` and ``imaginary`` contain the non-zero real and imaginary parts of the entries, by (row, column).
+    """
     rows = range(n)
     a, b = ([[part.get((i, j), 0) for j in rows] for i in rows] for part in (real, imaginary))
     upper = [[*a[i], *(-x for x in b[i])] for i in rows]

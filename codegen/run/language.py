@@ -4,9 +4,10 @@ Stopping rules, warm starts, continuation, runs and step control are written onc
 file for each concern. Printers translate it to a target; :mod:`codegen.run.execute` executes it over any
 scalars.
 
-A :class:`Function` has seven kinds of statement besides notes: :class:`Assign`, :class:`Array`, :class:`For`,
-:class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a term. Its rules suit targets
-in which a loop is a ``while_loop`` and a branch is a ``select``:
+A :class:`Function` has seven kinds of statement and comments (:class:`Note`): :class:`Assign`,
+:class:`Array`, :class:`For`, :class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a
+term. The rules of the representation suit targets in which a loop is a ``while_loop`` and a branch is a
+``select``:
 
 - A loop is never left from its middle; a status or flag in its test ends it.
 - Return is at the end of a function, or alone in an If of the outermost block. Such an If is called a guard.

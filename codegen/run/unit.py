@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from codegen.run import batch, deferred_flows, jacobian, step_control, taylor_control
 from codegen.run.arithmetic import outlined
+from codegen.run.array_step import array_functions, array_tables
 from codegen.run.cause import cause, is_searched, step_arguments
 from codegen.run.continuation import continued
 from codegen.run.language import Function, Record, Table, Unit
@@ -45,6 +46,8 @@ def _steps(plan: Plan) -> list[Function]:
     # functions call the function that contains the kernel.
     if is_looped(plan):
         return [*listed, *turning(plan), *looped_runs(plan), step(plan)]
+    if plan.kernel.arrays is not None:
+        return [*listed, *array_functions(plan, plan.kernel.arrays), *_causes(plan), step(plan), run(plan)]
     if not plan.kernel.outputs:
         return [*listed, *taylor_control.polynomial_step(plan), *_causes(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
@@ -70,4 +73,6 @@ def _records(plan: Plan) -> tuple[Record, ...]:
 
 def _tables(plan: Plan) -> tuple[Table, ...]:
     listed = [differences(plan.start)] if plan.start is not None else []
-    return (*listed, *substep_tables(plan))
+    arrays = plan.kernel.arrays
+    own = () if arrays is None else array_tables(arrays, plan.format)
+    return (*listed, *substep_tables(plan), *own)

@@ -168,11 +168,11 @@ def needed(
     ``functions`` are the functions that the module calls. ``sweeps`` is true if the module calls them in
     sweeps over equations. A function call in a sweep would force the compiler to move many values from
     registers to memory. In this case C compilers may inline all branches of Stumpff functions. ``wide`` is
-    the common number of rows of all inverted matrices, 0 if they differ or are large; C unrolls a row of this
-    length. ``widest`` is the largest number of rows; C reserves this much memory. ``chain`` is the number of
-    angles that depend on one another (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of
-    helpers in C, so that two modules can share one translation unit. ``batch`` is true for modules with a
-    function for many systems.
+    the common number of rows of all inverted matrices, and 0 if their sizes differ or are large; in C, loops
+    over rows of this length are unrolled. ``widest`` is the number of rows of the largest inverted matrix; C
+    code reserves memory for one row of this length. ``chain`` is the number of angles that depend on one
+    another (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of helpers in C, so that two
+    modules can share one translation unit. ``batch`` is true for modules with a function for many systems.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())

@@ -126,7 +126,9 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
     if forms is None:
         return ""
     name, text = max(forms.texts.items(), key=lambda form: ("sqrt" in form[1], -len(form[1])))
-    return f"exact coefficients are recognised, such as {name} = {text}; orderconds refine FILE writes them"
+    return (
+        f"exact numbers agree with the decimals, such as {name} = {text}; orderconds refine FILE writes them"
+    )
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:

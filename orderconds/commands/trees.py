@@ -45,7 +45,7 @@ def command(
     bicoloured   rooted trees with vertices of two colours     prk
     free         free (unrooted) trees                         symplectic_rk
     essential    free trees without two equal halves           symplectic_rk
-    directed     free trees whose edges carry a direction      sprk
+    directed     free trees whose edges have a direction       sprk
     directed-rooted  rooted trees with directed edges               prk_same_weights
     alternating  free trees whose neighbours differ in colour  sprk_separable
     action       action trees of variational methods           vcg, vcf, vrkmk

@@ -32,7 +32,7 @@ def unescaped(text: str) -> str:
 
 
 def _is_control(character: str) -> bool:
-    """Whether a character is a control or format character, or a separator of lines or paragraphs."""
+    """Return True if a character is a control or format character, or a separator of lines or paragraphs."""
     return unicodedata.category(character) in ("Cc", "Cf", "Cs", "Zl", "Zp")
 
 

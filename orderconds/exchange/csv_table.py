@@ -81,7 +81,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _is_plain(table: Table) -> bool:
-    """Whether a table is a plain Butcher tableau: it has no named matrix, and a row without a name."""
+    """Return True if a table is a plain Butcher tableau: no matrix has a name, and some row has no name."""
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)
 

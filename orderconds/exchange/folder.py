@@ -123,7 +123,7 @@ def _of_json(content: bytes) -> Reason | None:
 
 
 def _is_matrix(value: object) -> bool:
-    """Whether a value is a list of rows with numbers."""
+    """Return True if a value is a list of rows with numbers."""
     if not isinstance(value, list) or not value or not all(isinstance(row, list) for row in value):
         return False
     return any(isinstance(x, int | float | str) for row in value for x in row)

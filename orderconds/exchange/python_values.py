@@ -238,7 +238,7 @@ def _require_doubles(node: ast.Call) -> None:
 
 
 def _is_integral(value: Value) -> bool:
-    """Whether a value is an integer, or an array of integers."""
+    """Return True if a value is an integer, or an array of integers."""
     if isinstance(value, Array):
         return all(map(_is_integral, value.items))
     if isinstance(value, Chain) and value.operators == ("-",) and value.operands[0] == ZERO:

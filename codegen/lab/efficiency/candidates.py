@@ -134,7 +134,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
         # On some scenes a family has fewer order conditions, so a method has a higher order.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
-        except MethodError:  # No recipe, because the family cannot use the tableau on this scene.
+        except MethodError:
+            # The family cannot use the tableau on this scene, so the tableau has no recipe in this family.
             return
         order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
         if order >= least:

@@ -120,12 +120,12 @@ def _predicted(search: Search, limits: Mapping[float, float], progress: Progress
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
     jobs = [(recipe, bars) for recipe in recipes]
-    found: dict[Key, Prediction] = {}
+    predictions: dict[Key, Prediction] = {}
     for k, prediction in enumerate(in_processes(partial(predicted, search.task), jobs)):
         progress(f"{search.problem.name}: running recipe {k + 1} of {len(jobs)} step by step")
         assert prediction is not None  # There are bars.
-        found[_key(recipes[k])] = prediction
-    return found
+        predictions[_key(recipes[k])] = prediction
+    return predictions
 
 
 def _key(recipe: Recipe) -> Key:

@@ -52,7 +52,7 @@ class Request:
 
 @dataclass(frozen=True)
 class Recommendation:
-    """The result of a search: the recipes that reach the error, fastest first, and the extent of the search.
+    """The result of a search: the recipes that reach the error, fastest first, and data about the search.
 
     ``best`` is the most accurate run if no recipe reaches the error. ``predicted`` and ``raced`` are the
     numbers of recipes that were predicted and that were measured. ``complete`` is False if the budget ended

@@ -43,7 +43,7 @@ MANY = 20
 """Consecutive short statements are printed with several on a line if there are more than this number of
 them."""
 
-ONE_TEST = "one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN"
+ONE_TEST = "one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise"
 
 
 class FunctionPrinter:

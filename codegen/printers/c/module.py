@@ -14,7 +14,7 @@ from codegen.printers.c.text import comment
 from codegen.printers.c.words import RESERVED
 from codegen.printers.interface import Interface
 from codegen.printers.needs import functions_of
-from codegen.printers.recipe import Recipe, header
+from codegen.printers.recipe import IN_MANIFEST, Recipe, entries_set, header
 from codegen.printers.state_fields import layout, times
 from codegen.run.batch import BATCH, LANES, called_by, complete, near
 from codegen.run.identifiers import identify
@@ -41,13 +41,13 @@ FRAMES = 640
 """The number of bytes of the stack for return addresses, saved registers and the frames of helpers."""
 
 EACH, EACH_SOLVING = 8, 10
-"""The numbers of bytes on the stack for each number of a step: first for steps without equations, then for
-steps with equations.
+"""The bytes of stack that the bound reserves for each floating-point number that a step stores: first for
+steps without equations, then for steps with equations.
 
-Single precision needs as many bytes as double precision, because an optimiser keeps pairs of numbers for
-vector instructions in 16 bytes. Where equations are solved, an optimiser also needs space for values without
-a name, which it moves out of a loop. The largest measured values with equations were 8.8 bytes in double
-precision and 8.0 bytes in single precision.
+A double has 8 bytes and a float has 4. The bound is the same for both precisions, because an optimiser also
+stores pairs of floats in vector registers of 16 bytes, that is 8 bytes for each float. If a step solves
+equations, an optimiser moves common subexpressions out of the loop, and these values need more space. The
+largest measured values with equations were 8.8 bytes in double precision and 8.0 bytes in single precision.
 """
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
@@ -64,8 +64,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # Explicit kernels call each function only a few times, so inlining all branches would make the code
-        # longer without making it faster.
+        # Only loops over equations call a Stumpff function often. Elsewhere, inlining all branches of the
+        # Stumpff functions would make the code longer without making it faster.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
@@ -179,8 +179,9 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     compare the bound with ``-fstack-usage`` and with a painted stack.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The local variables of ``invert`` are scalars, a row and a permutation. If the kernel is inlined, there
-    # is one stack frame less.
+    # The function ``invert`` has local variables (scalars, a row, a permutation), so a step that inverts a
+    # matrix gets half a FRAMES more. If the kernel is inlined in the run, one call and its stack frame are
+    # missing, so the bound is half a FRAMES smaller.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
@@ -267,8 +268,15 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     def number(x: float) -> str:
         return literal(real, real.round(float(x)))
 
-    initial = ", ".join(map(number, recipe.initial))
-    # The example starts at t = 0; the arguments are in the order of ``run``.
+    initial, entries = ", ".join(map(number, recipe.initial)), entries_set(recipe.initial)
+    declared = [f"    {real.c_type} state[{interface.size}] = {{{initial}}};"]
+    if entries is not None:
+        declared = [
+            f"    static {real.c_type} state[{interface.size}];",
+            *(f"    state[{place}] = {number(x)};" for place, x in entries),
+            *(() if entries else (f"    /* {IN_MANIFEST} */",)),
+        ]
+    # The example starts at t = 0. The arguments have the same order as the parameters of the emitted ``run``.
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
     arguments += [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     arguments += ["constant", "NULL"] if interface.inputs else []
@@ -280,7 +288,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
         *(example_input(interface) if interface.inputs else ()),
         "int main(void)",
         "{",
-        f"    {real.c_type} state[{interface.size}] = {{{initial}}};",
+        *declared,
         "    size_t completed;",
         f"    const int status = {interface.prefix}run({', '.join(arguments)});",
         '    printf("status %d after %zu steps\\n", status, completed);',

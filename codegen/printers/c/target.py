@@ -14,4 +14,5 @@ TARGET = Target(
     most_steps=163840,
     compiler="codegen.build:compile_seconds",
     stack=r"stack: +at most (\d+) bytes",
+    batches=True,
 )

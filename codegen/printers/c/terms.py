@@ -119,7 +119,8 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                # The function ``hold`` of the module copies the values behind its context.
+                # A signal with constant values is the emitted function ``hold``. Its context points to the
+                # values, which ``hold`` copies.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
@@ -129,8 +130,9 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return a name; a signal of inputs is passed as a function and the function's context."""
-        # A signal becomes two arguments, because C has no closures.
+        """Return the text of a name. A signal (the run-time inputs as a function of time) becomes two
+        arguments: a C function and its context pointer."""
+        # The context pointer is needed, because C has no closures.
         if term.kind is Kind.SIGNAL:
             return "input, context"
         if not term.own and term.text in self.tables:
