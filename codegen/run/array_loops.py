@@ -174,14 +174,13 @@ class ArrayLoops:
         if not c.diagonals:
             yield from self.applied_full(a)
             return
-        covered = _covers(c)
-        if not covered:
+        if not _covers(c):
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
             i, j = _along(diagonal, _ROW)
             before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
             row, column = (j, i) if a.transposed else (i, j)
-            columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0 or not covered))
+            columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
             body = (*before, Assign(_ENTRY, entry), *columns)
             yield For(_ROW, whole(c.length(diagonal)), body)
 
