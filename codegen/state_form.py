@@ -65,8 +65,8 @@ class StateForm:
 def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[float]]:
     """Return the form of a state and its numbers.
 
-    ValueError is raised unless the state has ``size`` real numbers, and unless each part of a tuple has the
-    size of its field, or of several consecutive fields.
+    The state must have ``size`` real numbers, and each part of a tuple must have the size of its field, or
+    of several consecutive fields. Otherwise ValueError is raised.
 
     >>> form, numbers = read(([[1, 0], [0, 1]], [2, 3]), 6)
     >>> numbers, form.restore(numbers)

@@ -87,6 +87,12 @@ class Coadjoint(LieGroup):
         pushed = self.dexpt(d, tuple(-a for a in x), n)
         return tuple(a + b for a, b in zip(pushed, turned, strict=True))
 
+    def cotangent_expmul(
+        self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
+    ) -> Vector[S]:
+        """Return exp(x, n) (q, mu) on T*G: exp(x) q, and the result of :meth:`transport`."""
+        return self.expmul(d, x, q) + self.transport(d, x, n, mu)
+
 
 class RightTrivialisation(LieGroup):
     """The conversion of tangent vectors to elements of the Lie algebra, which is required for the Jacobian of

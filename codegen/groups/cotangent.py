@@ -53,7 +53,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return exp(x) g."""
         (xi, n), (q, mu) = self._split(x), self._split(g)
-        return self.base.expmul(d, xi, q) + self.base.transport(d, xi, n, mu)
+        return self.base.cotangent_expmul(d, xi, n, q, mu)
 
     def variants(self) -> Sequence[Cotangent]:
         """Return T*G for each implementation of the base group G."""

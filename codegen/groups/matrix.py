@@ -177,19 +177,34 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return total
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
-
-        With a = hat(x), the matrices M of mu and N of n, and the derivative L of exp at a in the direction
-        N^T, the matrix of the result is the transpose of (exp(a) M^T + L) exp(-a).
-        """
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n."""
         if self.algebra.nilpotency:
             return super().transport(d, x, n, mu)
+        return self._transported(d, x, n, mu)[1]
+
+    def cotangent_expmul(
+        self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
+    ) -> Vector[S]:
+        """Return exp(x) q, and the result of :meth:`transport`, by one exponential with its derivative."""
+        if self.algebra.nilpotency:
+            return super().cotangent_expmul(d, x, n, q, mu)
+        exponential, momentum = self._transported(d, x, n, mu)
+        return self.mul(d, exponential, q) + momentum
+
+    def _transported(
+        self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return exp(x) and Ad*_{exp(-x)} mu + dexp*_{-x} n.
+
+        With a = hat(x), the matrices M of mu and N of n, and the derivative L of exp at a in the direction
+        N^T, the matrix of the momentum is the transpose of (exp(a) M^T + L) exp(-a).
+        """
         a = self.hat(d, x)
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, n), self.n))
         moved = product(d, exponential, transposed(self.dual_hat(d, mu), self.n), self.n)
         total = tuple(s + t for s, t in zip(moved, slope, strict=True))
         result = product(d, total, self.opposite_exponential(d, a, exponential), self.n)
-        return self.dual_vee(d, transposed(result, self.n))
+        return exponential, self.dual_vee(d, transposed(result, self.n))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return hat(x) g, without a vector function: velocities are part of the formulas of scenes."""

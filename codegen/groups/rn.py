@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from codegen.groups.abelian import Abelian
 from codegen.groups.capabilities import (
     CayleyMap,
     Inverse,
-    LeftTranslation,
     MatrixRepresentation,
     Projection,
     RightTrivialisation,
@@ -17,14 +17,12 @@ from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
 
 
-class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation, Projection, Inverse, CayleyMap):
+class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse, CayleyMap):
     """The abelian group (R^n, +): exp is the identity map and every bracket vanishes.
 
     On R^n, RKMK, CG and CF methods are Runge-Kutta methods, and variational methods are symplectic
     partitioned Runge-Kutta methods.
     """
-
-    abelian = True
 
     def __init__(self, n: int) -> None:
         self.dim = self.size = n
@@ -41,30 +39,6 @@ class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation, Projection,
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
         """Return g + k."""
         return tuple(a + b for a, b in zip(g, k, strict=True))
-
-    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return zero."""
-        return (d.rational(0),) * self.dim
-
-    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return zero."""
-        return (d.rational(0),) * self.dim
-
-    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return x."""
-        return x
-
-    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return mu."""
-        return mu
-
-    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return mu."""
-        return mu
-
-    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return mu."""
-        return mu
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return -g."""
@@ -83,14 +57,6 @@ class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation, Projection,
         return (d.rational(0),) * self.dim
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x."""
-        return x
-
-    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return x."""
-        return x
-
-    def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return x."""
         return x
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from codegen.groups.base import C, LieGroup
 from codegen.groups.capabilities import (
+    CayleyMap,
     ClosedFormSeries,
     Coadjoint,
     Covered,
@@ -39,6 +40,7 @@ class Semidirect(
     MatrixRepresentation,
     Covered,
     Inverse,
+    CayleyMap,
 ):
     """G x V with (g, a)(k, b) = (g k, a + rho(g) b): a linear factor G and a vector space V on which G acts.
 
@@ -88,6 +90,8 @@ class Semidirect(
             return own if self.representation.closed(self.linear) else None
         if issubclass(capability, MatrixRepresentation):
             return own if self.representation.of_matrices(self.linear) is not None else None
+        if issubclass(capability, CayleyMap) and self.representation.of_matrices(self.linear) is None:
+            return None
         if issubclass(capability, Covered) and not self.representation.of_algebra:
             return None
         return own if self.linear.offers(capability) is not None else None
@@ -128,6 +132,28 @@ class Semidirect(
         q, y = self._element(g)[0], self._split(x)[0]
         # A variant of the linear factor may have a shorter formula for exp(x) g.
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
+
+    def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return (cay x, (1 - x/2)^-1 u).
+
+        The group has this map if rho(g) is the matrix of g. Then (1 - x/2)^-1 = (1 + rho(cay x))/2.
+        """
+        y, u = self._split(x)
+        half: S = d.rational(1, 2)
+        g = self.linear.require(CayleyMap).cay(d, y)
+        turned = self._each(lambda v: self.representation.act(d, self.linear, g, v), u)
+        return g + tuple(half * a for a in _sum(u, turned))
+
+    def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return (dcay^{-1}_x y, v - (x.v - y.u)/2 - x.(y.u)/4)."""
+        (a, u), (b, v) = self._split(x), self._split(y)
+        first = self.point_velocity(d, y, u, translated=False)
+        # Horner's rule: v + y.u/2 - x.(v + y.u/2)/2.
+        half: S = d.rational(1, 2)
+        moved = _sum(v, tuple(half * c for c in first))
+        turned = self.point_velocity(d, x, moved, translated=False)
+        tail = _difference(moved, tuple(half * c for c in turned))
+        return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return ([x, y], x.v - y.u)."""

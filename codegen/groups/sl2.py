@@ -58,6 +58,12 @@ class SL2(CubicAd, MatrixGroup, Projection):
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n by the closed forms."""
         return Coadjoint.transport(self, d, x, n, mu)
 
+    def cotangent_expmul(
+        self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
+    ) -> Vector[S]:
+        """Return exp(x) q, and the result of :meth:`transport`, by the closed forms."""
+        return Coadjoint.cotangent_expmul(self, d, x, n, q, mu)
+
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g; the error of the determinant is then O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))

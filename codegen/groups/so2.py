@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from codegen.groups.abelian import Abelian
 from codegen.groups.capabilities import (
     CayleyMap,
     Inverse,
-    LeftTranslation,
     MatrixRepresentation,
     PointMotions,
     Projection,
@@ -23,9 +23,7 @@ if TYPE_CHECKING:
     import sympy
 
 
-class SO2(
-    LeftTranslation, RightTrivialisation, Projection, PointMotions, MatrixRepresentation, Inverse, CayleyMap
-):
+class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresentation, Inverse, CayleyMap):
     """Rotations of the plane as (c, s), the cosine and the sine of the angle.
 
     An element of the algebra is the angular velocity w, and exp(w) = (c_0(w^2), w c_1(w^2)) with the Stumpff
@@ -35,7 +33,6 @@ class SO2(
     name = "SO(2)"
     layout = ", cosine and sine of the angle"
     dim, size, point_size = 1, 2, 2
-    abelian = True
 
     def identity(self, d: Domain) -> Vector[S]:
         """Return (1, 0)."""
@@ -68,41 +65,9 @@ class SO2(
         z = x[0] * x[0]
         return (d.call("stumpff0", z), x[0] * d.call("stumpff1", z))
 
-    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return 0."""
-        return (d.rational(0),)
-
-    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return 0."""
-        return (d.rational(0),)
-
-    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return x."""
-        return x
-
-    def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return x."""
-        return x
-
-    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return mu."""
-        return mu
-
-    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return mu."""
-        return mu
-
-    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return mu."""
-        return mu
-
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return w (-s, c)."""
         return (-(x[0] * g[1]), x[0] * g[0])
-
-    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return w (-s, c)."""
-        return self.velocity(d, x, g)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return c v_1 - s v_0."""

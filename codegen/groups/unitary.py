@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from codegen.groups.linear_algebra import S, Vector
 from codegen.groups.matrix import RotationGroup
 from codegen.ir.domain import Domain
+from codegen.ir.unitary_exponential import ROWS, SIZE
 
 
 class Unitary(RotationGroup):
@@ -47,6 +48,18 @@ class SU(Unitary):
 
     def __init__(self, n: int) -> None:
         self._generate(f"SU({n})", n, [{(j, j): 1, (j + 1, j + 1): -1} for j in range(n - 1)])
+
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the matrix exponential; for three rows, by the Cayley-Hamilton theorem."""
+        if self.rows != ROWS:
+            return super().exp(d, x)
+        parts = d.vector(f"expsu{ROWS}", x)
+        real, imaginary = (
+            [half[i : i + ROWS] for i in range(0, SIZE, ROWS)] for half in (parts[:SIZE], parts[SIZE:])
+        )
+        upper = (y for a, b in zip(real, imaginary, strict=True) for y in (*a, *(-z for z in b)))
+        lower = (y for a, b in zip(real, imaginary, strict=True) for y in (*b, *a))
+        return (*upper, *lower)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations of the unitary group, and det g = 1."""

@@ -25,6 +25,12 @@ from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import BilinearFunction
 from codegen.ir.number import Number
 from codegen.ir.selection import selected, selects, sign_of_number
+from codegen.ir.unitary_exponential import (
+    GENERAL,
+    SpecialUnitaryExponential,
+    embedded,
+    first_columns,
+)
 from codegen.ir.vector_calls import vector_function
 from orderconds.ring.precision import precision
 
@@ -148,6 +154,8 @@ class BallDomain:
             with precision(2 * self.bits):
                 inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
+        if isinstance(called, SpecialUnitaryExponential):
+            return first_columns(self.vector(GENERAL.name, embedded(numbers, arb(0))))
         if isinstance(called, BilinearFunction):
             return tuple(x.mid() for x in called.arithmetic(numbers))
         raise ValueError(f"unknown vector function {function}")

@@ -3,8 +3,7 @@
 The name determines the function: ``expm3`` is the exponential of a 3 x 3 matrix, ``expm3_d1`` the exponential
 with its derivative, ``inverse5`` the inverse of a 5 x 5 matrix, ``product5`` the product of two 5 x 5
 matrices and ``commutator5`` their commutator. ``expmv5`` is the action of the exponential of a 5 x 5 matrix
-on a vector. In ``expmv5_1f`` the bits of the hexadecimal number are set at the entries of the matrix that are
-arguments.
+matrices, ``commutator5`` their commutator, and ``expsu3`` the exponential of a matrix of su(3).
 """
 
 from __future__ import annotations
@@ -17,6 +16,7 @@ from typing import TYPE_CHECKING
 from codegen.ir.exponential_action import ExponentialAction
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import MatrixCommutator, MatrixProduct
+from codegen.ir.unitary_exponential import SpecialUnitaryExponential
 from codegen.ir.vector_function import VectorFunction
 
 if TYPE_CHECKING:
@@ -26,9 +26,10 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
     "inverse": MatrixInverse,
     "product": MatrixProduct,
     "commutator": MatrixCommutator,
+    "expsu": SpecialUnitaryExponential,
 }
 _ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
-_NAME = re.compile(r"(expm|inverse|product|commutator)(\d+)(?:_d(\d+))?")
+_NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 
 @cache

@@ -50,8 +50,8 @@ AGAIN = 3
 """The largest number of repeated measurements of a run whose time is not resolved."""
 
 LEAST_SHARE = 0.1
-"""The least time of a run without the overhead, as a fraction of the time with overhead. No run has the time
-zero.
+"""The time of a run without the overhead is at least this fraction of the time with the overhead. Therefore
+no run has the time zero.
 """
 
 

@@ -16,6 +16,7 @@ from codegen.ir.matrix_exponential import DEGREES, LEAST_DIGITS, largest_norms, 
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import MatrixCommutator, MatrixProduct
 from codegen.ir.precision import Precision
+from codegen.ir.unitary_exponential import SpecialUnitaryExponential
 from codegen.ir.vector_calls import vector_function
 from codegen.ir.vector_function import VectorFunction
 from codegen.run.exponential_action import exponential_action
@@ -46,6 +47,7 @@ from codegen.run.terms import (
     total,
     whole,
 )
+from codegen.run.unitary_exponential import unitary_functions
 
 UNROLLED = 4
 """The largest number of rows for which an entry of a product of matrices is computed without a loop."""
@@ -76,6 +78,8 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
                 own = [exponential_action(function, precision)]
             case MatrixCommutator():
                 own = [_commutator(function)]
+            case SpecialUnitaryExponential():
+                own = unitary_functions(function, precision, _coefficient())
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
@@ -86,11 +90,15 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
 
 def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> tuple[Table, ...]:
     """Return the table of the coefficients of Taylor polynomials; none without an exponential."""
-    if not any(isinstance(f, MatrixExponential) for f in functions):
+    if not any(isinstance(f, MatrixExponential | SpecialUnitaryExponential) for f in functions):
         return ()
-    last = DEGREES[-1]
-    row = tuple(precision.round(Fraction(1, factorial(k))) for k in range(last + 1))
-    return (Table(real(COEFFICIENTS, last + 1), (row,), "1/k!"),)
+    row = tuple(precision.round(Fraction(1, factorial(k))) for k in range(DEGREES[-1] + 1))
+    return (Table(_coefficient(), (row,), "1/k!"),)
+
+
+def _coefficient() -> Term:
+    """Return the name of the table."""
+    return real(COEFFICIENTS, DEGREES[-1] + 1)
 
 
 def _is_lost(array: Term) -> For:
@@ -106,7 +114,7 @@ class _Exponential:
         self.size, self.one = function.size, function.n**2
         self.precision = precision
         self.norms = largest_norms(precision.bits)
-        self.coefficient = real(COEFFICIENTS, DEGREES[-1] + 1)
+        self.coefficient = _coefficient()
 
     def functions(self) -> list[Function]:
         """Return the functions, callees first."""

@@ -10,6 +10,7 @@ from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import Coadjoint
+from codegen.groups.coordinate_maps import EXPONENTIAL
 from codegen.ir.differentiate import gradient
 from codegen.ir.expr import Expr, walk
 from codegen.ir.values import Kind
@@ -44,6 +45,7 @@ def HamiltonianScene(
     n: Column | None = None,
     wrench: Column | None = None,
     invariants: Mapping[str, sympy.Expr] | None = None,
+    coordinates: str = EXPONENTIAL,
     name: str = "scene",
     title: str = "",
 ) -> Problem:
@@ -56,9 +58,11 @@ def HamiltonianScene(
     ``n`` is given, it must equal the computed formulas. ``wrench`` is a column of ``group.dim`` components,
     in space, of a force without potential: mu' = n + wrench - ad*_xi mu, so a given ``n`` does not contain
     the wrench. A scene with a wrench has no energy, and may have no parts. The parts must add up to H. If H
-    does not depend on time and there is no wrench, the energy is an invariant. :class:`SceneError` is raised
-    in the same cases as by :func:`FieldScene`.
+    does not depend on time and there is no wrench, the energy is an invariant. The only coordinate map is
+    "exp": other values of ``coordinates`` are refused. :class:`SceneError` is raised in the same cases as by
+    :func:`FieldScene`.
     """
+    _check_coordinates(name, coordinates)
     reader = _reader(name, group, q, mu)
     if wrench is not None and parts:
         _refuse_parts(name, parts)
@@ -85,6 +89,18 @@ def HamiltonianScene(
         rates = velocity(group, system.qs, system.mus, problem.parts[key])
         check_flow(orbit_of(problem), key, formulas, rates, TAU)
     return problem
+
+
+def _check_coordinates(name: str, coordinates: str) -> None:
+    """Raise SceneError unless the coordinate map is the exponential map."""
+    if coordinates != EXPONENTIAL:
+        raise SceneError(
+            f"coordinates={coordinates!r} on T*G",
+            where=name,
+            expected=f'coordinates="{EXPONENTIAL}": the other maps are known on G, not on T*G, and '
+            "variational methods are derived for the exponential map",
+            hint="remove coordinates, or write the equations as a FieldScene",
+        )
 
 
 def _refuse_parts(name: str, parts: Mapping[str, sympy.Expr]) -> NoReturn:

@@ -34,8 +34,8 @@ class Snippet:
 
 
 def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippet, ...]:
-    """Return every snippet; all targets use the same names. ``batch`` adds the forms without branches, and
-    removes the polynomials that these forms do not use.
+    """Return every snippet; all targets use the same names. ``batch`` adds the variants of functions that
+    contain no branches, and removes the polynomials that these variants do not use.
 
     Only double precision has shorter polynomials near zero. In single precision the full polynomial is
     already short.
@@ -105,7 +105,8 @@ def _shared_angle(
 
 
 def trigonometric(precision: Precision) -> list[Snippet]:
-    """Return sine and cosine without branches, and the same functions for all arguments."""
+    """Return four snippets: sine and cosine without branches for bounded arguments, and sine and cosine for
+    all arguments."""
     shared = {
         **lane_angles.reduction(precision),
         "sine": lane_angles.polynomial(1, precision),

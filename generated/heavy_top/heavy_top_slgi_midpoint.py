@@ -42,8 +42,8 @@ SINGULAR = 6  # the matrix of an implicit block is singular
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: one of the codes above; reason: its cause; step: the number of completed steps;
-    state: the last good state, as a tuple.
+    status: one of the codes above; reason: the cause of the failure, as a text;
+    step: the number of completed steps; state: the last good state, as a tuple.
     """
 
     def __init__(self, status, reason, step, state):

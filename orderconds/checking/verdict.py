@@ -211,8 +211,8 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families whose orders bound the orders in other families. Families in ``labels`` are
-    omitted.
+    """Return the families whose orders give lower or upper bounds of the orders in other families. Families
+    in ``labels`` are omitted.
 
     A tableau (A, b) that is a composition of midpoint rules is also read as a composition.
     """

@@ -74,7 +74,7 @@ WIDTH = 200
 @click.option(
     "--require-claims",
     is_flag=True,
-    help="Exit with status 1 if a tableau claims none of the orders that are checked, and with status 2 if a "
+    help="Exit with status 1 if a tableau claims no order in the checked families, and with status 2 if a "
     "file below a directory is neither a tableau nor plainly other data.",
 )
 @click.option(
@@ -391,7 +391,9 @@ def _proof(proof: Certificate) -> str:
     if not proof.printed:
         return text
     furthest = max(proof.printed.values(), key=float)
-    return f"{text}; the digits printed in the source differ from this solution by up to {furthest}"
+    return (
+        f"{text}; the digits printed in the cited publication differ from this solution by up to {furthest}"
+    )
 
 
 def _row(family: FamilyOrder) -> tuple[str, ...]:

@@ -254,4 +254,4 @@ def _print_proof(order: Order, proof: Infeasible) -> None:
     ):
         click.echo(f"  {condition}")
         click.echo(f"    ({multiplier}) * ({equation})")
-    click.echo(f"the sum of these products is {proof.consequence}, but {proof.reason}")
+    click.echo(f"the sum of the products above is {proof.consequence}, but {proof.reason}")

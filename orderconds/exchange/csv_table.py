@@ -94,6 +94,7 @@ def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
         raise TableauError(
             f"{len(weights)} rows of weights",
             where=where,
-            expected="lines c, a_1, ..., a_s, then one or two that begin with an empty cell: b, embedded b",
+            expected="lines with c_i and a row of A, then a line with b, and at most one line with "
+            "embedded b; the lines of b and embedded b begin with an empty cell",
         )
     return butcher(stages, weights)

@@ -57,7 +57,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def reason_to_skip(content: bytes) -> str:
-    """Return why a module is no tableau, or an empty text if it assigns the arrays of one.
+    """Return why a module is no tableau, or an empty text if it assigns the arrays of a tableau.
 
     >>> reason_to_skip(b"import os"), reason_to_skip(b"A = [[0]]\\nb = [1]")
     ('no assignment to A and b', '')

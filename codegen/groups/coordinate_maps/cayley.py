@@ -28,8 +28,8 @@ class Cayley(CoordinateMap):
             raise SceneError(
                 f"Cayley coordinates on {group.name}",
                 where=where,
-                expected="a group whose algebra contains x^3 for each of its elements x, such as SO(3), S^3 "
-                "or SL(2)",
+                expected="a group whose algebra contains x^3 for each of its elements x, such as SO(3), S^3, "
+                "SL(2) or SE(3)",
                 hint='write coordinates="exp", or give the group the capability CayleyMap',
             )
 

@@ -3,9 +3,10 @@ its family or a time limit for predictions. A benchmark compares the usual searc
 
 Each recipe is first run by the interpreter with more and more steps, as long as the run may be fast enough.
 The counted operations give the time of a step, and the measured error gives the number of steps for the
-target. Their product, divided by SAFE, is a lower bound of the time of the recipe. If the bound exceeds WORST
-times the best measured time for each error, the recipe is excluded. All other recipes are emitted, compiled
-and raced. A sample of the excluded recipes is raced, too. Its times show whether the bound is safe.
+target. The product of this time and this number, divided by SAFE, is a lower bound of the time of the recipe.
+If the bound exceeds WORST times the best measured time for each error, the recipe is excluded. All other
+recipes are emitted, compiled and raced. A sample of the excluded recipes is also raced. The times of the
+sample show whether the bound is safe.
 """
 
 from __future__ import annotations
@@ -30,12 +31,12 @@ WORST = 1.25
 """The largest accepted ratio of the time of a recommended recipe to the best time."""
 
 SAFE = 8.0
-"""The factor by which the product of steps and time of a step may be too large."""
+"""A predicted time (the number of steps times the time of a step) may be too large by at most this factor."""
 
 T = TypeVar("T")
 
 SAMPLE = 12
-"""The number of excluded recipes that are raced, too: one half of them are closest to the bound."""
+"""The number of excluded recipes that are also raced. Half of them are the recipes closest to the bound."""
 
 
 @dataclass
@@ -116,14 +117,15 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return the interpreted runs of all recipes. Recipes with and without step-size control share them."""
+    """Return the interpreted runs of all recipes. A recipe with step-size control and the same recipe without
+    step-size control share a run."""
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
     jobs = [(recipe, bars) for recipe in recipes]
     predictions: dict[Key, Prediction] = {}
     for k, prediction in enumerate(in_processes(partial(predicted, search.task), jobs)):
         progress(f"{search.problem.name}: running recipe {k + 1} of {len(jobs)} step by step")
-        assert prediction is not None  # There are bars.
+        assert prediction is not None  # None is returned only if there is no bar.
         predictions[_key(recipes[k])] = prediction
     return predictions
 
@@ -133,10 +135,12 @@ def _key(recipe: Recipe) -> Key:
 
 
 def least_ratio(prediction: Prediction, limits: Mapping[float, float]) -> float:
-    """Return the least ratio of a predicted time to its limit, for any error; above 1 the recipe is excluded.
+    """Return the least ratio, over all errors, of the predicted time to the limit for the error. If the ratio
+    is above 1, the recipe is excluded.
 
-    A recipe whose interpreted runs fail is not excluded (ratio 0), because emitted code may succeed: it
-    solves equations by Newton's method. It is excluded only if a single step exceeds all limits.
+    A recipe whose interpreted runs fail is not excluded (ratio 0), because emitted code, which solves
+    equations by Newton's method, may succeed. Such a recipe is excluded only if a single step exceeds all
+    limits.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)

@@ -100,7 +100,8 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
 def possible_needs(
     recipe: Recipe, choices: Iterable[tuple[str, ...]], problem: Problem
 ) -> set[tuple[str, ...]]:
-    """Return those of several choices of needs that a recipe may satisfy. Each need is tested once."""
+    """Return the choices whose needs a recipe may satisfy. A choice is a tuple of needs; a need that occurs
+    in several choices is tested once."""
     choices = set(choices)
     never = {need for need in set().union(*choices) if not possible(recipe, (need,), problem)}
     return {needs for needs in choices if never.isdisjoint(needs)}

@@ -82,6 +82,9 @@ DECLARED = {
         "SO(3) x R^2",
         "SO(2)",
         "SU(2)",
+        "SE(3)",
+        "SE_2(3)",
+        "affine",
     },
     CotangentBundle: {f"T*{name}" for name in BASE_GROUPS},
 }

@@ -16,27 +16,32 @@ from codegen.groups import (
     GL,
     S3,
     SE2,
+    SE3,
+    SE23,
     SL2,
     SO3,
     Conjugation,
     Cotangent,
+    Galilean,
     LeftMultiplication,
     MatrixGroup,
     Product,
     Rotation,
+    Semidirect,
 )
 from codegen.groups.capabilities import CayleyMap, Coadjoint
 from codegen.groups.coordinate_maps import MAPS, CoordinateMap, coordinate_map
 from codegen.groups.linear_algebra import matmul
+from codegen.groups.representations import MatrixColumns
 from codegen.integrator import Status, StepFailed
 from codegen.ir.domain import PreciseDomain, SeriesDomain
 from codegen.ir.interpret import interpret
 from codegen.lab.orders.local_error import local_error, predicted, valuation
 from codegen.loader import load
-from codegen.scene import FieldScene
+from codegen.scene import FieldScene, HamiltonianScene
 from orderconds.ring import QQ
 from tests.codegen.groups.action_cases import elementary, orthogonal
-from tests.strategies import ALL_GROUPS, field_scene, sampler
+from tests.strategies import ALL_GROUPS, field_scene, quarter_turn, sampler
 
 SYMPLECTIC = MatrixGroup(
     "Sp(4)",
@@ -89,7 +94,11 @@ class TestACoordinateMap:
         assert all(abs(x) < 1e-37 for _, x in s.group.laws(s.domain, g))
 
 
-@pytest.mark.parametrize("group", [SO3(), SL2(), orthogonal(4), SYMPLECTIC, GL(2)], ids=lambda g: g.name)
+AFFINE = Semidirect(GL(2), MatrixColumns(), "affine")
+MATRICES = [SO3(), SL2(), orthogonal(4), SYMPLECTIC, GL(2), SE3(), SE23(), AFFINE, Galilean()]
+
+
+@pytest.mark.parametrize("group", MATRICES, ids=lambda g: g.name)
 class TestTheCayleyMap:
     def test_is_the_quotient_of_matrices_exactly(self, group):
         d = SeriesDomain(QQ, 4)
@@ -103,7 +112,7 @@ class TestTheCayleyMap:
         )
         assert all(
             d.ring.is_zero(p - q) is True
-            for p, q in zip(matmul(left, group.cay(d, x), n), right, strict=True)
+            for p, q in zip(matmul(left, group.matrix(d, group.cay(d, x)), n), right, strict=True)
         )
 
     def test_has_the_inverse_differential_as_a_product_of_matrices_exactly(self, group):
@@ -183,6 +192,14 @@ def test_a_group_without_a_cayley_map_is_refused_when_the_scene_is_read(group):
         )
 
 
+def test_a_hamiltonian_scene_has_the_exponential_map_only():
+    q, mu = SO3().point("q"), SO3().dual("mu")
+    arguments = {"group": SO3(), "q": q, "mu": mu, "H": mu.dot(mu), "mu0": [1, 2, 3], "span": (0, 1)}
+    with pytest.raises(SceneError, match=r"^top: coordinates='cayley' on T\*G; expected coordinates=\"exp\""):
+        HamiltonianScene(**arguments, q0=quarter_turn(), coordinates="cayley", name="top")
+    HamiltonianScene(**arguments, q0=quarter_turn(), coordinates="exp", name="top")
+
+
 def test_an_unknown_map_is_refused_by_the_names_of_the_known_maps():
     for wrong in ("caley", 3, None):
         with pytest.raises(
@@ -244,6 +261,7 @@ EMITTED = [
     (S3(), LeftMultiplication(), [1, 0, 0, 0], "cayley"),
     (SL2(), LeftMultiplication(), [1, 0, 0, 1], "second_kind"),
     (GL(2), LeftMultiplication(), [1, 0, 0, 1], "cayley"),
+    (SE3(), LeftMultiplication(), [*quarter_turn(), Fraction(1, 2), 0, -1], "cayley"),
     (GL(2), LeftMultiplication(), [1, 0, 0, 1], "second_kind"),
     (orthogonal(4), Conjugation(), DIAGONAL, "cayley"),
 ]
@@ -252,7 +270,7 @@ EMITTED = [
 @pytest.mark.parametrize(
     ("group", "action", "y0", "coordinates"),
     [
-        pytest.param(*case, id=f"{case[0].name}-{case[3]}", marks=() if k in (0, 6) else pytest.mark.slow)
+        pytest.param(*case, id=f"{case[0].name}-{case[3]}", marks=() if k in (0, 7) else pytest.mark.slow)
         for k, case in enumerate(EMITTED)
     ],
 )

@@ -109,6 +109,14 @@ def test_emitted_steps_are_those_of_the_interpreter(kind, name, method):
         assert ulps(load(emit_compiled(made, target)).step(state, 1 / 64), expected) <= 64
 
 
+def test_a_step_on_a_cotangent_bundle_computes_each_exponential_once():
+    """The exponential of a matrix is a part of the exponential with its derivative."""
+    made = compiled("hamiltonian", "Sp(2)", "rkmk:rk4")
+    source = "".join(emit_compiled(made, "python").files.values())
+    assert source.count("expm2_d1(v_") == 4  # three stages and the end of the step
+    assert "expm2(" not in source
+
+
 ON_GROUPS = {"rkmk", "cg", "cf", "ambient", "taylor"}
 ON_BUNDLES = ON_GROUPS | {"vcg", "vrkmk", "vcf", "vrkmk_pade", "slgi", "discrete_gradient"}
 PROMISED = [("field", "SO(5)", "cf:cf4"), ("hamiltonian", "SO(4)", "vcg:midpoint")]

@@ -15,6 +15,7 @@ from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import MatrixCommutator, MatrixProduct
 from codegen.ir.precision import DOUBLE
+from codegen.ir.unitary_exponential import SpecialUnitaryExponential
 from codegen.printers.c.functions import FunctionPrinter as InC
 from codegen.printers.c.words import RESERVED as WORDS_OF_C
 from codegen.printers.python.functions import FunctionPrinter as InPython
@@ -212,6 +213,7 @@ def same(found, expected):
         MatrixProduct(3),
         MatrixProduct(5),
         MatrixCommutator(6),
+        SpecialUnitaryExponential(),
     ],
     ids=lambda f: f.name,
 )

@@ -1,0 +1,45 @@
+"""Abelian groups: brackets vanish, and the adjoint action is trivial."""
+
+from __future__ import annotations
+
+from codegen.groups.capabilities import LeftTranslation
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+
+
+class Abelian(LeftTranslation):
+    """A group in which all elements commute: ad and ad* are zero; Ad, Ad* and dexp* are the identity."""
+
+    abelian = True
+
+    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return zero."""
+        return (d.rational(0),) * self.dim
+
+    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return zero."""
+        return (d.rational(0),) * self.dim
+
+    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return x."""
+        return x
+
+    def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return x."""
+        return x
+
+    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return mu."""
+        return mu
+
+    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return mu."""
+        return mu
+
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return mu."""
+        return mu
+
+    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return x.g, which is equal to g.x."""
+        return self.velocity(d, x, g)

@@ -1,0 +1,239 @@
+"""The exponential of a matrix of su(3) by the Cayley-Hamilton theorem.
+
+Let X = i H with a Hermitian 3 x 3 matrix H of trace zero. Then H^3 = p H + q, where p = tr(H^2)/2, q = det H.
+Hence each polynomial of H, and so exp X, is a combination of 1, H and H^2 with coefficients that depend on p
+and q only. The formulas for these coefficients in terms of the eigenvalues of H divide by differences of
+eigenvalues. Here the coefficients are computed without a division, by Horner's rule for the Taylor polynomial
+modulo H^3 - p H - q, which is accurate for equal eigenvalues, too (M. Luescher, SU(3) matrix functions, notes
+of openQCD). H is first halved until the bound 2 (p/3)^(1/2) of its eigenvalues is small, and the result is
+squared as often. Only products of matrices square it: at a large matrix, the rounding error of q would change
+exp X by much more than the rounding errors of its entries.
+
+The arguments are the coordinates of X. For j < k, row by row, these are the coefficients of E_jk - E_kj and
+of i (E_jk + E_kj); the last two are the coefficients of i (E_11 - E_22) and i (E_22 - E_33).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from codegen.ir.matrix_exponential import DEGREES, LEAST_DIGITS, largest_norms
+from codegen.ir.matrix_functions import MatrixExponential
+from codegen.ir.vector_function import VectorFunction
+
+if TYPE_CHECKING:
+    from codegen.ir.domain import Scalar
+    from codegen.ir.expr import Expr
+
+T = TypeVar("T")
+
+ROWS, COORDINATES = 3, 8
+SIZE = ROWS * ROWS
+"""The number of entries; the results are the real parts of the entries, then the imaginary parts."""
+
+PLACES = ((0, 1), (0, 2), (1, 2))
+"""The places (j, k) above the diagonal, in the order of the coordinates."""
+
+GENERAL = MatrixExponential(2 * ROWS)
+"""The exponential of real matrices of twice the size. It defines exp X in many digits and over power series,
+and its derivatives."""
+
+
+def most_squarings(bits: int) -> int:
+    """Return the number of squarings after which fewer than three decimal digits may be correct.
+
+    With unit roundoff 2^-bits, s squarings of a unitary matrix cause an error of at most 2^(s - bits + 6)
+    times the norm.
+
+    >>> most_squarings(53)
+    37
+    """
+    return bits - LEAST_DIGITS - 6
+
+
+@dataclass(frozen=True)
+class SpecialUnitaryExponential(VectorFunction):
+    """The exponential of a matrix of su(3), given by its eight coordinates."""
+
+    n: int = ROWS
+
+    @property
+    def name(self) -> str:
+        """The name in expressions and in emitted code."""
+        return f"expsu{self.n}"
+
+    @property
+    def size(self) -> int:
+        """The number of results."""
+        return 2 * SIZE
+
+    @property
+    def arrays(self) -> tuple[int, ...]:
+        """One array with the coordinates."""
+        return (COORDINATES,)
+
+    @property
+    def operations(self) -> dict[str, int]:
+        """The number of operations for a polynomial of degree 12, without squarings."""
+        return {"add": 110, "mul": 120}
+
+    def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return the derivative of the general exponential."""
+        zero = args[0].space.zero
+        both = (*embedded(args, zero), *embedded(rates, zero))
+        general = MatrixExponential(2 * ROWS, 1)
+        slopes = args[0].space.vector(general.name, both)
+        return first_columns(slopes[GENERAL.size :])
+
+    def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
+        """Return the unit matrix if all coordinates are zero; otherwise None."""
+        if not all(x.is_zero for x in args):
+            return None
+        space = args[0].space
+        return tuple(space.one if k in range(0, SIZE, ROWS + 1) else space.zero for k in range(2 * SIZE))
+
+    def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
+        """Return the exponential in doubles, with the operations of emitted code."""
+        return in_doubles(args)
+
+    def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the exponential for mpmath numbers."""
+        return first_columns(GENERAL.in_digits(context, digits, embedded(args, context.mpf(0))))
+
+    def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the exponential of power series without constant terms."""
+        return first_columns(GENERAL.over_series(ring, embedded(args, ring.zero)))
+
+
+def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
+    """Return X = A + i B as the real 6 x 6 matrix with the rows (A, -B) and (B, A)."""
+    width = 2 * ROWS
+    result = [zero] * width**2
+
+    def put(i: int, j: int, real: T, imaginary: T) -> None:
+        result[width * i + j] = result[width * (ROWS + i) + ROWS + j] = real
+        result[width * (ROWS + i) + j] = imaginary
+        result[width * i + ROWS + j] = -imaginary  # type: ignore[operator]
+
+    for (j, k), a, b in zip(PLACES, x[0:6:2], x[1:6:2], strict=True):
+        put(j, k, a, b)
+        put(k, j, -a, b)  # type: ignore[operator]
+    for j, b in enumerate((x[6], x[7] - x[6], -x[7])):  # type: ignore[operator]
+        put(j, j, zero, b)
+    return tuple(result)
+
+
+def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
+    """Return A, then B, for the real matrix with the rows (A, -B) and (B, A)."""
+    width = 2 * ROWS
+    return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
+
+
+def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
+    """Return the exponential; all results are NaN if fewer than three digits may be correct."""
+    scale, squarings, norm = _halvings(_bound(x))
+    total = _polynomial([a * scale for a in x], norm)
+    for _ in range(squarings):
+        total = _square(total)
+    if not norm <= largest_norms(53)[-1]:
+        total = [math.nan] * len(total)
+    return tuple(total)
+
+
+def _bound(x: Sequence[float]) -> float:
+    """Return 2 (p/3)^(1/2), a bound of the eigenvalues of H."""
+    return math.sqrt(1.3333333333333333 * half_trace(x))
+
+
+def _halvings(norm: float) -> tuple[float, int, float]:
+    """Return the scale 2^-s, the number s of halvings, and the bound for the halved matrix."""
+    scale, squarings = 1.0, 0
+    while norm * scale > largest_norms(53)[-1] and squarings < most_squarings(53):
+        scale *= 0.5
+        squarings += 1
+    return scale, squarings, norm * scale
+
+
+def half_trace(x: Sequence[Any]) -> Any:
+    """Return p = tr(H^2)/2."""
+    total = x[6] * x[6] + x[7] * (x[7] - x[6])
+    for a in x[:6]:
+        total = total + a * a
+    return total
+
+
+def determinant(x: Sequence[Any]) -> Any:
+    """Return q = det H."""
+    a, b, c, d, e, f = x[:6]
+    first, last = x[6], -x[7]
+    middle = x[7] - x[6]
+    product = (b * f - a * e) * d + (a * f + b * e) * c
+    diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
+    return (product + product) + (diagonal - last * (a * a + b * b))
+
+
+def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
+    """Return H^2: its diagonal, then real and imaginary part of the entries above the diagonal.
+
+    For j < k the entry of H is b - i a with the coordinates a and b.
+    """
+    a, b, c, d, e, f = x[:6]
+    first, last = x[6], -x[7]
+    middle = x[7] - x[6]
+    ab, cd, ef = a * a + b * b, c * c + d * d, e * e + f * f
+    return (
+        *(first * first + (ab + cd), middle * middle + (ab + ef), last * last + (cd + ef)),
+        *((d * f + c * e) - last * b, last * a + (d * e - c * f)),
+        *((b * f - a * e) - middle * d, middle * c - (b * e + a * f)),
+        *((b * d + a * c) - first * f, first * e + (a * d - b * c)),
+    )
+
+
+def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Sequence[Any]) -> list[Any]:
+    """Return (u_0 + u_1 H + u_2 H^2) + i (v_0 + v_1 H + v_2 H^2): the real parts of all entries, then the
+    imaginary parts."""
+    real, imaginary = [None] * SIZE, [None] * SIZE
+    for j, h in enumerate((x[6], x[7] - x[6], -x[7])):
+        real[(ROWS + 1) * j] = (u[2] * square[j] + u[1] * h) + u[0]
+        imaginary[(ROWS + 1) * j] = (v[2] * square[j] + v[1] * h) + v[0]
+    for m, (j, k) in enumerate(PLACES):
+        a, b, re, im = x[2 * m], x[2 * m + 1], square[ROWS + 2 * m], square[ROWS + 2 * m + 1]
+        # Real and imaginary part of the entries (j, k) of the two Hermitian matrices.
+        p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
+        r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
+        real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
+        real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
+    return [*real, *imaginary]
+
+
+def _polynomial(y: list[float], norm: float) -> list[float]:
+    """Return the Taylor polynomial of the least degree that is accurate for matrices of this norm."""
+    groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
+    c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
+    p, q = half_trace(y), determinant(y)
+    parts = [c[4 * groups], 0.0, 0.0], [0.0, 0.0, 0.0]
+    for group in reversed(range(groups)):
+        for k in (3, 2, 1, 0):
+            # i^k = 1, i, -1, -i
+            added = (0.0, c[4 * group + k]) if k % 2 else (c[4 * group + k], 0.0)
+            for part, term in zip(parts, added, strict=True):
+                signed = -term if k >= 2 else term
+                part[:] = signed + q * part[2], part[0] + p * part[2], part[1]
+    return combined(y, square_of_hermitian(y), *parts)
+
+
+def _square(g: list[float]) -> list[float]:
+    """Return the square of a complex matrix."""
+    result = [0.0] * (2 * SIZE)
+    for i in range(ROWS):
+        for j in range(ROWS):
+            real, imaginary = 0.0, 0.0
+            for k in range(ROWS):
+                left, right = ROWS * i + k, ROWS * k + j
+                real += g[left] * g[right] - g[SIZE + left] * g[SIZE + right]
+                imaginary += g[left] * g[SIZE + right] + g[SIZE + left] * g[right]
+            result[ROWS * i + j], result[SIZE + ROWS * i + j] = real, imaginary
+    return result

@@ -1,0 +1,142 @@
+"""The exponential of a matrix of su(3) as functions of a unit.
+
+The statements compute exactly what :mod:`codegen.ir.unitary_exponential` computes in doubles, by the same
+formulas.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.matrix_exponential import LEAST_DIGITS, largest_norms
+from codegen.ir.precision import Precision
+from codegen.ir.unitary_exponential import (
+    COORDINATES,
+    ROWS,
+    SIZE,
+    SpecialUnitaryExponential,
+    combined,
+    determinant,
+    half_trace,
+    most_squarings,
+    square_of_hermitian,
+)
+from codegen.run.language import Array, Assign, Call, For, Function, If, Statement, While
+from codegen.run.terms import INFINITY, Term, both, call, count, negated, number, real, select, whole
+
+_ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place")
+
+
+def unitary_functions(
+    function: SpecialUnitaryExponential, precision: Precision, coefficient: Term
+) -> list[Function]:
+    """Return the functions of a unit, callees first; ``coefficient`` is the table of the numbers 1/k!."""
+    return [_square(function), _exponential(function, precision, coefficient)]
+
+
+def _exponential(function: SpecialUnitaryExponential, precision: Precision, coefficient: Term) -> Function:
+    """Return the function that computes the exponential."""
+    a, result, work = real("a", COORDINATES), real("result", 2 * SIZE), real("work", 2 * SIZE)
+    y, scale, norm, squarings = real("y", COORDINATES), real("scale"), real("norm"), count("squarings")
+    least = largest_norms(precision.bits)[-1]
+    body: tuple[Statement, ...] = (
+        Array(y),
+        Array(work),
+        Assign(norm, call("sqrt", 1.3333333333333333 * half_trace(_coordinates(a)))),
+        Assign(scale, number(1.0)),
+        Assign(squarings, whole(0)),
+        While(
+            both(norm * scale > least, squarings < most_squarings(precision.bits)),
+            (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
+        ),
+        Assign(norm, norm * scale),
+        For(_PLACE, whole(COORDINATES), (Assign(y[_PLACE], a[_PLACE] * scale),)),
+        *_polynomial(y, norm, result, coefficient, precision),
+        For(
+            _TERM,
+            squarings,
+            (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
+        ),
+        # A norm that is not a number is lost, too.
+        If(
+            negated(norm <= least),
+            (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),
+        ),
+    )
+    about = (
+        "result = the exponential of the traceless skew-Hermitian 3 x 3 matrix with the coordinates a, real "
+        "parts of the entries first: Taylor polynomial modulo the characteristic polynomial, squared. All "
+        f"results are NaN if the bound of the relative error exceeds 2^-{LEAST_DIGITS}."
+    )
+    return Function(function.name, about, (a, result), body)
+
+
+def _polynomial(
+    y: Term, norm: Term, result: Term, coefficient: Term, precision: Precision
+) -> list[Statement]:
+    """Return the statements that evaluate the Taylor polynomial of the least sufficient degree."""
+    first, second, third, _ = largest_norms(precision.bits)
+    groups, group = count("groups"), count("group")
+    trace, det = real("half_trace"), real("determinant")
+    parts = [[real(f"{name}_{k}") for k in range(3)] for name in ("even", "odd")]
+    zero, coordinates = number(0.0), _coordinates(y)
+    steps: list[Statement] = []
+    for k in (3, 2, 1, 0):
+        # i^k = 1, i, -1, -i
+        for parity, part in enumerate(parts):
+            steps += _horner(part, trace, det, (coefficient[4 * group + k], k) if k % 2 == parity else None)
+    square = [real(f"square_{k}") for k in range(SIZE)]
+    squares = zip(square, square_of_hermitian(coordinates), strict=True)
+    entries = combined(coordinates, square, *parts)
+    return [
+        Assign(
+            groups,
+            select(
+                norm > third,
+                whole(4),
+                select(norm > second, whole(3), select(norm > first, whole(2), whole(1))),
+            ),
+        ),
+        Assign(trace, half_trace(coordinates)),
+        Assign(det, determinant(coordinates)),
+        *(Assign(x, zero) for part in parts for x in part),
+        Assign(parts[0][0], coefficient[4 * groups]),
+        For(group, groups, tuple(steps), reverse=True),
+        *(Assign(target, value) for target, value in squares),
+        *(Assign(result[k], value) for k, value in enumerate(entries)),
+    ]
+
+
+def _coordinates(array: Term) -> tuple[Term, ...]:
+    return tuple(array[k] for k in range(COORDINATES))
+
+
+def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | None) -> list[Statement]:
+    """Return the statements part = i^k/k! + H part for the real or the imaginary part of the coefficients."""
+    last = real("last")
+    constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
+    return [
+        Assign(last, part[2]),
+        Assign(part[2], part[1]),
+        Assign(part[1], part[0] + trace * last),
+        Assign(part[0], constant + det * last if added is not None else det * last),
+    ]
+
+
+def _square(function: SpecialUnitaryExponential) -> Function:
+    """Return the function that squares a complex matrix."""
+    g, result, i, j, k = real("g", 2 * SIZE), real("result", 2 * SIZE), _ROW, _COLUMN, _TERM
+    re, im = real("real"), real("imaginary")
+    left, right = ROWS * i + k, ROWS * k + j
+    terms = (
+        Assign(re, re + (g[left] * g[right] - g[SIZE + left] * g[SIZE + right])),
+        Assign(im, im + (g[left] * g[SIZE + right] + g[SIZE + left] * g[right])),
+    )
+    entry = (
+        Assign(re, number(0.0)),
+        Assign(im, number(0.0)),
+        For(k, whole(ROWS), terms),
+        Assign(result[ROWS * i + j], re),
+        Assign(result[SIZE + ROWS * i + j], im),
+    )
+    body = For(i, whole(ROWS), (For(j, whole(ROWS), entry),))
+    about = "result = g g for a complex 3 x 3 matrix g, real parts of the entries first."
+    return Function(f"{function.name}_square", about, (g, result), (body,))
