@@ -6,16 +6,14 @@ method and options only, so the same arguments give the same bytes.
 
 from __future__ import annotations
 
-import re
-import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import PurePath
 from typing import Any
 
 from codegen import scenes
 from codegen.artifact import Artifact, digest
 from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
+from codegen.command_names import bare, quoted
 from codegen.error_estimate import order_of_estimate
 from codegen.errors import MethodError
 from codegen.ir.domain import FloatDomain
@@ -26,6 +24,7 @@ from codegen.ir.program import Program
 from codegen.ir.smoothness import features
 from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
+from codegen.kernel.compensation import compensated as add_carries
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
@@ -41,6 +40,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.run.trial import PARTS
+from codegen.run_options import observed_run, refuse_with_carries
 from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
 from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem
@@ -55,6 +55,7 @@ SINGLE_IS = "single: constants are rounded once, implicit stages converge to sin
 NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
 """A remark in the header of emitted code, for a scene whose field is not smooth."""
 
+COMPENSATED = "compensated: the second half of the state is the rounding errors, which are zero initially"
 COUNTED = "; the numbers of sweeps above are for double precision"
 """A remark in the header if the solvers were compared in double precision."""
 
@@ -92,6 +93,8 @@ class Compiled(Optimised):
     solvers: tuple[Choice, ...] = ()
     asked: str = AUTO
     form: ClassicalForm | None = None
+    compensated: bool = False
+    """True if the state contains a carry for each coordinate."""
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
@@ -115,6 +118,10 @@ def compile_method(
     jacobian: bool = False,
     form: str = PRINTED,
     family: str = "",
+    integrate: bool = False,
+    events: int = 0,
+    dense: bool = False,
+    compensate: bool = False,
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -124,7 +131,11 @@ def compile_method(
     solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
     embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
-    (:func:`codegen.method.method_of`). Errors: SceneError, MethodError, UnknownName, TableauError.
+    (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
+    times, ``events`` is the number of its event functions, and ``dense`` uses the continuous extension of the
+    tableau at output times. ``compensate`` extends the state by the carries of compensated summation
+    (:mod:`codegen.kernel.compensation`). Errors: SceneError, MethodError, UnknownName,
+    TableauError.
     """
     scene = scenes.problem_of(scene)
     parameters = texts(parameters, "parameters", "alpha=1/2")
@@ -140,7 +151,7 @@ def compile_method(
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
     if scene.matrices is not None and not lowering(method.family).in_coordinates:
-        return _with_arrays(scene, method, jacobian)
+        return _with_arrays(scene, method, jacobian, integrate or events or dense or compensate)
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates, degree = [], lowering(method.family).degree(method)
@@ -153,9 +164,15 @@ def compile_method(
     if known_solver(solver) and best.kernel.loops:
         kernel, choices = solved(best.program, problem, start_of(scene), solver, best.kernel)
         best = replace(best, kernel=kernel, solvers=choices, asked=solver)
+    if compensate:
+        refuse_with_carries(method, {"jacobian": jacobian, "adaptive": method.adaptive, "dense": dense})
+        best = compensated(best)
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
+    if integrate or events or dense:
+        observed = observed_run(method, scene, degree, events, dense)
+        best = replace(best, kernel=replace(best.kernel, observed=observed))
     if degree and method.adaptive:
         return replace(best, kernel=with_step_control(best.kernel, problem, degree))
     estimate = best.kernel.estimate
@@ -164,15 +181,23 @@ def compile_method(
     return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
 
 
+def compensated(compiled: Compiled) -> Compiled:
+    """Return a compiled method with carries; raise MethodError if the step adds no increment to the state."""
+    kernel = add_carries(compiled.kernel, compiled.program, compiled.problem)
+    return replace(compiled, kernel=kernel, compensated=True)
+
+
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module also has a function that steps many independent systems."""
     return replace(compiled, kernel=replace(compiled.kernel, batch=True))
 
 
-def _with_arrays(scene: Problem, method: Method, jacobian: bool) -> Compiled:
+def _with_arrays(scene: Problem, method: Method, jacobian: bool, run: bool | int) -> Compiled:
     """Return a method on a scene whose field is given by formulas of matrices."""
-    if jacobian:
-        what = "the derivative of a step for a scene with large matrices"
+    refused = "the derivative of a step" if jacobian else ""
+    refused = refused or "a run to an end time, or compensated summation," * bool(run)
+    if refused:
+        what = f"{refused} for a scene with large matrices"
         raise MethodError(what, where=scene.name, expected="a scene with formulas in coordinates")
     own = array_method(scene, method)
     kernel = own.kernel
@@ -208,6 +233,10 @@ def emit(
     form: str = PRINTED,
     family: str = "",
     batch: bool = False,
+    integrate: bool = False,
+    events: int = 0,
+    dense: bool = False,
+    compensate: bool = False,
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -219,9 +248,12 @@ def emit(
     with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks:
     ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
     classical form of the scene, by default the equations as printed. ``batch`` adds a C function that steps
-    many independent systems (:meth:`codegen.integrator.Integrator.run_batch`). Errors: the errors of
-    :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
-    name in C.
+    many independent systems (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a
+    given end time with output at given times and, if adaptive, bounds on step sizes. ``events`` is the number
+    of event functions of this run; ``dense`` uses the continuous extension of the tableau at output times.
+    ``compensate`` extends the state by the carries of compensated summation, which are zero initially.
+    Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and InputError for a
+    prefix that is not a valid name in C.
     """
     known_target(target)
     known_precision(precision)
@@ -239,6 +271,10 @@ def emit(
             solver=solver,
             form=form,
             family=text(family, "family", "a family, such as rkmk(2)"),
+            integrate=integrate,
+            events=events,
+            dense=dense,
+            compensate=compensate,
         )
         compiled = with_batch(compiled) if batch else compiled
     named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
@@ -300,6 +336,11 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += ["--adaptive"] if compiled.method.adaptive else []
     options += ["--batch"] if compiled.kernel.batch else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
+    observed = compiled.kernel.observed
+    options += ["--integrate"] if observed is not None and not observed.events else []
+    options += ["--dense"] if observed is not None and observed.extension is not None else []
+    options += [f"--events {observed.events}"] if observed is not None and observed.events else []
+    options += ["--compensate"] if compiled.compensated else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
@@ -315,6 +356,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     single = target is not DOUBLE
     # A method without a tableau has no coefficients that could be rounded.
     tableau = method.coefficients is not None
+    carries = (0.0,) * (len(scene.symbols) if compiled.compensated else 0)
     digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
     return Recipe(
         title=f"{scene.title}: one step by {method.label}",
@@ -330,8 +372,10 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
             *(("solved by", choice.text()) for choice in compiled.solvers),
             *((("precision", SINGLE_IS + COUNTED * bool(compiled.solvers)),) if single else ()),
             *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
+            *_output_facts(compiled.kernel),
+            *((("summation", COMPENSATED),) if compiled.compensated else ()),
         ),
-        initial=start_of(scene),
+        initial=(*start_of(scene), *carries),
         h=float((last - first) / PARTS),
         steps=PARTS,
         defaults={p: float(scene.parameters[p]) for p in scene.runtime},
@@ -339,6 +383,15 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
         command=command,
         version=__version__,
     )
+
+
+def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
+    """Return the line of the header about the continuous extension, if the module has one."""
+    extension = None if kernel.observed is None else kernel.observed.extension
+    if extension is None:
+        return ()
+    text = f"inside steps by the continuous extension of the tableau, of order {extension.order} and degree"
+    return (("output", f"{text} {extension.degree} in the coordinates of the exponential"),)
 
 
 def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
@@ -451,23 +504,3 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
 def flows_of(problem: Problem) -> str:
     """Describe the exact flows that a splitting composes."""
     return "; ".join(f"{name}, {flow.text()}" for name, flow in problem.flows.items())
-
-
-def bare(name: str) -> str:
-    """Return a name without folders, because emitted text must not contain a path of the machine.
-
-    >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
-    ('vcg:mine.toml', 'top.py')
-    """
-    name, bracket, values = name.partition("[")
-    family, colon, rest = name.rpartition(":") if re.match(r"[a-z_]+(\(\d+\))?:", name) else ("", "", name)
-    return f"{family}{colon}{PurePath(rest).name}{bracket}{values}"
-
-
-def quoted(word: str) -> str:
-    """Quote a word if a shell would otherwise interpret characters in it.
-
-    >>> quoted("rkmk(2):rk4"), quoted("linear_oscillator+u")
-    ("'rkmk(2):rk4'", 'linear_oscillator+u')
-    """
-    return shlex.quote(word)

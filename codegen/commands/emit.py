@@ -58,6 +58,28 @@ if TYPE_CHECKING:
     help="Also emit a function with step-size control; the embedded row of the tableau estimates the error.",
 )
 @click.option(
+    "--integrate",
+    is_flag=True,
+    help="Also emit a run to a given end time: output at given times, bounds on steps, resuming.",
+)
+@click.option(
+    "--dense",
+    is_flag=True,
+    help="Compute output inside steps by the continuous extension of the tableau; implies --integrate.",
+)
+@click.option(
+    "--events",
+    type=click.IntRange(0),
+    default=0,
+    metavar="N",
+    help="Number of event functions whose zeros the run of --integrate finds; implies --integrate.",
+)
+@click.option(
+    "--compensate",
+    is_flag=True,
+    help="Use compensated summation: the state also contains the rounding error of each coordinate.",
+)
+@click.option(
     "--precision", default="double", help="Floating-point precision: double (the default) or single."
 )
 @click.option(
@@ -84,6 +106,10 @@ def command(
     jacobian: bool,
     batch: bool,
     adaptive: bool,
+    integrate: bool,
+    events: int,
+    dense: bool,
+    compensate: bool,
     precision: str,
     solver: str,
     explain: bool,
@@ -103,14 +129,27 @@ def command(
         orderconds emit dipole -m vcg:midpoint -t c -t python -o out
         orderconds emit driven_spin -m ambient:dop853 --adaptive --parameter nu -o out
     """
-    from codegen.emitter import bare, compile_method, emit_compiled, with_batch
+    from codegen.command_names import bare
+    from codegen.emitter import compile_method, emit_compiled, with_batch
     from codegen.printers import DEFAULT
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing; name the folder to write to, or give --explain or --json")
     _require_known(targets, precision)
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
+        scene,
+        method,
+        parameters,
+        inputs,
+        frame,
+        adaptive,
+        solver=solver,
+        jacobian=jacobian,
+        form=form,
+        integrate=integrate,
+        events=events,
+        dense=dense,
+        compensate=compensate,
     )
     compiled = with_batch(compiled) if batch else compiled
     _warn(compiled, scene, method)

@@ -130,6 +130,14 @@ class Lowering(ABC):
         """
         return 0
 
+    def extension(self, problem: Problem, method: Method) -> Program | None:
+        """Return a program whose outputs are the coefficients of theta, theta^2, ... of the coordinates of
+        the solution inside a step; None if the method has no continuous extension.
+
+        The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is this polynomial.
+        """
+        return None
+
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the family whose order conditions apply to the program; the conditions may depend on the
         scene."""

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 from orderconds import families
 from orderconds.argument import CONDITION_ORDER, TOLERANCE, described, integer, real
+from orderconds.checking.continuous import extension_order
 from orderconds.checking.limits import Limits, Meter
 from orderconds.checking.order import DOUBLE, FamilyOrder, family_order, first_failing
-from orderconds.checking.report import EmbeddedOrder, Report
+from orderconds.checking.report import EmbeddedOrder, ExtensionOrder, Report
 from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.tableau import Tableau
@@ -69,7 +70,9 @@ def check(
     facts = proof.facts if proof else ()
     embedded = _embedded(enclosed, [f for f, _ in wanted])
     computed = properties(tableau)
+    dense = extension_order(tableau)
     broken += _broken_claims(tableau, computed, embedded) if family is None else []
+    broken += _broken_extension(dense) if dense is not None and family is None else []
     broken += _missing_claims(enclosed, tableau) if complete else []
     orders = _named(_orders(enclosed, wanted, facts, order, Meter(limits or Limits())), tableau)
     if certified:
@@ -85,6 +88,7 @@ def check(
         proof=proof,
         work={f.label(): cost for f, _ in wanted if (cost := f.work(tableau)) is not None},
         embedded=embedded,
+        dense=dense,
         properties_claimed=bool(tableau.claims.properties),
         hint=_hint(given, orders),
     )
@@ -382,6 +386,15 @@ def _broken_claims(
         order = embedded.orders[embedded.own]
         reason = f"; {embedded.failing[0]}" if order < embedded.claimed and embedded.failing else ""
         yield f"the embedded row has order {order} ({embedded.own}), claimed {embedded.claimed}{reason}"
+
+
+def _broken_extension(dense: ExtensionOrder) -> Iterator[str]:
+    """Yield a message if the continuous extension has another order than claimed, or is not continuous."""
+    if dense.order != dense.claimed:
+        reason = f"; {dense.failing[0]}" if dense.failing else ""
+        yield f"the continuous extension has order {dense.order} (rk), claimed {dense.claimed}{reason}"
+    if dense.continuous is not True:
+        yield "the continuous extension does not end at the new state: some b_i(1) differs from b_i"
 
 
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
