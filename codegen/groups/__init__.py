@@ -10,26 +10,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeVar
 
 from codegen.errors import SceneError
+from codegen.groups import actions
+from codegen.groups.actions import *  # noqa: F403
 from codegen.groups.registry import Registry
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
-    from codegen.groups.actions import (
-        Action,
-        AdjointAction,
-        AffineAction,
-        CoadjointAction,
-        Columns,
-        Conjugation,
-        DiagonalAction,
-        FactorwiseAction,
-        LeftMultiplication,
-        Linear,
-        Motion,
-        RightMultiplication,
-        Rotation,
-        Stiefel,
-    )
+    from codegen.groups.actions import Action
     from codegen.groups.affine import Affine
     from codegen.groups.base import LieGroup
     from codegen.groups.cotangent import Cotangent
@@ -66,30 +53,16 @@ __all__ = [
     "SO3",
     "SU",
     "SU2",
-    "Action",
-    "AdjointAction",
     "Affine",
-    "AffineAction",
-    "CoadjointAction",
-    "Columns",
-    "Conjugation",
     "Cotangent",
-    "DiagonalAction",
-    "FactorwiseAction",
     "Galilean",
     "Heisenberg",
-    "LeftMultiplication",
     "LieGroup",
-    "Linear",
     "MatrixGroup",
-    "Motion",
     "Product",
-    "RightMultiplication",
     "Rn",
-    "Rotation",
     "Semidirect",
     "Sp",
-    "Stiefel",
     "Unitary",
     "Unitriangular",
     "get",
@@ -98,73 +71,36 @@ __all__ = [
     "unregister",
 ]
 
-LISTED = (
-    "Affine",
-    "Cotangent",
-    "Galilean",
-    "GL",
-    "Heisenberg",
-    "MatrixGroup",
-    "Product",
-    "Rn",
-    "S3",
-    "SE2",
-    "SE23",
-    "SE3",
-    "Semidirect",
-    "SL",
-    "SL2",
-    "SO",
-    "SO2",
-    "SO3",
-    "Sp",
-    "SU",
-    "SU2",
-    "Unitary",
-    "Unitriangular",
-)
+__all__ += actions.__all__
 
-lazy(
-    __name__,
-    actions=(
-        "Action",
-        "AdjointAction",
-        "AffineAction",
-        "CoadjointAction",
-        "Columns",
-        "Conjugation",
-        "FactorwiseAction",
-        "DiagonalAction",
-        "LeftMultiplication",
-        "Linear",
-        "Motion",
-        "RightMultiplication",
-        "Rotation",
-        "Stiefel",
-    ),
-    affine=("Affine",),
-    base=("LieGroup",),
-    cotangent=("Cotangent",),
-    galilean=("Galilean",),
-    gl=("GL",),
-    matrix=("MatrixGroup",),
-    product=("Product",),
-    rn=("Rn",),
-    s3=("S3",),
-    se2=("SE2",),
-    se23=("SE23",),
-    se3=("SE3",),
-    semidirect=("Semidirect",),
-    sl2=("SL2",),
-    so2=("SO2",),
-    so3=("SO3",),
-    su2=("SU2",),
-    sl=("SL",),
-    so=("SO",),
-    sp=("Sp",),
-    unitary=("SU", "Unitary"),
-    unitriangular=("Heisenberg", "Unitriangular"),
-)
+MODULES: dict[str, tuple[str, ...]] = {
+    "affine": ("Affine",),
+    "cotangent": ("Cotangent",),
+    "galilean": ("Galilean",),
+    "gl": ("GL",),
+    "matrix": ("MatrixGroup",),
+    "product": ("Product",),
+    "rn": ("Rn",),
+    "s3": ("S3",),
+    "se2": ("SE2",),
+    "se23": ("SE23",),
+    "se3": ("SE3",),
+    "semidirect": ("Semidirect",),
+    "sl": ("SL",),
+    "sl2": ("SL2",),
+    "so": ("SO",),
+    "so2": ("SO2",),
+    "so3": ("SO3",),
+    "sp": ("Sp",),
+    "su2": ("SU2",),
+    "unitary": ("SU", "Unitary"),
+    "unitriangular": ("Heisenberg", "Unitriangular"),
+}
+"""The names of the group classes of each module. A line of this table registers a group."""
+
+LISTED = tuple(sorted((name for names in MODULES.values() for name in names), key=str.lower))
+
+lazy(__name__, base=("LieGroup",), **MODULES)
 
 GROUPS: Registry[LieGroup] = Registry("group", __name__, LISTED)
 

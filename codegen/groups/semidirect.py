@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING
 
+from codegen.errors import SceneError
 from codegen.groups.base import C, LieGroup
 from codegen.groups.capabilities import (
     CayleyMap,
@@ -20,6 +21,7 @@ from codegen.groups.capabilities import (
     RightTrivialisation,
     Term,
 )
+from codegen.groups.construction import check_factor
 from codegen.groups.cubic_ad import DEXP
 from codegen.groups.linear_algebra import S, Vector
 from codegen.groups.representations import Pair, Representation
@@ -54,6 +56,12 @@ class Semidirect(
     covering_formula = "the image of q in the linear factor; the vectors are those of q"
 
     def __init__(self, linear: LieGroup, representation: Representation, name: str = "") -> None:
+        check_factor("a semidirect product", linear)
+        if not isinstance(representation, Representation):
+            raise SceneError(
+                f"the representation {representation!r} of {linear.name}",
+                expected="an object of codegen.groups.representations, such as MatrixColumns()",
+            )
         linear.require(representation.needs)
         self.linear, self.representation = linear.require(Coadjoint), representation
         self.width = representation.dim(linear)

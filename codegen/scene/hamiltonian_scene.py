@@ -97,8 +97,8 @@ def _check_coordinates(name: str, coordinates: str) -> None:
         raise SceneError(
             f"coordinates={coordinates!r} on T*G",
             where=name,
-            expected=f'coordinates="{EXPONENTIAL}": the other maps are known on G, not on T*G, and variational '
-            "methods are derived for the exponential map",
+            expected=f'coordinates="{EXPONENTIAL}": the other maps are known on G, not on T*G, and '
+            "variational methods are derived for the exponential map",
             hint="remove coordinates, or write the equations as a FieldScene",
         )
 
