@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from codegen.errors import SceneError
 from codegen.groups.base import C, LieGroup
 from codegen.groups.capabilities import (
+    BodyFrame,
     CayleyMap,
     ClosedFormSeries,
     Coadjoint,
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 
 class Semidirect(
     ClosedFormSeries,
-    LeftTranslation,
+    BodyFrame,
     RightTrivialisation,
     Projection,
     PointMotions,
@@ -162,6 +163,13 @@ class Semidirect(
         turned = self.point_velocity(d, x, moved, translated=False)
         tail = _difference(moved, tuple(half * c for c in turned))
         return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
+
+    def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return (g exp x, a + rho(g) phi(x) u)."""
+        (q, a), (y, u) = self._element(g), self._split(x)
+        moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
+        ahead = self._each(lambda v: self.representation.act(d, self.linear, q, v), moved)
+        return self.linear.require(BodyFrame).mulexp(d, q, y) + _sum(a, ahead)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return ([x, y], x.v - y.u)."""
