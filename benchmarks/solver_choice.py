@@ -123,7 +123,7 @@ class Row:
 
     @property
     def robust_preferred(self) -> bool:
-        """Whether the chosen solver is robust and the fastest solver is not."""
+        """True if the chosen solver is robust and the fastest solver is not."""
         fastest = self.sides.get(self.fastest)
         return fastest is not None and self.sides[self.chosen].robust and not fastest.robust
 

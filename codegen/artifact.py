@@ -58,7 +58,7 @@ class Artifact:
                 return write_texts({folder / name: text for name, text in texts.items()})
         except OSError as error:
             raise InputError(
-                f"cannot write there: {reason(error)}",
+                f"cannot write to this path: {reason(error)}",
                 where=str(folder),
                 expected="a folder that can be written to",
             ) from None

@@ -113,7 +113,7 @@ def build(
         except OSError as error:
             if error.errno not in UNWRITABLE or not lasting:
                 raise InputError(
-                    f"cannot write there: {reason(error)}",
+                    f"cannot write to this path: {reason(error)}",
                     where=str(directory),
                     hint="free some space, or set XDG_CACHE_HOME to another folder",
                 ) from None

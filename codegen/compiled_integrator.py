@@ -69,6 +69,33 @@ class CompiledIntegrator(Integrator):
             raise begun.failed(status, accepted[0], final, why)
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
+    def _call_batch(self, table: Any, moment: tuple[float, float, int], values: Any, held: Any) -> Any:
+        if not self.interface.batch:
+            return super()._call_batch(table, moment, values, held)
+        import numpy as np
+
+        (t, h, steps), number, real = moment, table.shape[1], self.interface.format.c_type
+        statuses, completed = np.zeros(number, np.int32), np.zeros(number, np.uintp)
+
+        def pointer(array: Any, kind: str) -> Any:
+            return self._ffi.cast(f"{kind} *", self._ffi.from_buffer(array))
+
+        time = [t] if self.interface.time else []
+        data = [pointer(x, real) for x in (values, held) if len(x)]
+        run = getattr(self._library, f"{self.interface.prefix}run_batch")
+        run(
+            number,
+            number,
+            pointer(table, real),
+            *time,
+            h,
+            steps,
+            *data,
+            pointer(statuses, "int"),
+            pointer(completed, "size_t"),
+        )
+        return statuses, completed
+
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
         """Yield the arguments for inputs and statistics. After the call, raise the error that an input

@@ -6,7 +6,6 @@ method and options only, so the same arguments give the same bytes.
 
 from __future__ import annotations
 
-import keyword
 import re
 import shlex
 from collections.abc import Mapping, Sequence
@@ -18,12 +17,14 @@ from codegen import scenes
 from codegen.artifact import Artifact, digest
 from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
 from codegen.error_estimate import order_of_estimate
+from codegen.errors import MethodError
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
 from codegen.ir.smoothness import features
+from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
@@ -32,7 +33,9 @@ from codegen.kernel.variations import Variations
 from codegen.lower import lower, lower_composed, lowering, method_for, problem_for
 from codegen.method import Method
 from codegen.passes import Optimiser, PassReport, optimise, summaries
+from codegen.prefix import default_prefix, prefix_of
 from codegen.printers import DEFAULT
+from codegen.printers import names as target_names
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
@@ -59,10 +62,6 @@ SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
 """The cost of operations in units of an addition; two forms of a step are compared by these costs. Additions
 and products cost 1, and functions that are not listed cost 12."""
-
-HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""Names of the headers and modules that emitted files or their examples include. No emitted file may have
-such a name."""
 
 
 @dataclass(frozen=True)
@@ -98,6 +97,7 @@ class Compiled(Optimised):
 def optimise_method(scene: Problem, method: Method) -> Optimised:
     """Return the optimised step program of a method on a scene. The group need not have closed forms of
     its operations, because no kernel is built."""
+    scene.require_formulas()
     problem, lowered = problem_for(scene, method), lower(scene, method)
     program, trace = optimise(lowered, problem, composed=lower_composed(scene, method))
     return Optimised(scene, method, problem, lowered, program, trace)
@@ -139,6 +139,8 @@ def compile_method(
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
+    if scene.matrices is not None and not lowering(method.family).in_coordinates:
+        return _with_arrays(scene, method, jacobian)
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates, degree = [], lowering(method.family).degree(method)
@@ -160,6 +162,24 @@ def compile_method(
     if estimate is None:
         return best
     return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
+
+
+def with_batch(compiled: Compiled) -> Compiled:
+    """Return a compiled method whose module also has a function that steps many independent systems."""
+    return replace(compiled, kernel=replace(compiled.kernel, batch=True))
+
+
+def _with_arrays(scene: Problem, method: Method, jacobian: bool) -> Compiled:
+    """Return a method on a scene whose field is given by formulas of matrices."""
+    if jacobian:
+        what = "the derivative of a step for a scene with large matrices"
+        raise MethodError(what, where=scene.name, expected="a scene with formulas in coordinates")
+    own = array_method(scene, method)
+    kernel = own.kernel
+    if kernel.estimate is not None:
+        order = order_of_estimate(method, scene)
+        kernel = replace(kernel, estimate=replace(kernel.estimate, order=order))
+    return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
 
 
 def work(kernel: Kernel) -> int:
@@ -187,6 +207,7 @@ def emit(
     jacobian: bool = False,
     form: str = PRINTED,
     family: str = "",
+    batch: bool = False,
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -197,7 +218,8 @@ def emit(
     become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run
     with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks:
     ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
-    classical form of the scene, by default the equations as printed. Errors: the errors of
+    classical form of the scene, by default the equations as printed. ``batch`` adds a C function that steps
+    many independent systems (:meth:`codegen.integrator.Integrator.run_batch`). Errors: the errors of
     :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
     name in C.
     """
@@ -218,6 +240,7 @@ def emit(
             form=form,
             family=text(family, "family", "a family, such as rkmk(2)"),
         )
+        compiled = with_batch(compiled) if batch else compiled
     named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
     named["method"] = bare(str(method)) if whole else compiled.method.label
@@ -275,6 +298,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options = ["--frame body"] if scene.body_group is not None else []
     options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
     options += ["--adaptive"] if compiled.method.adaptive else []
+    options += ["--batch"] if compiled.kernel.batch else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
@@ -340,6 +364,14 @@ def emit_kernel(
     target.
     """
     interface = Interface.of(kernel, prefix, precision)
+    if kernel.batch and not known_target(target).batches:
+        able = next(name for name in target_names() if known_target(name).batches)
+        raise InputError(
+            f"the target {target}",
+            where="--batch",
+            expected="a target with batches",
+            hint=f"add --target {able}",
+        )
     files = known_target(target).print_module(kernel, interface, recipe)
     manifest = {
         **(about or {}),
@@ -439,41 +471,3 @@ def quoted(word: str) -> str:
     ("'rkmk(2):rk4'", 'linear_oscillator+u')
     """
     return shlex.quote(word)
-
-
-def default_prefix(scene: Problem, method: Method) -> str:
-    """Return the prefix SCENE_FAMILY_TABLEAU_, or SCENE_TABLEAU_ if the tableau's name starts with the
-    family.
-
-    A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
-    """
-    family = method.family + ("" if method.cutoff is None else str(method.cutoff))
-    tableau = method.name
-    named = bool(tableau) and tableau.startswith(method.family)
-    parts = [scene.name, *([] if named else [family]), tableau]
-    name = re.sub(r"\W", "_", "_".join(filter(None, parts)), flags=re.ASCII)
-    return prefix_of(name, "this name is the scene's file name: rename the file, or use --prefix NAME")
-
-
-def prefix_of(name: str, hint: str = "") -> str:
-    """Return a prefix that ends in one underscore; raise an InputError if it is not an identifier of C and
-    Python.
-
-    The names of the files begin with the prefix. It must not be a keyword, because Python cannot import a
-    module with this name. It must not be the name of a header or module that emitted code includes.
-    """
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
-        raise InputError(
-            f"the prefix {name!r}",
-            where="--prefix",
-            expected="a letter, then letters, digits and _",
-            hint=hint,
-        )
-    module = name.rstrip("_")
-    if keyword.iskeyword(module) or module in HEADERS:
-        raise InputError(
-            f"the prefix {name!r}",
-            where="--prefix",
-            expected="a name that is neither a keyword of Python nor a standard header",
-        )
-    return module + "_"

@@ -12,3 +12,12 @@ class SceneError(InputError):
 
 class MethodError(InputError):
     """A method that cannot be used on a scene, or a method name that cannot be read."""
+
+
+class UnclaimedTableau(MethodError):
+    """A tableau that claims no order in any family that accepts the scene.
+
+    ``claimed`` are the families in which the tableau claims an order.
+    """
+
+    claimed: tuple[str, ...] = ()

@@ -14,9 +14,11 @@ from enum import IntEnum
 from functools import cached_property
 from typing import Any
 
+from codegen import lanes
 from codegen.argument import count, described, monotone, real
 from codegen.artifact import Artifact
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
+from codegen.lanes import BatchRun
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.state_form import Batch, Fields, State, StateForm, batch_of, read
@@ -312,6 +314,67 @@ class Integrator(ABC):
         restore = begun.form.restore
         return Arrival(restore(rows[-1]), t, h, accepted, rejected, restore(rows[:-1]))
 
+    def run_batch(
+        self,
+        states: State,
+        h: float,
+        steps: int,
+        t: float = 0.0,
+        inputs: object = None,
+        *,
+        out: object = None,
+        **parameters: object,
+    ) -> BatchRun:
+        """Return the states of many independent systems after ``steps`` steps of size h from time t.
+
+        ``states`` has shape (N, size), one state in each row, or is a tuple of such arrays for the parts of a
+        state. A parameter is a number, or an array of N numbers. ``inputs`` are constant in all steps: an
+        array of shape (number of inputs,) or (N, number of inputs). ``out`` is an array of shape (N, size) in
+        Fortran order, which receives the result; if ``out is states``, no state is copied.
+
+        A failed system raises no error: the result contains its status (:class:`Status`), its number of
+        completed steps, and its last good state. Other systems are not affected. Emit the module with
+        ``batch=True`` to step the systems by vector instructions. Other modules step one system after
+        another, with the same arguments and results.
+        """
+        size, real_type, names = self.interface.size, self.interface.format.c_type, self.interface.inputs
+        t, h, steps = real(t, "t"), real(h, "h"), count(steps, "steps")
+        if bool(names) != (inputs is not None):
+            raise TypeError(f"expected {'values for ' + ', '.join(names) if names else 'no inputs'}")
+        if out is not None:
+            table = lanes.in_place(out, size, real_type)
+            if out is not states:
+                given = lanes.columns(states, size, real_type, self.fields)
+                if given.shape != table.shape:
+                    raise ValueError(f"expected {given.shape[1]} states in out, found {table.shape[1]}")
+                table[...] = given
+        else:
+            table = lanes.columns(states, size, real_type, self.fields)
+        number = table.shape[1]
+        pairs = lanes.chosen(self.interface.parameters, self.defaults, parameters)
+        values = lanes.rows_of(pairs, number, real_type)
+        held = lanes.rows_of(_held(names, inputs, number), number, real_type)
+        statuses, completed = self._call_batch(table, (t, h, steps), values, held)
+        return BatchRun(table.T, statuses, completed)
+
+    def _call_batch(self, table: Any, moment: tuple[float, float, int], values: Any, held: Any) -> Any:
+        """Step all systems in place, and return their statuses and numbers of completed steps."""
+        import numpy as np
+
+        (t, h, steps), number = moment, table.shape[1]
+        statuses, completed = np.zeros(number, np.int32), np.full(number, steps, np.uintp)
+        form, _ = read([0.0] * self.interface.size, self.interface.size)
+        for i in range(number):
+            inputs = held[:, i].tolist()
+            signal = (lambda t, inputs=inputs: inputs) if self.interface.inputs else None
+            begun = Begun(form, table[:, i].tolist(), values[:, i].tolist(), signal)
+            try:
+                table[:, i], _ = self._call(begun, t, h, steps, 0)
+            except StepFailed as failure:
+                statuses[i], completed[i] = failure.status, failure.step
+                table[:, i] = failure.state
+        return statuses, completed
+
     def jacobian(
         self,
         state: State,
@@ -403,6 +466,20 @@ def _numbers(inputs: object) -> tuple[float, ...]:
     if isinstance(inputs, str) or not isinstance(inputs, Iterable):
         raise TypeError(f"expected a sequence of numbers for inputs, found {described(inputs)}")
     return tuple(real(x, "inputs") for x in inputs)
+
+
+def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
+    """Return the name and the values of each run-time input of a batch."""
+    import numpy as np
+
+    if not names:
+        return []
+    table = np.asarray(inputs)
+    if table.shape not in ((len(names),), (number, len(names))):
+        raise ValueError(
+            f"expected inputs of shape ({len(names)},) or ({number}, {len(names)}), found {table.shape}"
+        )
+    return [(name, table[..., k]) for k, name in enumerate(names)]
 
 
 def _joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:

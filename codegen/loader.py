@@ -15,6 +15,7 @@ from codegen.compiled_integrator import CompiledIntegrator
 from codegen.integrator import Integrator
 from codegen.interpreted_integrator import InterpretedIntegrator
 from codegen.printers import target as known_target
+from codegen.printers.c.module import FLAGS, VECTOR_FLAGS
 from codegen.printers.interface import Interface
 from orderconds.argument import described
 from orderconds.errors import InputError
@@ -49,12 +50,15 @@ def load_compiled(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Integrator:
     """Return the integrator of a C module; the module is compiled unless the cache contains it."""
+    # Loops over many systems become vector instructions only at -O3, with the instructions of this machine,
+    # and if square roots need not set errno.
+    flags = (*FLAGS, *(VECTOR_FLAGS if interface.batch else ()))
     try:
-        return CompiledIntegrator(interface, defaults, build(files))
+        return CompiledIntegrator(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
         # The content of the cached file has the recorded digest, but it is no library, or functions of the
         # module are missing in it. The file is built again.
-        return CompiledIntegrator(interface, defaults, build(files, again=True))
+        return CompiledIntegrator(interface, defaults, build(files, flags, again=True))
 
 
 def load_interpreted(

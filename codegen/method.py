@@ -12,9 +12,10 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from codegen.errors import MethodError
+from codegen.errors import MethodError, UnclaimedTableau
 from codegen.ir.number import Number
 from orderconds.argument import described
+from orderconds.errors import InputError
 from orderconds.families import Family, family_class, get, names
 from orderconds.families.base import all_nonzero
 from orderconds.ring import QQ
@@ -206,33 +207,54 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
     return Method(match["family"], None, number)
 
 
-def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> MethodError:
+def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> UnclaimedTableau:
     """Return the error for a tableau that none of the families can read."""
     formats = sorted({f for name in families for f in family_class(name).formats})
-    return MethodError(
+    error = UnclaimedTableau(
         f"the tableau {tableau.name} has the format {tableau.family}; it claims no order under "
         f"{', '.join(families)}",
         where=text,
         expected=f"a tableau of format {' or '.join(formats)}",
         hint=f"write for example {_example(families)}",
     )
+    error.claimed = _claimed(tableau)
+    return error
+
+
+def _claimed(tableau: Tableau) -> tuple[str, ...]:
+    """Return the families in which a tableau claims an order."""
+    return tuple(claim.family.partition("(")[0] for claim in tableau.claims.orders)
 
 
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
-) -> MethodError:
+) -> UnclaimedTableau:
     """Return the error for a tableau that claims no order under the families that can read it."""
     family = match["family"]
-    fitting = [f for f in readable if not _divides_by_zero(f, tableau)]
+    fitting = [f for f in readable if _fits(f, tableau)]
     # If the family has a cut-off, the hint contains one, because a name without a cut-off would be refused,
     # too.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
-    return MethodError(
+    error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
         where=text,
         expected="a cut-off in the method's name" if family else "a family in the method's name",
         hint=f"write {label}",
     )
+    error.claimed = _claimed(tableau)
+    return error
+
+
+def _fits(family: str, tableau: Tableau) -> bool:
+    """Return True if the tableau defines a method of the family."""
+    method = tableau.read_as(family_class(family).formats)
+    if method is None or _divides_by_zero(family, tableau):
+        return False
+    try:
+        family_class(family)().require(method, tableau.ring)
+    except InputError:
+        return False
+    return True
 
 
 def _label(family: str, tableau: str) -> str:
@@ -249,13 +271,24 @@ def _divides_by_zero(family: str, tableau: Tableau) -> bool:
 
 
 def _example(families: Sequence[str]) -> str:
-    """Return the label of a method of the first family that has a tableau in the library."""
-    for name in families:
-        kind = family_class(name)
-        for example in available():
-            if kind.has_tableau and Tableau.load(find(example)).read_as(kind.formats) is not None:
-                return _label(name, example)
+    """Return the label of a method: the first of these families with a tableau of the library that claims an
+    order in the family. Tableaux of the library claim no order in some families, which then only need to
+    read the tableau."""
+    for name in (f for f in families if family_class(f).has_tableau):
+        for tableau in _library():
+            claims = [c for c in tableau.claims.orders if c.family == name]
+            if claims:
+                cutoff = max(claims, key=lambda c: c.order).cutoff
+                return f"{name}:{tableau.name}" if cutoff is None else f"{name}({cutoff}):{tableau.name}"
+        for tableau in _library():
+            if _fits(name, tableau):
+                return _label(name, tableau.name)
     raise AssertionError(families)
+
+
+def _library() -> Iterator[Tableau]:
+    """Yield the tableaux of the library; each is loaded when it is needed."""
+    return (Tableau.load(find(name)) for name in available())
 
 
 def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:

@@ -65,8 +65,8 @@ def _entry(module: object, where: str) -> Entry:
 
 
 def contents(listed: list[Entry]) -> dict[str, str]:
-    """Return the text of every file that belongs in the folder, including manifests, by the path of the file
-    in the folder."""
+    """Return the expected files of the folder, including manifests: a dictionary from paths relative to the
+    folder to the texts of the files."""
     files: dict[str, str] = {}
     manifests: dict[str, list[dict[str, object]]] = {}
     for entry in listed:
@@ -145,5 +145,5 @@ def write(directory: Path, files: dict[str, str]) -> list[Difference]:
                 with writing(path.parent):
                     write_text(path, files[difference.path])
     except OSError as error:
-        raise InputError(f"cannot write there: {reason(error)}", where=str(directory)) from None
+        raise InputError(f"cannot write to this path: {reason(error)}", where=str(directory)) from None
     return changed

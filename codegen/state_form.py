@@ -65,16 +65,16 @@ class StateForm:
 def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[float]]:
     """Return the form of a state and its numbers.
 
-    ValueError is raised unless the state has ``size`` real numbers, and unless each part of a tuple has the
-    size of its field, or of several consecutive fields.
+    The state must have ``size`` real numbers, and each part of a tuple must have the size of its field, or
+    of several consecutive fields. Otherwise ValueError is raised.
 
     >>> form, numbers = read(([[1, 0], [0, 1]], [2, 3]), 6)
     >>> numbers, form.restore(numbers)
     ([1.0, 0.0, 0.0, 1.0, 2.0, 3.0], ([[1.0, 0.0], [0.0, 1.0]], [2.0, 3.0]))
     >>> read(([2, 3], [[1, 0], [0, 1]]), 6, (("q", 4), ("mu", 2)))
     Traceback (most recent call last):
-    ValueError: expected the parts (q, mu) of 4 and 2 numbers in state, found parts of 2 and 4 numbers; \
-write the parts in this order
+    ValueError: expected a state with the parts (q, mu) of 4 and 2 numbers in this order, found parts of \
+2 and 4 numbers
     """
     is_tuple = isinstance(state, tuple) and any(map(_has_entries, state))
     parts = tuple(state) if is_tuple else (state,)
@@ -102,8 +102,8 @@ def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
     if not ends.issuperset(accumulate(sizes)):
         names, known = ", ".join(name for name, _ in fields), _listed([size for _, size in fields])
         raise ValueError(
-            f"expected the parts ({names}) of {known} numbers in state, found parts of {_listed(sizes)} "
-            "numbers; write the parts in this order"
+            f"expected a state with the parts ({names}) of {known} numbers in this order, found parts of "
+            f"{_listed(sizes)} numbers"
         )
 
 

@@ -3,9 +3,10 @@ truncated series in h.
 
 A step of a method is the exact flow, over the time h, of a modified field f~ = f + h f_2 + h^2 f_3 + ... The
 terms of f~ describe how the numerical solution differs from the exact solution over long times. For a
-symplectic method they form a modified Hamiltonian, which the method conserves (Hairer, Lubich and Wanner,
-*Geometric Numerical Integration*, Chapter IX). On Lie groups the terms are elementary differentials along
-frozen fields and their commutators (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+symplectic method, f~ is the vector field of a modified Hamiltonian, which the method conserves (Hairer,
+Lubich and Wanner, *Geometric Numerical Integration*, Chapter IX). On Lie groups the terms are elementary
+differentials along frozen fields and their commutators (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011)
+295).
 
 The *modifying* field solves the inverse problem: if the method is applied to the modifying field, the result
 is the exact flow of f. This field is a series of the same form (Chartier, Hairer and Vilmart, Math. Comp. 76
@@ -165,8 +166,8 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of ``field``, an element of a free Lie algebra. The trees of each forest are in the
-    order of action."""
+    """Yield the terms of ``field``, an element of a free Lie algebra, that have this order. The trees in the
+    text of a term are in the order of action."""
 
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))

@@ -120,7 +120,8 @@ class Program(click.Group):
                 hint=f"type: orderconds {close[0] if close else '--help'}",
             )
         resolved = super().resolve_command(ctx, args)
-        if resolved[1] is not None and not ctx.resilient_parsing:  # completion has incomplete command lines
+        # Shell completion parses incomplete command lines, so repeated options are not refused there.
+        if resolved[1] is not None and not ctx.resilient_parsing:
             _refuse_repetition(resolved[1], click.Context(resolved[1], parent=ctx, info_name=name), args[1:])
         return resolved
 

@@ -124,7 +124,7 @@ class Sampler:
         return self.group.mul(self.domain, exp(self.domain, self.vector()), exp(self.domain, self.vector()))
 
     def equal(self, a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:
-        """Whether two tuples agree: exactly, or to rounding relative to the larger."""
+        """Return True if two tuples agree: exactly, or to rounding relative to the larger."""
         pairs = list(zip(a, b, strict=True))
         if isinstance(self.domain, SeriesDomain):
             return all(self.domain.ring.is_zero(x - y) is True for x, y in pairs)
@@ -188,6 +188,12 @@ def quadratic(rng: random.Random, symbols: Any, terms: int = 6) -> Any:
     return total
 
 
+def polynomials(rng: random.Random, n: int, degree: int = 6) -> list[Any]:
+    """Return n random polynomials in the time; their degree exceeds that of quadrature rules of order six."""
+    t = Symbol("t") / 2
+    return [sum(rng.choice((-2, -1, 1, 2)) * t**k for k in range(degree + 1)) / 2 for _ in range(n)]
+
+
 def rationals(rng: random.Random, n: int) -> list[Any]:
     """Return n small rational numbers, none of them zero."""
     return [Rational(rng.choice((-3, -2, -1, 1, 2, 3)), rng.randint(1, 4)) for _ in range(n)]
@@ -218,6 +224,17 @@ def field_scene(name: str, seed: int = 0, time: bool = False) -> Any:
     start = {"SO(3)": quarter_turn(), "SO(3) x R^2": quarter_turn(), "S^3": UNIT}.get(name, [])
     y0 = [*start, *rationals(rng, n - len(start))]
     return FieldScene(group=group, action=action, y=Matrix(y), f=Matrix(f), y0=y0, span=(0, 1), name=name)
+
+
+def linear_scene(name: str, action: Any = None, y0: Any = None, seed: int = 0, degree: int = 6) -> Any:
+    """Return y' = A(t).y with a random polynomial A: by default a group acting on itself from the left."""
+    rng = random.Random(f"linear {name} {seed}")
+    group, on = ALL_GROUPS[name], action or LeftMultiplication()
+    start = group.identity(FloatDomain(0.0)) if y0 is None else y0
+    y = [Symbol(f"y{k}", real=True) for k in range(len(start))]
+    f = polynomials(rng, group.dim, degree)
+    exact = [Rational(*Fraction(x).as_integer_ratio()) for x in start]
+    return FieldScene(group=group, action=on, y=y, f=f, y0=exact, span=(0, 1), name=f"linear on {name}")
 
 
 def hamiltonian_scene(name: str, seed: int = 0, time: bool = False) -> Any:
@@ -321,7 +338,8 @@ def starting(scene: Any, domain: Any) -> dict[str, Any]:
 
 
 def same(scene: Any, before: Any, after: Any, ring: Any = QQ, order: int = 4) -> bool:
-    """Whether two programs are equal steps: exactly over power series, and in doubles to rounding."""
+    """Return True if two programs compute equal steps: exact in power series, and up to rounding in
+    doubles."""
     exact = SeriesDomain(ring, order)
     results = [interpret(p, scene, exact, starting(scene, exact)) for p in (before, after)]
     assert sorted(results[0]) == sorted(results[1])

@@ -103,7 +103,7 @@ def names() -> dict[str, frozenset[str]]:
 
 
 def mentioned(text: str, known: Collection[str]) -> bool:
-    """Whether a string is a name, alone or as ``name(2)``, ``family:tableau``, ``scene+u``."""
+    """Return True if a string is a name, alone or as ``name(2)``, ``family:tableau``, ``scene+u``."""
     parts = re.split(r"\(\d+\)|:|\+u$|\s*,\s*", text)
     return any(part in known for part in parts) and re.fullmatch(r"[\w():+, ]+", text) is not None
 
@@ -198,7 +198,7 @@ def _annotation(node: ast.AST, name: str) -> bool:
 
 
 def defines(path: str, name: str) -> bool:
-    """Whether a file defines ``name``: families, lowerings and scenes have files of their name."""
+    """Return True if a file defines ``name``: families, lowerings and scenes have files of their name."""
     folder, _, file = path.rpartition("/")
     own = folder in ("orderconds/families", "codegen/lower", "codegen/scenes")
     return own and file == f"{name.partition('(')[0]}.py"

@@ -26,13 +26,17 @@ if TYPE_CHECKING:
     help="A target language (see orderconds list targets), or interpreter; by default c.",
     shell_complete=completing(lambda: (*target_names(), "interpreter")),
 )
-@click.option("--form", help="Form of the equations: printed (the default), body-matrix, quaternion.")
+@click.option(
+    "--form",
+    help="Form of the equations: printed (as the scene states them; the default), body-matrix or quaternion.",
+)
 @click.option("--steps", multiple=True, help="Numbers of steps, such as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter in decimal digits.")
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="strict: measure orders in 50 digits on built-in scenes; compare with claims. Omit SCENE.",
+    help="strict: measure orders on built-in scenes in 50 digits and compare them with the orders that the "
+    "tableaux claim. Omit SCENE.",
 )
 @click.option(
     "--stated",

@@ -43,10 +43,14 @@ if TYPE_CHECKING:
 @click.option(
     "--form",
     default="printed",
-    help="Form of the equations: printed (the default), body-matrix, quaternion; see the header of the file.",
+    help="Form of the equations: printed (as the scene states them; the default), body-matrix or quaternion. "
+    "The header of the emitted file describes the form.",
 )
 @click.option(
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
+)
+@click.option(
+    "--batch", is_flag=True, help="Also emit a C function that steps many independent systems at once."
 )
 @click.option(
     "--adaptive",
@@ -64,7 +68,7 @@ if TYPE_CHECKING:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Print the program after each compiler pass, and the operations that the step does not need.",
+    help="Print the program after each compiler pass, and the operations that the pass has removed.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(
@@ -78,6 +82,7 @@ def command(
     frame: str,
     form: str,
     jacobian: bool,
+    batch: bool,
     adaptive: bool,
     precision: str,
     solver: str,
@@ -86,7 +91,9 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
-    A warning is printed if no solver of an implicit method converges in the first steps of the example.
+    A warning is printed if no solver of an implicit method converges in the first steps from the initial
+    state of the scene.
+
     Without -o no file is written; --explain or --json is then required and prints a description of the
     module.
 
@@ -96,19 +103,16 @@ def command(
         orderconds emit dipole -m vcg:midpoint -t c -t python -o out
         orderconds emit driven_spin -m ambient:dop853 --adaptive --parameter nu -o out
     """
-    from codegen.emitter import bare, compile_method, emit_compiled
-    from codegen.ir.precision import precision as known_precision
+    from codegen.emitter import bare, compile_method, emit_compiled, with_batch
     from codegen.printers import DEFAULT
-    from codegen.printers import target as known_target
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing; name the folder to write to, or give --explain or --json")
-    for name in targets:
-        known_target(name)
-    known_precision(precision)
+    _require_known(targets, precision)
     compiled = compile_method(
         scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
+    compiled = with_batch(compiled) if batch else compiled
     _warn(compiled, scene, method)
     if chosen := family_note(compiled, method):
         click.echo(f"note: {chosen}", err=True)
@@ -127,6 +131,16 @@ def command(
         more = explained(compiled) if explain else {}
         screen.print_json([record | more for record in records])
     return 0
+
+
+def _require_known(targets: tuple[str, ...], precision: str) -> None:
+    """Raise UnknownName for an unknown target or precision."""
+    from codegen.ir.precision import precision as known_precision
+    from codegen.printers import target as known_target
+
+    for name in targets:
+        known_target(name)
+    known_precision(precision)
 
 
 def explained(compiled: Compiled) -> dict[str, object]:
@@ -165,15 +179,16 @@ def family_note(compiled: Compiled, method: str) -> str:
 
 
 def _warn(compiled: Compiled, scene: str, method: str) -> None:
-    """Print a warning for each implicit block that no solver solves in the first steps of the example."""
+    """Print a warning for each system of equations that no solver solves in the first steps from the initial
+    state of the scene."""
     for choice in compiled.solvers:
         if not choice.converges:
             click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
 
 
 def explanation(compiled: Compiled) -> str:
-    """Return a text with the lowered program, the program after each compiler pass, the operation counts and
-    the simplifications.
+    """Return a text with the program before the first compiler pass, the program after each pass, the
+    operation counts and the simplifications.
     """
     from codegen.emitter import left_out
     from codegen.kernel.operations import sentences, step_operations

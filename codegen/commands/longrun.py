@@ -55,8 +55,8 @@ def command(
     reaches the size of the quantity, "rounding" if rounding explains it, and "too short to tell" if the
     deviation grows but the confidence interval of the slope contains zero. For quantities that a method
     conserves exactly, the growth of rounding errors is measured: their root mean square over several initial
-    states, and its exponent in the number of steps, with and without compensated summation. The exit status
-    is 1 if a run ends early or a method fails.
+    states, and the power of the number of steps with which it grows, with and without compensated summation.
+    The exit status is 1 if a run ends early or a method fails.
 
     \b
     Examples:

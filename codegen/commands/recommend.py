@@ -53,11 +53,10 @@ def command(
     """Find the fastest method for SCENE (a gallery name or a Python file) that reaches an error.
 
     The whole library is searched: every family that accepts the scene, with equal steps and with step-size
-    control. The error is the distance from a reference solution at the end of the span. Needs: manifold (the
-    state stays on the manifold up to rounding), symplectic (for long times; a method that loses a conserved
-    quantity in a long run is excluded), explicit (no equations are solved), adaptive (step-size control),
-    fixed (equal steps).
-    The exit status is 1 if no method reaches the error.
+    control. The error is the distance from a reference solution at the end of the span. The needs are
+    manifold (the state stays on the manifold up to rounding), symplectic (for long times; a method that loses
+    a conserved quantity in a long run is excluded), explicit (no equations are solved), adaptive (step-size
+    control), fixed (equal steps). The exit status is 1 if no method reaches the error.
 
     \b
     Examples:

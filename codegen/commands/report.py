@@ -63,8 +63,9 @@ def command(
     Writes DIR/SCENE.html for each scene, and DIR/index.html with the fastest methods for every scene. The
     measurements take one to two minutes for a Hamiltonian scene, about ten seconds for a field scene. An
     interrupted report continues when the command is repeated. If a method fails, its row contains the reason.
-    The pages need no network. The exit status is 1 if an observed order differs from the computed order, if
-    the result of an extreme step is wrong, or if a method fails; the pages are written in any case.
+    A browser shows the pages without a network connection. The exit status is 1 if an observed order differs
+    from the computed order, if the result of an extreme step is wrong, or if a method fails; the pages are
+    written in any case.
 
     \b
     Examples:

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from codegen.lab.stability.stability_study import NotTested, Stability
 
 Job: TypeAlias = tuple[str, tuple[str, ...], bool]
-"""The name of a scene, the names of methods, and True if endurance runs are included."""
+"""The arguments of one stress test: the name of a scene, the names of methods, and True if runs of ten
+million steps are included."""
 
 
 @click.command("stability", cls=Variadic, short_help="Stress-test emitted steps on stiff and extreme inputs.")

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from codegen.groups.base import LieGroup
 from codegen.groups.bernoulli import bernoulli_over_factorial, bernoulli_sum, last_term
-from codegen.groups.linear_algebra import S, Vector, invert
+from codegen.groups.linear_algebra import S, Vector, invert, matvec
 from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
@@ -222,6 +222,13 @@ class CayleyMap(LieGroup):
         If x' = dcay^{-1}_x y, then cay(x)' = y.cay(x).
         """
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return x y x = 4 y - 2 [x, y] - 4 dcay^{-1}_x y, by a formula without cancellation if the group has
+        one."""
+        terms = zip(y, self.ad(d, x, y), self.dcayinv(d, x, y), strict=True)
+        four, two = d.rational(4), d.rational(2)
+        return tuple(four * (a - c) - two * b for a, b, c in terms)
+
 
 class MatrixElements(MatrixRepresentation, Inverse):
     """Elements are n x n matrices row by row, size = n^2; the matrices act on columns of n scalars.
@@ -239,6 +246,10 @@ class MatrixElements(MatrixRepresentation, Inverse):
     def element(self, matrix: Vector[S]) -> Vector[S]:
         """Return the matrix itself."""
         return matrix
+
+    def exp_times(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return exp(x) y for a column y."""
+        return matvec(self.exp(d, x), y)
 
     @property
     def order(self) -> int:

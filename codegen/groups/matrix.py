@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from codegen.errors import SceneError
 from codegen.groups.capabilities import Coadjoint, Projection, RightTrivialisation, Rotations
-from codegen.groups.linear_algebra import LOOPED, S, Vector, invert, matmul, matvec, product, transposed
+from codegen.groups.linear_algebra import LOOPED, S, Vector, invert, matmul, product, transposed
 from codegen.groups.matrix_algebra import Sparse, matrix_algebra, sparse
 from codegen.groups.matrix_coordinates import MatrixCoordinates
 from codegen.groups.rational_rows import rational_rows
@@ -81,6 +81,12 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         if 0 < self.algebra.nilpotency <= EXPANDED:
             return self._polynomial(d, a)
         return self._exponential(d, a)
+
+    def exp_times(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return exp(x) y for a column y; of large matrices without forming exp(x)."""
+        if self.n < LOOPED or self.algebra.nilpotency:
+            return super().exp_times(d, x, y)
+        return d.vector(f"expmv{self.n}", (*self.hat(d, x), *y))
 
     def _polynomial(self, d: Domain, a: Vector[S]) -> Vector[S]:
         """Return 1 + a + a^2/2 + ..., which ends for a nilpotent algebra."""
@@ -257,7 +263,7 @@ class RotationGroup(IsometryGroup, Rotations):
 
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return exp(x) y."""
-        return matvec(self.exp(d, x), y)
+        return self.exp_times(d, x, y)
 
 
 def _weighted(d: Domain, rows: Sequence[Sparse], values: Sequence[S]) -> Vector[S]:

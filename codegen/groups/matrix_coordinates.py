@@ -25,7 +25,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
 
     @cached_property
     def _contains_cubes(self) -> bool:
-        """Whether the algebra contains x^3 for each of its elements x.
+        """True if the algebra contains x^3 for each of its elements x.
 
         x^3 is a polynomial of degree three in the coordinates of x. The test evaluates it at one point with
         large coordinates. A component of x^3 outside the algebra that does not vanish identically vanishes at
@@ -55,6 +55,11 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         left, right = self._near_identity(d, x)
         n = self.order
         return self.vee(d, matmul(matmul(left, self.hat(d, y), n), right, n))
+
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return A B A for the matrices A of x and B of y."""
+        left, middle = self.hat(d, x), self.hat(d, y)
+        return self.vee(d, matmul(matmul(left, middle, self.order), left, self.order))
 
     def _near_identity(self, d: Domain, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
         """Return 1 - A/2 and 1 + A/2."""

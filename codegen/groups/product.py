@@ -147,6 +147,10 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         """Return dcay^{-1}_x y of each factor."""
         return self._each(CayleyMap, lambda f, a, b: f.dcayinv(d, a, b), x, y)
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return x y x of each factor."""
+        return self._each(CayleyMap, lambda f, a, b: f.sandwich(d, a, b), x, y)
+
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x with v = x.g, of each factor."""
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)

@@ -89,7 +89,7 @@ class Representation(ABC):
         raise NotImplementedError
 
     def closed(self, group: LieGroup) -> bool:
-        """Whether :meth:`series` has a closed form for this group."""
+        """Return True if :meth:`series` has a closed form for this group."""
         return False
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:

@@ -54,6 +54,10 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         """Return y."""
         return y
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return 0: products of the matrices of translations vanish."""
+        return (d.rational(0),) * self.dim
+
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x."""
         return x

@@ -53,6 +53,11 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         factor = d.rational(1, 2) * dot(x, y)
         return tuple(plain * b - c + factor * a for a, b, c in zip(x, y, cross(x, y), strict=True))
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return |x|^2 y - 2 (x.y) x."""
+        square, factor = dot(x, x), d.rational(2) * dot(x, y)
+        return tuple(square * b - factor * a for a, b in zip(x, y, strict=True))
+
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the conjugate quaternion."""
         return (g[0], *(-a for a in g[1:]))

@@ -51,6 +51,11 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         factor, half = d.rational(1, 4) * (x[0] * y[0]), d.rational(1, 2)
         return tuple(b - half * c + factor * a for a, b, c in zip(x, y, self.ad(d, x, y), strict=True))
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return -w w' (w, u) for x = (w, u) and y = (w', u')."""
+        factor = -(x[0] * y[0])
+        return tuple(factor * a for a in x)
+
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the motion z -> R^T (z - a)."""
         c, s, a, b = g

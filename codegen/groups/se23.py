@@ -16,7 +16,7 @@ class SE23(Semidirect):
     (2017), 1797-1812).
     """
 
-    covering_formula = f"{SO3.covering_formula}; the vectors are equal"
+    covering_formula = f"{SO3.covering_formula}; the vectors are equal in both groups"
 
     def __init__(self, attitude: LieGroup | None = None) -> None:
         attitude = SO3() if attitude is None else attitude

@@ -18,7 +18,7 @@ class SE3(Semidirect):
     matrix is the default, because formulas of a scene then contain R itself.
     """
 
-    covering_formula = f"{SO3.covering_formula}; the vectors are equal"
+    covering_formula = f"{SO3.covering_formula}; the vectors are equal in both groups"
 
     def __init__(self, attitude: LieGroup | None = None) -> None:
         attitude = SO3() if attitude is None else attitude

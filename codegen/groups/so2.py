@@ -56,6 +56,10 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         """Return (1 + w^2/4) y."""
         return ((d.rational(1) + d.rational(1, 4) * (x[0] * x[0])) * y[0],)
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return -w^2 y."""
+        return (-(x[0] * x[0] * y[0]),)
+
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return (cos w, sin w)."""
         z = x[0] * x[0]

@@ -103,6 +103,11 @@ class SO3(
         half, factor = d.rational(1, 2), d.rational(1, 4) * dot(x, y)
         return tuple(b - half * c + factor * a for a, b, c in zip(x, y, cross(x, y), strict=True))
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return -(x.y) x."""
+        factor = -dot(x, y)
+        return tuple(factor * a for a in x)
+
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the transpose."""
         return tuple(g[3 * j + i] for i in range(3) for j in range(3))

@@ -36,6 +36,10 @@ class SU2(S3):
         """Return dcay^{-1}_x y: twice that of the quaternions x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.dcayinv(self, d, _half(d, x), _half(d, y)))
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return x y x: twice that of the quaternions x/2 and y/2."""
+        return tuple(d.rational(2) * a for a in S3.sandwich(self, d, _half(d, x), _half(d, y)))
+
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return x cross y."""
         return cross(x, y)

@@ -73,7 +73,10 @@ class SU(Unitary):
 
 
 def _real(n: int, real: dict[tuple[int, int], int], imaginary: dict[tuple[int, int], int]) -> list[list[int]]:
-    """Return the real matrix of a complex matrix, given by its entries that are not zero."""
+    """Return the real 2n x 2n matrix of a complex n x n matrix.
+
+    ``real`` and ``imaginary`` contain the non-zero real and imaginary parts of the entries, by (row, column).
+    """
     rows = range(n)
     a, b = ([[part.get((i, j), 0) for j in rows] for i in rows] for part in (real, imaginary))
     upper = [[*a[i], *(-x for x in b[i])] for i in rows]

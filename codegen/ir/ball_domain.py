@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 from flint import arb, arb_mat
 
 from codegen.ir.domain import LARGEST_BITS, NotConverged, Scalar, Value
+from codegen.ir.exponential_action import ExponentialAction
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import BilinearFunction
 from codegen.ir.number import Number
@@ -141,6 +142,14 @@ class BallDomain:
             with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
                 result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
             return tuple(x.mid() for x in _first_row(result, called.level))
+        if isinstance(called, ExponentialAction):
+            entries = called.matrix(numbers, arb(0))
+            rows = self.vector(f"expm{called.n}", entries)
+            y = numbers[-called.n :]
+            lines = (rows[called.n * i : called.n * i + called.n] for i in range(called.n))
+            with precision(2 * self.bits):
+                sums = [sum((a * x for a, x in zip(line, y, strict=True)), arb(0)) for line in lines]
+            return tuple(x.mid() for x in sums)
         if isinstance(called, MatrixInverse):
             with precision(2 * self.bits):
                 inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()

@@ -340,11 +340,11 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return an entire function of a series without constant term, exactly; raise an ArithmeticError
-        otherwise.
+        """Return a function of a series, with exact coefficients; ArithmeticError if they cannot be exact.
 
-        If a divisor has the lowest power h^v, the last v coefficients of the quotient cannot be known and are
-        set to zero.
+        Sine, cosine, exponential and similar functions require a series without constant term. The function
+        ``quotient`` divides two series. If the divisor begins with the power h^v, the last v coefficients of
+        the quotient cannot be known and are set to zero.
         """
         z = args[0]
         if function == "quotient":

@@ -14,8 +14,8 @@ class Formulas(ExprDomain):
     """The expressions of a domain, in which sums of terms replace products and commutators of
     matrices.
 
-    The formulas of a scene are differentiated, expanded in series, and evaluated by functions of other
-    libraries, none of which calls vector functions for them.
+    The formulas of a scene are differentiated, expanded in series, and evaluated by other libraries. These
+    operations accept scalar formulas only, so no vector function may remain in a formula.
     """
 
     def __init__(self, domain: ExprDomain) -> None:

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+from codegen.ir.array_step import ArrayStep
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 from codegen.ir.program import Substep
@@ -242,7 +243,8 @@ class Sample:
 class Estimate:
     """An error estimate: the new state minus an embedded solution of lower order, component by component.
 
-    After one step from the same state, both solutions differ from the exact flow by O(h^order).
+    After one step from the same state, both solutions differ from the exact flow by O(h^order). There are no
+    ``errors`` if the kernel computes with whole matrices.
     """
 
     errors: tuple[Expr, ...]
@@ -301,7 +303,9 @@ class Kernel:
     kernel for each of its parts, and h and t are the length and the start of the part. ``outlined`` are
     functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
     momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted code can have a
-    run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``.
+    run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or
+    makes the step ``arrays``. With ``batch``, emitted code also has a function that steps many independent
+    systems.
     """
 
     name: str
@@ -318,6 +322,8 @@ class Kernel:
     outlined: tuple[Function, ...] = ()
     carried: Carried | None = None
     expansion: Expansion | None = None
+    arrays: ArrayStep | None = None
+    batch: bool = False
 
     @property
     def adaptive(self) -> bool:
@@ -365,6 +371,8 @@ class Kernel:
                 yield from (let.value for let in statement.newton.body)
                 yield from (x for row in statement.newton.matrix for x in row)
         yield from self.outputs
+        if self.arrays is not None:
+            yield from self.arrays.expressions()
         if self.estimate is not None:
             yield from self.estimate.errors
 

@@ -167,7 +167,7 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
 
 
 def _called(space: Space, function: str, a: _Dual) -> _Dual:
-    """Return a function of v_0 + v_1 h with its derivatives."""
+    """Return a function of a dual number, whose value is v_0 + v_1 h, with its derivatives."""
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])

@@ -145,10 +145,10 @@ class Program:
         """Return the program as text, with one statement on each line."""
         # The lines have the order of execution, and the body of a block is indented.
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
-        lines += [f"  for h = ({step.fraction.text()}) h:" for step in self.substeps]
+        lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
         # In the body frame, mu in the statements means Ad*_q mu. This changes all statements, so the text
         # states it first.
-        lines += ["  with Ad*(q, mu) for mu:"] if self.frame == BODY else []
+        lines += ["  where mu denotes Ad*(q, mu):"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
                 lines.append("  " + statement.text())

@@ -161,6 +161,26 @@ class TaylorStep(Operation):
 
 
 @dataclass(frozen=True)
+class CayleyElement(OfGroup):
+    """cay(x) = (1 - x/2)^-1 (1 + x/2)."""
+
+    name = "cay"
+    exponentials = 1
+    takes, gives = A, G
+    noun = "Cayley map{s}"
+
+
+@dataclass(frozen=True)
+class Sandwich(OfGroup):
+    """The product x y x of matrices or of quaternions, which is in the algebra of a quadratic group."""
+
+    linear_in_last = True
+    name = "sandwich"
+    takes, gives = A + A, A
+    noun = "product{s} in the algebra"
+
+
+@dataclass(frozen=True)
 class ToOrbit(OfGroup):
     """The first argument y, projected onto the manifold that contains the second argument."""
 

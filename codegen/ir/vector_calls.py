@@ -2,6 +2,7 @@
 
 The name determines the function: ``expm3`` is the exponential of a 3 x 3 matrix, ``expm3_d1`` the exponential
 with its derivative, ``inverse5`` the inverse of a 5 x 5 matrix, ``product5`` the product of two 5 x 5
+matrices and ``commutator5`` their commutator. ``expmv5`` is the action of the exponential of a 5 x 5 matrix
 matrices, ``commutator5`` their commutator, and ``expsu3`` the exponential of a matrix of su(3).
 """
 
@@ -12,6 +13,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING
 
+from codegen.ir.exponential_action import ExponentialAction
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import MatrixCommutator, MatrixProduct
 from codegen.ir.unitary_exponential import SpecialUnitaryExponential
@@ -26,6 +28,7 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
     "commutator": MatrixCommutator,
     "expsu": SpecialUnitaryExponential,
 }
+_ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
 _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 
@@ -36,6 +39,9 @@ def vector_function(name: str) -> VectorFunction | None:
     >>> vector_function("expm3_d1"), vector_function("sin")
     (MatrixExponential(n=3, level=1), None)
     """
+    action = _ACTION.fullmatch(name)
+    if action is not None:
+        return ExponentialAction(int(action[1]), int(action[2] or "0", 16))
     match = _NAME.fullmatch(name)
     if match is None:
         return None

@@ -201,7 +201,8 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # The node is not linear in earlier late values, so it is treated as a late value itself.
+        # Late values are slow results, such as sines. This node is not linear in the late values before it,
+        # so the node counts as a late value itself.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:

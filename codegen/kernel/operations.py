@@ -65,8 +65,11 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Return the number of each operation of a kernel, as :func:`operations` counts them.
 
-    A kernel without outputs computes the coefficients of a Taylor polynomial, and evaluates the polynomial.
+    A kernel without outputs computes the coefficients of a Taylor polynomial, and evaluates the polynomial,
+    or computes with whole matrices, with a typical number of terms of each exponential.
     """
+    if kernel.arrays is not None:
+        return {STEP: kernel.arrays.operations()}
     expansion = kernel.expansion
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))
@@ -121,7 +124,7 @@ def costs(kernel: Kernel) -> list[str]:
         # At its beginning a run computes m and outward(q, m), at its end outward(q', m') (see class Carried).
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
-        lines.append(f"{first} where a run begins, {last} where it ends")
+        lines.append(f"{first} at the beginning of a run, {last} at its end")
     for each_kernel in kernel.deferred.kernels if kernel.deferred is not None else ():
         (line,) = sentences(operations(arrange(each_kernel)))
         lines.append(f"{line.removesuffix(' a step')} once in a run of steps")

@@ -77,7 +77,9 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
             return sizes[0] * sizes[1]
         case "neg":
             return sizes[0]
-        case "div":  # The magnitude of a divisor may exceed its value, and the quotient would be too small.
+        case "div":
+            # The divisor is replaced by its absolute value and not by its magnitude. The magnitude may be
+            # larger, and the quotient would then be too small.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

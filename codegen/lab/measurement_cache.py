@@ -69,7 +69,7 @@ class MeasurementCache:
             if hashlib.sha256(body).digest() != digest:
                 return None
             return msgspec.msgpack.decode(body, type=kind)
-        except (OSError, msgspec.DecodeError):  # includes msgspec.ValidationError
+        except (OSError, msgspec.DecodeError):  # ValidationError is a subclass of DecodeError
             return None
 
     def store(self, key: Sequence[object], result: object) -> None:

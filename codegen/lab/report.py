@@ -95,7 +95,7 @@ def write_file(path: Path, text: str | None) -> Path:
             write_text(path, text)
     except OSError as error:
         raise InputError(
-            f"cannot write there: {reason(error)}",
+            f"cannot write to this path: {reason(error)}",
             where=str(path.parent),
             expected="a folder that can be written to",
         ) from None

@@ -4,6 +4,9 @@ Other processes can only increase a measured time. The least time is therefore t
 mean time depends on the load of the machine. A call from Python takes some time before the first step. The
 program measures this overhead with a run of zero steps and subtracts it, so that short and long runs can be
 compared.
+
+All runs that are compared are timed by :func:`span_times`: emitted methods with equal steps or with step-size
+control, in diagrams and in races, and the integrators of other software.
 """
 
 from __future__ import annotations
@@ -11,13 +14,16 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
-BATCH = 0.004
+BATCH = 0.002
 """Seconds that a batch of calls must last, far above the resolution of the clock."""
 
-BATCHES = 7
+BATCHES = 5
 FEWER = 3
-"""The number of batches is BATCHES. If a call takes longer than :data:`LONG` seconds, the number is FEWER."""
+"""The least number of batches is BATCHES. If a call takes longer than :data:`LONG` seconds, the number of
+batches is FEWER.
+"""
 
 LONG = 0.2
 
@@ -29,6 +35,23 @@ the span. The overhead of a call is about a hundredth of RESOLVED.
 CONFIRMED, MOST = 0.03, 21
 """The least time is confirmed if the time of a second batch is at most 1 + CONFIRMED times the least time.
 Otherwise further batches are run; the total number of batches is at most MOST.
+"""
+
+SHORT = 1e-3
+"""A run that takes less than SHORT seconds is measured until its time without the overhead is resolved."""
+
+RESOLUTION = 0.1
+"""The time of a run without the overhead is resolved if its uncertainty is at most this fraction. The
+uncertainty is the difference of the two fastest batches of the run, plus the difference of the two fastest
+batches of the overhead.
+"""
+
+AGAIN = 3
+"""The largest number of repeated measurements of a run whose time is not resolved."""
+
+LEAST_SHARE = 0.1
+"""The time of a run without the overhead is at least this fraction of the time with the overhead. Therefore
+no run has the time zero.
 """
 
 
@@ -85,6 +108,72 @@ def spans(run: Callable[[int], object], steps: int) -> int:
 def _least(run: Callable[[int], object], count: int) -> float:
     # The first call of a module is slow.
     return min(_batch(lambda: run(count), 1) for _ in range(3))
+
+
+@dataclass
+class Overhead:
+    """The overhead of a call: the CPU time of ``idle``, a call that makes no step.
+
+    All runs of one module in this process share the overhead. It is measured when it is needed first, and
+    again only if it leaves the time of a run unresolved. If ``idle`` is None, the overhead is negligible.
+    """
+
+    idle: Callable[[], object] | None
+
+    @cached_property
+    def times(self) -> tuple[float, ...]:
+        """The CPU seconds of the call in several batches, in increasing order."""
+        return (0.0,) if self.idle is None else samples(self.idle)
+
+    @property
+    def least(self) -> float:
+        """The least time of all batches in seconds."""
+        return self.times[0]
+
+    @property
+    def uncertainty(self) -> float:
+        """The difference of the two fastest batches in seconds."""
+        return self.times[1] - self.times[0] if len(self.times) > 1 else 0.0
+
+    def refine(self) -> None:
+        """Measure the call in further batches."""
+        if self.idle is not None:
+            self.times = tuple(sorted([*self.times, *samples(self.idle)]))
+
+
+def span_times(
+    run: Callable[[int], int], overhead: Overhead, batch: float = BATCH, batches: int = BATCHES
+) -> list[float]:
+    """Return the CPU seconds of a run over one time span without the overhead of a call, for each batch, in
+    increasing order.
+
+    ``run(n)`` runs over n time spans and returns the number of steps. A short run is timed over several time
+    spans (:func:`spans`), and its time is multiplied by the fraction of the steps that belong to one time
+    span.
+    """
+    steps = run(1)
+    count = spans(run, steps)
+    taken = run(count) if count > 1 else steps
+    share = steps / taken if steps and taken else 1 / count
+    return [share * s for s in net_times(lambda: samples(lambda: run(count), batch, batches), overhead)]
+
+
+def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list[float]:
+    """Return the times of a run without the overhead of a call, sorted.
+
+    The time of a run shorter than :data:`SHORT` seconds may be unresolved (:data:`RESOLUTION`). In this case
+    the run and the overhead are measured again, at most :data:`AGAIN` times. If a run hardly takes longer
+    than its overhead, its time is :data:`LEAST_SHARE` times the time with overhead.
+    """
+    spent = sorted(sample())
+    for _ in range(AGAIN):
+        net = spent[0] - overhead.least
+        uncertainty = overhead.uncertainty + (spent[1] - spent[0] if len(spent) > 1 else 0.0)
+        if spent[0] >= SHORT or uncertainty <= RESOLUTION * net:
+            break
+        overhead.refine()
+        spent = sorted([*spent, *sample()])
+    return [max(s - overhead.least, LEAST_SHARE * s) for s in spent]
 
 
 def spread(times: Sequence[float]) -> float | None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from codegen.errors import MethodError
+from codegen.errors import MethodError, UnclaimedTableau
 from codegen.ir.program import Program
 from codegen.lower.base import Lowering as Lowering
 from codegen.lower.base import Objection as Objection
@@ -55,7 +55,14 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     known = named.partition("(")[0]
     if known in names():
         _check(scene, lowering(known))
-    return method_of(given, families_for(scene), family)
+    try:
+        return method_of(given, families_for(scene), family)
+    except UnclaimedTableau as error:
+        # The reason may be that a family in which the tableau claims an order does not accept the scene.
+        for claimed in () if named else error.claimed:
+            if claimed in names():
+                _check(scene, lowering(claimed))
+        raise
 
 
 def _check(scene: Problem, own: Lowering) -> None:

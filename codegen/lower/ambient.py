@@ -5,7 +5,7 @@ it is about as large as the error of the solution.
 from __future__ import annotations
 
 from codegen.ir.program import Program
-from codegen.lower.base import Lowering
+from codegen.lower.base import Lowering, Objection, without_formulas
 from codegen.lower.rkmk import with_cutoff
 from codegen.method import Method
 from codegen.scene.ambient import ambient
@@ -18,6 +18,10 @@ class Ambient(Lowering):
     family = "ambient"
     repeats_substeps = True
     in_coordinates = True
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return the reason why the family does not accept a scene: its field has no formulas."""
+        return without_formulas(scene)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene in the coordinates of its state; it has no group."""

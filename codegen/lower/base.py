@@ -34,6 +34,18 @@ class Objection:
     hint: str = ""
 
 
+def without_formulas(scene: Problem) -> Objection | None:
+    """Return the objection of families in coordinates to a scene with large matrices, whose field has no
+    formulas in coordinates; None for other scenes."""
+    if scene.roots:
+        return None
+    return Objection(
+        ", whose field is given by formulas of large matrices",
+        "a scene with formulas in coordinates",
+        "use rkmk, cf or cg, or fewer rows",
+    )
+
+
 class Lowering(ABC):
     """The translation of the methods of one family to step programs.
 
@@ -59,7 +71,7 @@ class Lowering(ABC):
     """
 
     reads_coordinates: ClassVar[bool] = False
-    """Whether the methods parametrise the group by the coordinate map of the scene
+    """True if the methods parametrise the group by the coordinate map of the scene
     (:mod:`codegen.groups.coordinate_maps`). Other families use the exponential map."""
 
     in_coordinates: ClassVar[bool] = False

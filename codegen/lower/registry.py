@@ -14,10 +14,14 @@ _registered: dict[str, Lowering] = {}
 def _built_in() -> tuple[type[Lowering], ...]:
     """Return the lowerings of this package, in the order in which commands list them."""
     from codegen.lower.ambient import Ambient
+    from codegen.lower.cayley import CayleyLowering
     from codegen.lower.cf import CommutatorFreeLowering
+    from codegen.lower.cf_magnus import CommutatorFreeMagnusLowering
     from codegen.lower.cg import CrouchGrossman
     from codegen.lower.composition import CompositionLowering
     from codegen.lower.discrete_gradient import DiscreteGradient
+    from codegen.lower.fer import FerLowering
+    from codegen.lower.magnus import MagnusLowering
     from codegen.lower.rk import RungeKuttaLowering
     from codegen.lower.rkmk import MuntheKaas
     from codegen.lower.slgi import SymplecticIntegrator
@@ -43,6 +47,10 @@ def _built_in() -> tuple[type[Lowering], ...]:
         CompositionLowering,
         Ambient,
         Taylor,
+        MagnusLowering,
+        CommutatorFreeMagnusLowering,
+        FerLowering,
+        CayleyLowering,
     )
 
 

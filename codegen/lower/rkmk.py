@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from codegen.ir.operations import ElementAt, Exp, InverseDifferential, Operation
@@ -69,9 +70,15 @@ class MuntheKaas(FieldLowering):
         conditions have no names."""
         if method.cutoff is not None or (scene is not None and scene.coordinates is not None):
             return super().order(method, scene)
-        from orderconds.checking import family_order
+        return _order(self, method)
 
-        return replace(family_order(method.tableau, self.conditions(method, scene)), failing=())
+
+@lru_cache(maxsize=256)
+def _order(lowering: MuntheKaas, method: Method) -> FamilyOrder:
+    # A report needs the order of a method many times. It does not depend on the scene.
+    from orderconds.checking import family_order
+
+    return replace(family_order(method.tableau, lowering.conditions(method)), failing=())
 
 
 def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:

@@ -10,7 +10,7 @@ from codegen.ir.program import Assign, Program
 from codegen.ir.scene_operations import TaylorStep, ToOrbit
 from codegen.ir.values import Kind, Var
 from codegen.ir.verify import verify
-from codegen.lower.base import Lowering, Objection
+from codegen.lower.base import Lowering, Objection, without_formulas
 from codegen.method import Method
 from codegen.scene.ambient import ambient
 from codegen.scene.evolution import evolution
@@ -41,10 +41,10 @@ class Taylor(Lowering):
         return scene.group.abelian or reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene: the scene has run-time inputs. The result
-        is None for any other scene."""
+        """Return the reason why the family does not accept a scene: it has run-time inputs, or its field has
+        no formulas. The result is None for any other scene."""
         if not scene.inputs:
-            return None
+            return without_formulas(scene)
         return Objection(
             f", whose input {scene.inputs[0]} is a function that emitted code calls",
             "a scene whose time derivatives follow from formulas",

@@ -171,7 +171,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("inverse maps", inverse, opposites.run),
         # This pass follows the Legendre transform. Before it, the force of a stage depends on the unknown
         # momentum of the stage, and this cycle prevents tearing.
-        Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
+        Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
         # After tearing has removed an unknown, a map may be applied directly after its inverse; such pairs
         # are removed.
         Pass("inverse maps", inverse, opposites.run),
@@ -193,7 +193,11 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("unused values", UNUSED, dead.run),
         # Factoring moves coefficients into maps; this pass takes the coefficient of a single term out again.
-        Pass("numbers outside maps", "numbers are multiplied into sums", hoist_scalars.run),
+        Pass(
+            "numbers outside maps",
+            "numeric factors become coefficients of sums",
+            hoist_scalars.run,
+        ),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
         # This pass is the last, because other passes would multiply the factor -1 back into a sum.

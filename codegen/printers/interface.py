@@ -25,7 +25,8 @@ class Interface:
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
     of all numbers (:mod:`codegen.ir.precision`); ``inputs`` are the run-time functions of time, in order;
     ``adaptive`` is true if there is a run with step control; ``solvers`` are the methods that solve the
-    blocks. ``variations`` is the size of the Jacobian, 0 without one.
+    blocks. ``variations`` is the size of the Jacobian, 0 without one. ``batch`` is true if there is a
+    function for many independent systems.
     """
 
     prefix: str
@@ -38,6 +39,7 @@ class Interface:
     adaptive: bool = False
     variations: int = 0
     solvers: tuple[str, ...] = ()
+    batch: bool = False
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
@@ -58,6 +60,7 @@ class Interface:
             adaptive=kernel.adaptive,
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
+            batch=kernel.batch,
         )
 
     @property

@@ -13,10 +13,10 @@ class Recipe:
     or a path.
 
     ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
-    ``left_out`` has one sentence for each simplification. ``initial``, ``h`` and ``steps`` are the initial
-    state, step size and number of steps in the usage example. ``defaults`` are the scene's values of run-time
-    parameters. ``command`` is the command that regenerates the file. ``version`` is the version of
-    orderconds.
+    ``left_out`` has one line for each part of the general step that this scene and method do not need.
+    ``initial``, ``h`` and ``steps`` are the initial state, step size and number of steps in the usage
+    example. ``defaults`` are the scene's values of run-time parameters. ``command`` is the command that
+    regenerates the file. ``version`` is the version of orderconds.
     """
 
     title: str
@@ -28,6 +28,32 @@ class Recipe:
     left_out: tuple[str, ...] = ()
     command: str = ""
     version: str = ""
+
+
+LONGEST_STATE = 64
+"""A longer initial state is not printed in full in the usage example."""
+
+MOST_ENTRIES = 16
+"""The largest number of entries of a long state that the example sets."""
+
+
+IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
+"""The comment of an example that does not set the state."""
+
+
+def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
+    """Return the places and values of the entries of a long initial state that are not zero; None for a short
+    state, which the example contains in full.
+
+    If there are more than :data:`MOST_ENTRIES` entries, the result is empty: the manifest contains the state.
+
+    >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
+    (None, ((99, 1.0),))
+    """
+    if len(initial) <= LONGEST_STATE:
+        return None
+    entries = tuple((place, x) for place, x in enumerate(initial) if x)
+    return entries if len(entries) <= MOST_ENTRIES else ()
 
 
 def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:

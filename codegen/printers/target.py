@@ -30,13 +30,14 @@ class Target:
     ``name`` is the name in commands, ``title`` the name in headings, ``about`` one line for listings.
     ``printer`` is a function (kernel, interface, recipe) -> files. ``loader`` is a function (interface,
     parameter values, files) -> :class:`codegen.loader.Integrator`. ``suffix`` is the suffix of the file that
-    contains the step. ``most_steps`` is the number of steps that a module makes in about one second.
+    contains the step. ``most_steps`` limits the number of steps of a run in measurements of the order; a run
+    of this length takes about one second.
 
     The other fields are optional. ``compiler`` is a function that compiles the files of a module without a
     cache and returns the seconds. ``observer`` is a function (integrator, state, t, h) that makes one step
-    and returns the solved unknowns of each substep; the lab uses it to test implicit steps. ``stack`` is a
-    regular expression; its first group is the stack of a call in bytes, as stated in the file that contains
-    the step.
+    and returns the solved unknowns of each substep; measurements of implicit steps use these unknowns.
+    ``stack`` is a regular expression; its first group is the stack of a call in bytes, as stated in the file
+    that contains the step.
     """
 
     name: str
@@ -49,6 +50,7 @@ class Target:
     compiler: str = ""
     observer: str = ""
     stack: str = ""
+    batches: bool = False
 
     @property
     def print_module(self) -> PrintModule:

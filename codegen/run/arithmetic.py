@@ -80,7 +80,8 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
     """Return an outlined function of a kernel; it returns a single result, or fills an array with several."""
     body: list[Statement] = []
     for statement in arrangement.statements:
-        # Outlined functions contain no loops, because their inputs are known before the call.
+        # An outlined function only evaluates formulas of its inputs. Loops solve equations, and they are
+        # never moved into an outlined function.
         assert isinstance(statement, Simple)
         body += simple(statement)
     parameters = tuple(map(own, function.inputs))

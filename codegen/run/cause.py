@@ -6,8 +6,8 @@ have finite results, and the status is TOO_FAR. If the step of size zero fails a
 finite at this state, and the status remains NOT_FINITE. The test is made only after a failure, so it costs
 nothing in steps that succeed.
 
-Implicit steps with a warm start do not need this function, because the continuation after their failure tries
-shorter steps (:mod:`codegen.run.continuation`).
+The emitted function ``cause`` makes this test. Implicit steps with a warm start do not need it, because the
+continuation after their failure tries shorter steps (:mod:`codegen.run.continuation`).
 """
 
 from __future__ import annotations
@@ -17,21 +17,21 @@ from codegen.run.plan import STEP, TIME, Plan
 from codegen.run.terms import NOT_FINITE, OK, STATUS, TOO_FAR, Kind, Term, absent, code, select
 
 CAUSE = "cause"
-"""The name of the function."""
+"""The name of the emitted function that finds the cause of a failed step."""
 
 
 def is_searched(plan: Plan) -> bool:
-    """Return True if the unit has the function."""
+    """Return True if the emitted code contains the function that finds the cause of a failed step."""
     # With run-time inputs the test would prove nothing: the values of the inputs may be the cause, and a
     # shorter step reads other values.
     return plan.start is None and not plan.kernel.inputs
 
 
 def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
-    """Return the function.
+    """Return the emitted function that finds the cause of a failed step.
 
-    ``core`` is the name of the function that makes a step. Its arguments are the state, the time if it is
-    read, the step size, and ``more``.
+    ``core`` is the name of the emitted function that makes a step. Its arguments are the state, the time if
+    the step depends on the time, the step size, and then the terms ``more``.
     """
     state, same = plan.state(), plan.state("same")
     parameters = (state, *plan.moment(), *plan.parameters)
@@ -51,7 +51,8 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
     """Return the arguments of a step after its size, without statistics or an error estimate."""
-    # The caller's statistics count the steps of the integration only.
+    # The counters of the caller are omitted, because they count only the steps of the integration, and this
+    # step is a test.
     counted = tuple(absent(x) for x in plan.counted)
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()
     return (*plan.parameters, *plan.remembering(plan.memories), *counted, *error)

@@ -66,7 +66,7 @@ def continued(plan: Plan, core: str) -> Function:
 
 
 class _Continuation:
-    """Builds the function; the attributes are the variables of the function."""
+    """Builds the emitted function that repeats a failed step; attributes of type Term are its variables."""
 
     # Two steps as fractions of h: the longest step that succeeded, and the step that is tried now. The factor
     # is the ratio of consecutive fractions.
@@ -129,7 +129,8 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of a step that cannot be computed.
 
-        If a shorter step succeeded, numbers that are not finite result from the length of the step.
+        If the failed step computed a number that is not finite, but a shorter step from the same state
+        succeeded, then the failed step was too long, and the status is TOO_FAR.
         """
         # A shorter step samples other values of run-time inputs, and these values may be the cause.
         if self.plan.kernel.inputs:

@@ -2,10 +2,10 @@
 computed as one flow, and flows that commute with all other flows are applied once for many steps.
 
 Both changes are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only
-after the deferred flows have been applied. They are applied when a row is due, after the last step, and after
-:data:`codegen.ir.kernel.LONGEST` steps. A NaN remains in the state in all later steps, so it is found in the
-next complete state. The run is then repeated with the deferred flows applied in every step, to find the last
-good state.
+after the deferred flows have been applied. They are applied before a state is written to the trajectory,
+after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. A NaN remains in the state in all
+later steps, so it is found in the next complete state. The run is then repeated with the deferred flows
+applied in every step, to find the last good state.
 """
 
 from __future__ import annotations
@@ -84,7 +84,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _plan(plan: Plan, kernel: Kernel) -> Plan:
-    # The kernels of deferred flows are explicit, so they need no limit of tries.
+    # The kernels of deferred flows are explicit, so no continuation is emitted, and the limit of its attempts
+    # (``tries``) is not needed.
     return Plan(kernel, plan.format)
 
 

@@ -370,7 +370,7 @@ class _Compiler:
         return lambda env: a(env) or b(env)
 
     def access(self, term: Term, args: Sequence[Value]) -> Value:
-        """Return accesses to entries, parts and fields, and operations on whole arguments."""
+        """Return the function that evaluates an entry, part or field, or an operation on whole arrays."""
         first = args[0]
         match term.op:
             case "item":
@@ -471,7 +471,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 
 def _inverted(n: int, matrix: list[Any]) -> int:
-    """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 if it is singular, else 1."""
+    """Overwrite a matrix, a flat list of its rows, with its inverse; return 0 if it is singular, else 1."""
     import numpy
 
     # The operations have the same order as in the emitted code, so that doubles agree in every bit.

@@ -88,7 +88,8 @@ class EmittedFloats(FloatDomain):
         return total
 
     def _slope(self, k: int, z: float, *, signed: bool) -> float:
-        # The quotient divides by z and cancels for small z; there the series is used.
+        # The formula is a difference divided by z. For small z the difference loses digits by cancellation,
+        # so the series is used.
         if abs(z) > 1.0:
             if signed:
                 before, c = (self.call(f"signed_stumpff{i}", z) for i in (k - 1, k))

@@ -114,8 +114,8 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # The inputs are copied, because the caller's array is constant, and C passes the values of a
-            # signal through a pointer to data that may change.
+            # The caller's array of inputs is ``const`` in C. The context of a signal is a pointer to data
+            # that is not ``const``, so C requires a copy of the inputs.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),

@@ -4,9 +4,10 @@ Stopping rules, warm starts, continuation, runs and step control are written onc
 file for each concern. Printers translate it to a target; :mod:`codegen.run.execute` executes it over any
 scalars.
 
-A :class:`Function` has seven kinds of statement besides notes: :class:`Assign`, :class:`Array`, :class:`For`,
-:class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a term. Its rules suit targets
-in which a loop is a ``while_loop`` and a branch is a ``select``:
+A :class:`Function` has seven kinds of statement and comments (:class:`Note`): :class:`Assign`,
+:class:`Array`, :class:`For`, :class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a
+term. The rules of the representation suit targets in which a loop is a ``while_loop`` and a branch is a
+``select``:
 
 - A loop is never left from its middle; a status or flag in its test ends it.
 - Return is at the end of a function, or alone in an If of the outermost block. Such an If is called a guard.
@@ -45,12 +46,19 @@ class Array:
 
 @dataclass(frozen=True)
 class For:
-    """A loop: the body is executed for index = 0, ..., count - 1, or in ``reverse`` order."""
+    """A loop: the body is executed for index = 0, ..., count - 1, or in ``reverse`` order.
+
+    The passes through an ``independent`` or ``parallel`` loop may be executed in any order. A compiler should
+    execute those of an independent loop with vector instructions, and those of a parallel loop on several
+    processors.
+    """
 
     index: Term
     count: Term
     body: tuple[Statement, ...]
     reverse: bool = False
+    independent: bool = False
+    parallel: bool = False
 
 
 @dataclass(frozen=True)
@@ -109,7 +117,8 @@ RAISES_STATUS, RAISES_NAN = "status", "nan"
 @dataclass(frozen=True)
 class Function:
     """A function of the unit. ``public`` functions can be called from outside the unit; functions marked
-    ``often`` should be inlined."""
+    ``often`` should be inlined. A function marked ``near`` evaluates functions of reals without branches
+    (:mod:`codegen.run.batch`)."""
 
     name: str
     about: str
@@ -119,6 +128,7 @@ class Function:
     guard: str = ""
     public: bool = False
     often: bool = False
+    near: bool = False
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import factorial
 
+from codegen.ir.exponential_action import ExponentialAction
 from codegen.ir.matrix_exponential import DEGREES, LEAST_DIGITS, largest_norms, pairs
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import MatrixCommutator, MatrixProduct
@@ -18,6 +19,7 @@ from codegen.ir.precision import Precision
 from codegen.ir.unitary_exponential import SpecialUnitaryExponential
 from codegen.ir.vector_calls import vector_function
 from codegen.ir.vector_function import VectorFunction
+from codegen.run.exponential_action import exponential_action
 from codegen.run.language import (
     Array,
     Assign,
@@ -72,6 +74,8 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
                 own = _Exponential(function, precision).functions()
             case MatrixProduct():
                 own = [_Exponential(MatrixExponential(function.n), precision).product_of(function.name)]
+            case ExponentialAction():
+                own = [exponential_action(function, precision)]
             case MatrixCommutator():
                 own = [_commutator(function)]
             case SpecialUnitaryExponential():

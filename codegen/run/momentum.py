@@ -2,8 +2,9 @@
 contains the momentum in the space frame.
 
 Converting at the beginning and the end of a run costs less than converting in each step. At the end, the
-increase of the space momentum over the run is added to the momentum of the initial state. Rounding makes q
-slightly non-orthogonal, so conversions are inexact, but the error affects only the increase.
+increase of the space momentum over the run is added to the momentum of the initial state. Rounding makes
+the group element q slightly non-orthogonal, so conversions are inexact, but the error affects only the
+increase.
 """
 
 from __future__ import annotations

@@ -41,7 +41,7 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
 
 
 def _size(unit: Unit, name: Term) -> int:
-    """Return the number of scalars in one entry."""
+    """Return the number of scalars in one entry of an array: 1, or the scalars in the fields of a record."""
     if name.kind is not Kind.RECORD:
         return 1
     return sum(prod(field.shape) for field, _ in unit.record(name.record).fields)

@@ -35,8 +35,8 @@ class Plan:
 
     kernel: Kernel
     format: Precision
-    # In a trial of a solver this limit is one. With continuation in h the trial could succeed although the
-    # solver fails.
+    # The choice of a solver sets ``tries`` to one in its trial steps. With more attempts, the continuation in
+    # h could make a trial succeed although the solver fails.
     tries: int | None = None
 
     @cached_property

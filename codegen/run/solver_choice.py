@@ -61,8 +61,8 @@ STEPS, FEW_STEPS, LONGER = 20, 5, 8
 longer trial step to the usual step."""
 
 SWEEPS = 50
-"""The largest number of sweeps that a robust solver may need in the longer step: half of the limit of a
-loop."""
+"""The largest number of sweeps that a robust solver may need in the longer step. It is half of the number of
+sweeps after which a loop over equations stops without success."""
 
 PRICE = 4.0
 """A robust solver is preferred if its step takes at most PRICE times as long as a step with the fastest
@@ -128,9 +128,9 @@ def solved(
     """Return the kernel of a program with every block solved as ``asked``, and the choice for each block.
 
     Trials start from the state ``initial``, with run-time inputs equal to zero. ``asked`` is one of
-    :data:`CHOICES`; UnknownName for another name. MethodError if Newton's method needs a derivative of a
-    function of the scene or group that is not known here. A caller that already has the kernel with
-    fixed-point iteration passes it as ``iterated``.
+    :data:`CHOICES`; UnknownName for another name. MethodError if Newton's method needs the derivative of a
+    function, of the scene or group, for which orderconds contains no derivative. A caller that already has
+    the kernel with fixed-point iteration passes it as ``iterated``.
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)

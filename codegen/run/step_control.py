@@ -6,9 +6,9 @@ multiplied by 0.9 norm^(-0.8/p) before^(0.2/p), where ``before`` is the norm of 
 this factor is limited to [0.2, 5], and to [0.2, 1] after a rejection. A rejected step is repeated with the
 factor 0.9 norm^(-1/p), limited to [0.2, 0.9]. The limits are taken from Hairer, Norsett and Wanner, Solving
 Ordinary Differential Equations I, section II.4; the controller is Gustafsson's (II, section IV.2). The
-exponents 0.7/p and 0.4/p damp changes of the step size more, so the step size follows the solution more
-slowly: DOP853 needs 15 to 20 % more steps on ``heavy_top``. Since 0.8 = 4 * 0.2, both factors are computed
-from one power, norm^(-0.2/p).
+exponents 0.7/p and 0.4/p, in place of 0.8/p and 0.2/p, would damp changes of the step size more strongly, and
+the step size would follow the solution more slowly: with them, DOP853 needs 15 to 20 % more steps on
+``heavy_top``. Since 0.8 = 4 * 0.2, both factors are computed from one power, norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
@@ -235,9 +235,9 @@ class _Controlled:
         """Return the statements after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous step, at
-        # most its value for the norm FLOOR. The previous error damps the controller: step sizes oscillate
-        # less where stability limits them. The first step has no previous error.
+        # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous step. An
+        # upper limit of ``previous`` is FLOOR^(-SHARE/p). The previous error damps the controller: step sizes
+        # oscillate less where stability limits them. The first step has no previous error.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # After a rejection the predicted step size was too large, so the next step is not longer (Hairer,
         # Norsett and Wanner).

@@ -68,7 +68,8 @@ class Amounts:
 WEIGHTS = Amounts(
     unknowns=2.1, swept=1.7, arithmetic=0.097, divisions=1.5, calls=3.4, corrections=6.1, cubes=0.26
 )
-"""Nanoseconds of each kind on the machine of the measurements; choices depend on ratios of weights alone."""
+"""The nanoseconds that one unit of each amount takes on the machine of the measurements. The choice of a
+solver depends only on the ratios of these weights."""
 
 
 CHEAP = ("add", "mul", "choose", "fabs")

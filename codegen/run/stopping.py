@@ -13,8 +13,8 @@ three cases:
   level themselves.
 
 All tests are relative, so the number of sweeps does not depend on the units of the motion. In particular, a
-diverging iteration is not accepted because its values are small. A change that is not finite ends a loop with
-NOT_FINITE.
+diverging iteration is never accepted, even if its values are small numbers. A change that is not finite ends
+a loop with NOT_FINITE.
 
 The stopping test by rate times change is taken from Hairer and Wanner, Solving Ordinary Differential
 Equations II, section IV.8.
@@ -54,8 +54,8 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""A number that is added to the rate of convergence. The last change is applied to the unknowns, too, and
-this number is about its relative error.
+"""A number that is added to the rate of convergence in the stopping test. The loop adds the last change to
+the unknowns before it stops, and the relative error of this change is about LEAST_RATE.
 """
 
 FOUR_ROUNDINGS = 2.0**-50

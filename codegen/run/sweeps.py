@@ -96,7 +96,8 @@ class _Loop:
 
     @cached_property
     def images(self) -> list[Term]:
-        """The names of the images; an image that is a symbol already keeps its name."""
+        """The names of the new values of the unknowns. If a new value is a named variable, its name is
+        used."""
         loop = self.iteration.loop
         return [
             own(x.payload) if x.op == "sym" and x.payload not in loop.unknowns else own(f"next {u}")
@@ -113,7 +114,8 @@ class _Loop:
         sequence: list[Statement] = [
             Note(f"{loop.label}: {METHODS[loop.solver]}, {len(loop.unknowns)} unknowns")
         ]
-        starts = zip(self.unknowns, self.iteration.starts, strict=False)  # empty with a warm start
+        # With a warm start, ``starts`` is empty, because the initial guess is computed before the loop.
+        starts = zip(self.unknowns, self.iteration.starts, strict=False)
         sequence += [Assign(u, value(x)) for u, x in starts]
         return [*sequence, *self.rule.before()]
 

@@ -68,7 +68,8 @@ LEAST = 1e-30
 """A lower bound for the size of a coefficient in the formula of the step size, which divides by this size."""
 
 ROWS = 4
-"""The number of rows whose products are added to each inner sum in one pass."""
+"""The Cauchy product is a sum of products of coefficients; a pass of its loop adds this number of products to
+each component of the sum."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -162,7 +163,7 @@ class _Controlled:
         listed.append(self.expand() if self.expansion.following is None else self.expand_in_loop())
         listed.append(self.evaluate())
         if leave is not None:
-            about = "The new state on the manifold, from the old state followed by the new coordinates."
+            about = "The new state on the manifold, from an array with the old state and the new coordinates."
             listed.append(filling(Plan(leave, self.plan.format), LEAVE, about, self.trial))
         return tuple(listed)
 
@@ -256,7 +257,8 @@ class _Controlled:
         return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
 
     def numbers(self, symbols: frozenset[str]) -> list[Statement]:
-        """Return the statements that compute the numbers that the code of one order reads."""
+        """Return the statements that compute factors which depend only on the order of a Taylor coefficient,
+        such as 1/order, if the formulas of the coefficient contain them."""
         one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
         known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
         return [Assign(own(name), x) for name, x in known.items() if name in symbols]

@@ -139,7 +139,8 @@ class Term:
 
 Operand = Term | float | int
 
-# A Python number as operand gets the kind of the other operand, which is a count in an index.
+# A Python number gets the kind of the other operand. The index of an array has no other operand, so this
+# count is used there.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 

@@ -55,7 +55,8 @@ DONE = count("step")
 COMPLETED = count("completed", 1, optional=True, cell=True)
 
 LOOP = "loop"
-"""The name of the function that contains the loop of a run and the kernel."""
+"""The name of the emitted function that contains the loop over the steps of a run, with the kernel
+inlined."""
 
 
 def is_looped(plan: Plan) -> bool:
@@ -99,7 +100,7 @@ class Rows:
         ]
 
     def due(self, step: Term = DONE) -> Term:
-        """Return the test that the state after ``step`` steps is a row."""
+        """Return the test that the state after ``step`` steps must be written as a row of the trajectory."""
         # The flag is tested first, because the remainder of a division by a stride of zero is undefined.
         return both(self.recording, (step % STRIDE).equals(0))
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from codegen.run import deferred_flows, jacobian, step_control, taylor_control
+from codegen.run import batch, deferred_flows, jacobian, step_control, taylor_control
 from codegen.run.arithmetic import outlined
+from codegen.run.array_step import array_functions, array_tables
 from codegen.run.cause import cause, is_searched, step_arguments
 from codegen.run.continuation import continued
 from codegen.run.language import Function, Record, Table, Unit
@@ -25,6 +26,7 @@ def unit_of(plan: Plan) -> Unit:
     else:
         functions += _steps(plan)
     functions += (*step_control.functions(plan), *taylor_control.functions(plan), *jacobian.functions(plan))
+    functions += batch.functions(plan)
     # t and h are always included, so that no other name gets the identifiers t and h.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
     vectors = used(functions)
@@ -44,6 +46,8 @@ def _steps(plan: Plan) -> list[Function]:
     # functions call the function that contains the kernel.
     if is_looped(plan):
         return [*listed, *turning(plan), *looped_runs(plan), step(plan)]
+    if plan.kernel.arrays is not None:
+        return [*listed, *array_functions(plan, plan.kernel.arrays), *_causes(plan), step(plan), run(plan)]
     if not plan.kernel.outputs:
         return [*listed, *taylor_control.polynomial_step(plan), *_causes(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
@@ -69,4 +73,6 @@ def _records(plan: Plan) -> tuple[Record, ...]:
 
 def _tables(plan: Plan) -> tuple[Table, ...]:
     listed = [differences(plan.start)] if plan.start is not None else []
-    return (*listed, *substep_tables(plan))
+    arrays = plan.kernel.arrays
+    own = () if arrays is None else array_tables(arrays, plan.format)
+    return (*listed, *substep_tables(plan), *own)

@@ -11,7 +11,8 @@ from codegen.run.terms import Term, own, value
 
 
 def simple(statement: Simple) -> list[Statement]:
-    """Return the statements of an assignment, a call of Stumpff functions, or of an outlined function."""
+    """Return the statements for an assignment, a call of Stumpff functions, or a call of an outlined
+    function."""
     if isinstance(statement, Assignment):
         return [Assign(own(statement.name), value(statement.value))]
     if isinstance(statement, Invocation):
@@ -49,7 +50,8 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 
 
 def _part(arguments: Sequence[Expr]) -> Term | None:
-    """Return the part of the results of an earlier call that consists of these values, or None."""
+    """Return the part of an array of results of an earlier call if its entries are the arguments, else
+    None."""
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
     # A single result of an outlined function is no array.
     if results[0] is None or len(results) == 1:

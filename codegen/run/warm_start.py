@@ -4,9 +4,9 @@ The degree of the polynomial grows while the backward differences of the solutio
 is full, the degree is adapted in every eighth step only. If the error of the guess exceeds ``Start.ROUGH``
 times the change of the unknowns over the step, the motion has changed, and only the last solution is kept.
 
-Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous. Up
-to :data:`FEW` unknowns, each sum is a scalar variable, because loops over arrays would cost as much as the
-sweeps that the warm start saves.
+Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous.
+The extrapolation of an unknown is a sum over these solutions. Up to :data:`FEW` unknowns, each of these sums
+is a scalar variable, because loops over arrays would cost as much as the sweeps that the warm start saves.
 """
 
 from __future__ import annotations
@@ -172,8 +172,8 @@ class WarmStart:
                 ),
             ]
         about = (
-            "A backward difference times sign, from the term with index first on. The latest solution is "
-            "added last, so that the rest of the sum can be computed before it is known."
+            "A backward difference times sign, without the terms before the index first. The term of the "
+            "latest solution is added last, so the other terms can be summed before that solution is known."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)

@@ -2,7 +2,9 @@
 the compiler evaluates.
 
 A scene file imports its names from this package:
-``from codegen.scene import FieldScene, HamiltonianScene, param, signal, table``.
+``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``.
+``from codegen.scene import FieldScene, HamiltonianScene, param, signal, table``. Scenes with large matrices
+use ``StiefelScene``, ``unknown``, ``banded`` and ``full``.
 """
 
 from __future__ import annotations
@@ -14,20 +16,40 @@ from orderconds.lazy import lazy
 if TYPE_CHECKING:
     from codegen.scene.field_scene import FieldScene as FieldScene
     from codegen.scene.hamiltonian_scene import HamiltonianScene as HamiltonianScene
+    from codegen.scene.linear_scene import LinearScene as LinearScene
+    from codegen.scene.matrix_formula import banded as banded
+    from codegen.scene.matrix_formula import full as full
+    from codegen.scene.matrix_formula import unknown as unknown
     from codegen.scene.parameters import Parameter as Parameter
     from codegen.scene.parameters import Signal as Signal
     from codegen.scene.parameters import param as param
     from codegen.scene.parameters import signal as signal
     from codegen.scene.problem import Problem as Problem
+    from codegen.scene.stiefel_scene import StiefelScene as StiefelScene
     from codegen.scene.tables import table as table
 
-__all__ = ["FieldScene", "HamiltonianScene", "Problem", "param", "signal", "table"]
+__all__ = [
+    "FieldScene",
+    "HamiltonianScene",
+    "LinearScene",
+    "Problem",
+    "StiefelScene",
+    "banded",
+    "full",
+    "param",
+    "signal",
+    "table",
+    "unknown",
+]
 
 lazy(
     __name__,
     field_scene=("FieldScene",),
     hamiltonian_scene=("HamiltonianScene",),
+    linear_scene=("LinearScene",),
+    matrix_formula=("banded", "full", "unknown"),
     parameters=("Parameter", "Signal", "param", "signal"),
     problem=("Problem",),
+    stiefel_scene=("StiefelScene",),
     tables=("table",),
 )

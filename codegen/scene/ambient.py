@@ -17,8 +17,10 @@ def ambient(problem: Problem) -> Problem:
     """Return a problem as a field on R^n; the group of the problem is ignored.
 
     Numerical solutions of the returned problem leave the manifold: their distance from the manifold has the
-    size of the integration error.
+    size of the integration error. :class:`SceneError` is raised for a scene with large matrices, which has no
+    formulas in coordinates.
     """
+    problem.require_formulas()
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
     state = tuple(domain.space.sym(s) for s in problem.symbols)
     values = field.values(domain, state, domain.space.sym(TIME))

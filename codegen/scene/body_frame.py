@@ -125,7 +125,9 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        kinetic = space.zero  # The potential is singular at the neutral element.
+        # The potential is singular at the neutral element, so the kinetic energy cannot be separated there.
+        # With zero in its place the test below fails, and H is not split.
+        kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
 

@@ -238,7 +238,8 @@ class _Change:
         problem, key = self.problem, self.key()
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
-        # The coordinates of a form may leave the manifold. The invariants are functions of the state of the
+        # The coordinates of a form may leave the manifold, and the invariants of the scene are functions of
+        # its state. Therefore the invariants of the form are composed with the map from the form to the
         # scene.
         invariants = {name: self.evaluated((x,), known)[0] for name, x in problem.invariants.items()}
         constants = self.evaluated([e for block in problem.state for e in block.initial], {})
@@ -294,7 +295,7 @@ class _Change:
         """Return a description of the map to the scene."""
         parts = [leaf.cover.covering_formula for leaf in self.leaves if leaf.cover is not None]
         if self.body and self.momenta:
-            parts.append("the momentum of the scene is Ad*_{g^-1} P, for rotation matrices g P")
+            parts.append("the momentum of the scene is Ad*_{g^-1} P (for rotation matrices: the product g P)")
         return "; ".join(dict.fromkeys(parts))
 
     def moving(self, leaf: _Leaf) -> bool:

@@ -26,7 +26,8 @@ ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1,
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
 """Pairs of formulas that must be equal, by the name that messages use: formulas that the scene contains, and
-formulas computed from its field. None in place of the computed formulas means the velocity f.y.
+formulas computed from its field. If the second entry of a pair is None, the first entry is
+compared with the velocity f.y.
 """
 
 

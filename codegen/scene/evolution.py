@@ -51,7 +51,7 @@ class Evolution:
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
         """Return the coordinates of a state.
 
-        If ``frame`` is given, the state contains the momentum of the body, and ``frame`` is the group.
+        If ``frame`` is given, the state contains the momentum in the body frame, and ``frame`` is the group.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)
@@ -65,7 +65,8 @@ class Evolution:
     ) -> Vector[S]:
         """Return the state with given coordinates on the manifold that contains the state y.
 
-        If ``frame`` is given, both states contain the momentum of the body, and ``frame`` is the group.
+        If ``frame`` is given, both states contain the momentum in the body frame, and ``frame`` is the
+        group.
         """
         z = self._completed(domain, moved)
         if self.body is None:
@@ -139,13 +140,13 @@ class Evolution:
 
 
 def in_space(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
-    """Return a state with the momentum in space, given the state with the momentum of the body."""
+    """Return the state with the momentum in the space frame, given it with the momentum in the body frame."""
     q, momentum = tuple(y[: group.size]), tuple(y[group.size :])
     return (*q, *group.Adtinv(domain, q, momentum))
 
 
 def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
-    """Return a state with the momentum of the body, given the state with the momentum in space."""
+    """Return the state with the momentum in the body frame, given it with the momentum in the space frame."""
     q, mu = tuple(y[: group.size]), tuple(y[group.size :])
     return (*q, *group.Adt(domain, q, mu))
 

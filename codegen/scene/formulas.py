@@ -116,7 +116,7 @@ class Reader:
             elif symbol.name not in known:
                 hint = f'write {symbol.name} = param("{symbol.name}", 1) to make it a parameter'
                 if symbol.name in RESERVED or symbol.name in self.coordinates:
-                    hint = f"{what} is the state at the beginning of the span: write its value there"
+                    hint = f"{what} is a value at the start of the span: replace {symbol.name} by a number"
                 raise SceneError(
                     f"the symbol {symbol.name} in {what} has no value",
                     where=self.name,

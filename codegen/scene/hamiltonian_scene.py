@@ -108,7 +108,7 @@ def _refuse_parts(name: str, parts: Mapping[str, sympy.Expr]) -> NoReturn:
         f"a wrench beside the parts {', '.join(parts)}",
         where=name,
         expected="parts without a wrench, or a wrench without parts",
-        hint="splittings compose exact flows of H, and a wrench has none: remove parts",
+        hint="splittings compose exact flows of the parts of H, and a wrench has no exact flow: remove parts",
     )
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
-from codegen.groups.capabilities import BodyFrame, Coadjoint
+from codegen.groups.capabilities import BodyFrame, CayleyMap, Coadjoint
 from codegen.ir.domain import Domain, Value
 
 GroupOperation = Callable[..., Value]
@@ -28,6 +28,8 @@ ON_GROUP: Mapping[str, GroupOperation] = {
     "adt": lambda group, d, x, mu: group.require(Coadjoint).adt(d, x, mu),
     "dexpt": lambda group, d, x, mu: group.require(Coadjoint).dexpt(d, x, mu),
     "Adinv": lambda group, d, g, x: group.require(BodyFrame).Adinv(d, g, x),
+    "cay": lambda group, d, x: group.require(CayleyMap).cay(d, x),
+    "sandwich": lambda group, d, x, y: group.require(CayleyMap).sandwich(d, x, y),
     "mulexp": lambda group, d, g, x: group.require(BodyFrame).mulexp(d, g, x),
 }
 

@@ -13,6 +13,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from codegen.errors import SceneError
 from codegen.groups.actions import Action, LeftMultiplication
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import BodyFrame, ClosedFormSeries, Coadjoint
@@ -33,6 +34,7 @@ from codegen.scene.values import Bindings
 
 if TYPE_CHECKING:
     from codegen.scene.evolution import Evolution
+    from codegen.scene.matrix_field import MatrixField
 
 TIME = "t"
 """The symbol of the time in formulas."""
@@ -63,7 +65,9 @@ class Problem:
     reads at run time. ``forced`` is True if n contains a force that is not a derivative of the Hamiltonian.
     If emitted code reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution``
     contains the coordinates in which a step of Taylor's method computes. ``coordinates`` is the map with
-    which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential map. ``derived``
+    which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential map. ``matrices``
+    is the field if it is given by formulas of whole matrices; for large matrices ``roots`` is then empty.
+    ``derived``
     stores the problems that families derive from this problem, by the kind of the family. A search uses each
     of them for hundreds of methods.
     """
@@ -88,6 +92,7 @@ class Problem:
     body_group: Coadjoint | None = None
     evolution: Evolution | None = None
     coordinates: CoordinateMap | None = None
+    matrices: MatrixField | None = None
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
@@ -101,7 +106,15 @@ class Problem:
     @property
     def autonomous(self) -> bool:
         """True if the field depends neither on the time nor on signals that are read at run time."""
+        if self.matrices is not None:
+            return not self.matrices.reads(TIME)
         return not self.inputs and not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
+
+    @property
+    def linear(self) -> bool:
+        """True if the field does not depend on the state: y' = A(t).y, a linear problem in time."""
+        state = set(self.symbols)
+        return not any(n.op == "sym" and n.payload in state for n in walk(self.roots))
 
     @property
     def is_hamiltonian(self) -> bool:
@@ -111,6 +124,17 @@ class Problem:
     def dimension(self) -> int:
         """Return the dimension of the Lie algebra."""
         return self.group.dim
+
+    def require_formulas(self) -> None:
+        """Raise :class:`codegen.errors.SceneError` if the field has no formulas in coordinates."""
+        if not self.roots:
+            raise SceneError(
+                f"a field without formulas in coordinates, because {self.group.name} has {self.group.dim} "
+                "coordinates",
+                where=self.name,
+                expected="a scene with fewer rows",
+                hint="emit and converge work for every number of rows",
+            )
 
     def as_field(self) -> Problem:
         """Return a Hamiltonian problem as the field f = (xi, n) of the group T*G, which acts on itself."""
@@ -126,7 +150,11 @@ class Problem:
 
         Run-time parameters stay symbols in expressions.
         """
-        values: Bindings = dict(zip(self.symbols, state, strict=True))
+        return {**dict(zip(self.symbols, state, strict=True)), **self.scalars(domain, t)}
+
+    def scalars(self, domain: Domain, t: S | None = None) -> Bindings:
+        """Return the values of the parameters and the time, as :meth:`values` does."""
+        values: Bindings = {}
         for name, number in self.parameters.items():
             if isinstance(domain, ExprDomain) and name in self.runtime:
                 values[name] = domain.space.sym(name)
@@ -176,9 +204,8 @@ class Problem:
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of the functions of ad_x in ``word`` applied to v; with ``dual``, ad*_x replaces
-        ad_x.
-        """
+        """Return F v, where F is the product of the functions of ad_x in ``word``; with ``dual``, of
+        ad*_x."""
         return self.group.require(ClosedFormSeries).series(domain, word, dual, x, v)
 
     @property
@@ -211,8 +238,8 @@ class Problem:
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots
         if self.inputs and isinstance(domain, ExprDomain):
-            # Emitted code reads its inputs at the stage times. All other domains use the formulas of the
-            # signals.
+            # In emitted code, the caller passes the values of the inputs at the stage times. Domains that
+            # compute with numbers or series evaluate the formulas of the signals.
             roots = self.open_roots
             formulas = evaluate(list(self.signals.values()), domain, values)
             samples = domain.sample(self.inputs, values[TIME])
@@ -222,6 +249,8 @@ class Problem:
 
     def velocity(self, domain: Domain, state: Sequence[S], t: S | None = None) -> Vector[S]:
         """Return the time derivatives of the state's coordinates: f(y).y."""
+        if self.matrices is not None:
+            return self.matrices.velocity(domain, tuple(state), self.scalars(domain, t))
         problem = self.as_field()
         f: Vector[S] = tuple(evaluate(problem.roots, domain, problem.values(domain, state, t)))
         if isinstance(domain, ExprDomain):

@@ -151,7 +151,8 @@ def _joined(
     """Return the piecewise polynomial with the given rows, extended to points outside the table."""
     if outside == HOLD:
         return PiecewisePolynomial(tuple(xs), (xs[0], *xs), ((ys[0],), *rows, (ys[-1],)))
-    # A function has at least one knot. With two points, both sides of the knot have the same polynomial.
+    # A piecewise polynomial has at least one knot, but a table with two points has one interval and no inner
+    # point. Its first point becomes the knot, and both sides of the knot have the same polynomial.
     knots, starts = (xs[1:-1], xs[:-1]) if len(xs) > 2 else (xs[:1], (xs[0], xs[0]))
     return PiecewisePolynomial(tuple(knots), tuple(starts), tuple(rows if len(xs) > 2 else rows * 2))
 

@@ -38,6 +38,7 @@ GALLERY = (
     "duffing_se2",
     "duffing_sl2",
     "fast_heavy_top",
+    "four_level_system",
     "free_rigid_body",
     "free_rigid_body_attitude",
     "free_rigid_body_product",
@@ -45,6 +46,7 @@ GALLERY = (
     "free_rigid_body_s3",
     "heavy_top",
     "linear_oscillator",
+    "linear_oscillator_sl2",
     "stiff_driven_spin",
 )
 

@@ -6,7 +6,7 @@ A node is a helper or a function of the target's mathematical library, an edge i
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -16,7 +16,7 @@ import networkx as nx
 from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.table import PiecewisePolynomial
-from codegen.snippets import stumpff
+from codegen.snippets import lane_angles, stumpff
 from codegen.templates import environment
 
 LIBRARY = (ANGLE, "fabs", "isfinite", *sorted(MATHEMATICAL))
@@ -33,8 +33,9 @@ class Snippet:
     variables: dict[str, Any] = field(default_factory=dict, compare=False)
 
 
-def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
-    """Return every snippet; all targets use the same names.
+def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippet, ...]:
+    """Return every snippet; all targets use the same names. ``batch`` adds the variants of functions that
+    contain no branches, and removes the polynomials that these variants do not use.
 
     Only double precision has shorter polynomials near zero. In single precision the full polynomial is
     already short.
@@ -68,29 +69,58 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
                 values = {"k": k, "size": size, "last": str(last), "short": short}
                 listed.append(Snippet(f"stumpff_{size}_{k}", "stumpff_small", (), values))
     for orders in stumpff.SETS:
-        name = "stumpff_" + "".join(map(str, orders))
-        library = ["sqrt"]
-        if orders != (0,):
-            library.append("sin")
-        if orders not in ((1,), (2,), (3,), (1, 3)):
-            library.append("cos")
-        series = (*library, *(f"stumpff_series_{k}" for k in orders))
-        values = {"name": name, "orders": orders, "switch": switch}
-        if precision is not DOUBLE:
-            listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
-            continue
-        # The branch near zero is short enough to be inlined at each call. The branch for larger arguments is
-        # called rarely and is a separate function.
-        far, small = f"{name}_far", float(stumpff.SMALL)
-        listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-        # Three functions, each with two polynomials, would be too long for a C compiler to inline.
-        sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
-        calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
-        tiny = float(stumpff.TINY) if "tiny" in sizes else ""
+        listed += _shared_angle(orders, switch, precision, batch)
+    return (*listed, *(trigonometric(precision) if batch else ()))
+
+
+def _shared_angle(
+    orders: tuple[int, ...], switch: Sequence[float], precision: Precision, batch: bool
+) -> list[Snippet]:
+    """Return the snippets of the Stumpff functions ``orders`` of one argument."""
+    listed: list[Snippet] = []
+    name = "stumpff_" + "".join(map(str, orders))
+    library = ["sqrt"]
+    if orders != (0,):
+        library.append("sin")
+    if orders not in ((1,), (2,), (3,), (1, 3)):
+        library.append("cos")
+    series = (*library, *(f"stumpff_series_{k}" for k in orders))
+    values = {"name": name, "orders": orders, "switch": switch}
+    if batch:
+        polynomials = tuple(f"stumpff_series_{k}" for k in orders)
+        listed.append(Snippet(f"{name}_near", "stumpff_lane", polynomials, values))
+    if precision is not DOUBLE or batch:
+        listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
+        return listed
+    # The branch near zero is short enough to be inlined at each call. The branch for larger arguments is
+    # called rarely and is a separate function.
+    far, small = f"{name}_far", float(stumpff.SMALL)
+    listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
+    # Three functions, each with two polynomials, would be too long for a C compiler to inline.
+    sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
+    calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
+    tiny = float(stumpff.TINY) if "tiny" in sizes else ""
+    listed.append(Snippet(name, "stumpff_near", calls, values | {"tiny": tiny, "small": small, "far": far}))
+    return listed
+
+
+def trigonometric(precision: Precision) -> list[Snippet]:
+    """Return four snippets: sine and cosine without branches for bounded arguments, and sine and cosine for
+    all arguments."""
+    shared = {
+        **lane_angles.reduction(precision),
+        "sine": lane_angles.polynomial(1, precision),
+        "cosine": lane_angles.polynomial(0, precision),
+    }
+    listed = []
+    for name in ("sin", "cos"):
+        listed.append(Snippet(f"{name}_near", "angle_near", ("fabs",), {"name": name, **shared}))
         listed.append(
-            Snippet(name, "stumpff_near", calls, values | {"tiny": tiny, "small": small, "far": far})
+            Snippet(
+                f"{name}_complete", "angle_complete", (f"{name}_near", name, "fabs"), {"name": name, **shared}
+            )
         )
-    return tuple(listed)
+    return listed
 
 
 def snippet_of_table(table: PiecewisePolynomial, precision: Precision = DOUBLE) -> Snippet:
@@ -103,11 +133,11 @@ def snippet_of_table(table: PiecewisePolynomial, precision: Precision = DOUBLE) 
 
 
 @cache
-def graph(precision: Precision = DOUBLE) -> nx.DiGraph:
+def graph(precision: Precision = DOUBLE, batch: bool = False) -> nx.DiGraph:
     """Return the graph: an edge from each helper to each function that it calls."""
     result = nx.DiGraph()
     result.add_nodes_from(LIBRARY, snippet=None)
-    for snippet in snippets(precision):
+    for snippet in snippets(precision, batch):
         result.add_node(snippet.name, snippet=snippet)
         result.add_edges_from((snippet.name, called) for called in snippet.calls)
     return result
@@ -132,16 +162,18 @@ def needed(
     widest: int = 0,
     chain: int = 1,
     prefix: str = "",
+    batch: bool = False,
 ) -> Needed:
     """Return the helpers and library functions that a module of a target needs, and no others.
 
     ``functions`` are the functions that the module calls. ``sweeps`` is true if the module calls them in
     sweeps over equations. A function call in a sweep would force the compiler to move many values from
     registers to memory. In this case C compilers may inline all branches of Stumpff functions. ``wide`` is
-    the common number of rows of all inverted matrices, 0 if they differ or are large; C unrolls a row of this
-    length. ``widest`` is the largest number of rows; C reserves this much memory. ``chain`` is the number of
-    angles that depend on one another (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of
-    helpers in C, so that two modules can share one translation unit.
+    the common number of rows of all inverted matrices, and 0 if their sizes differ or are large; in C, loops
+    over rows of this length are unrolled. ``widest`` is the number of rows of the largest inverted matrix; C
+    code reserves memory for one row of this length. ``chain`` is the number of angles that depend on one
+    another (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of helpers in C, so that two
+    modules can share one translation unit. ``batch`` is true for modules with a function for many systems.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())
@@ -149,7 +181,7 @@ def needed(
     ('sin', 'sqrt')
     """
     wanted = sorted(set(functions))
-    whole = graph(precision)
+    whole = graph(precision, batch)
     tables = [snippet_of_table(f, precision) for f in wanted if isinstance(f, PiecewisePolynomial)]
     if tables:
         whole = whole.copy()

@@ -22,13 +22,14 @@ below 1/2.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""The largest z for which shorter polynomials are used; they are the squares of the angles 1/4 and 1/16."""
+"""The largest z for which the two shorter polynomials are used: the squares of the angles 1/4 and 1/16."""
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
 
 SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n))
-"""Every non-empty set of indices k for which a kernel may compute c_k of one argument."""
+"""All non-empty sets of indices k. The emitted code contains one function for each set that it needs; the
+function computes c_k of one argument for all k in the set."""
 
 
 LEFT = 10
@@ -39,13 +40,14 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     """Return the largest z for which c_k is computed. For a larger z the result is NaN, because no digit of
     the rotated vector would be correct.
 
-    A relative rounding error of 2^-bits in the data of an angle a gives an error of a 2^-bits in the point,
-    and an error about eight times as large in the field at this point. Along a ``chain`` of angles
-    (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain 8^(chain-1) 2^-bits; the bound on it is
-    2^-LEFT. The stages of a long chain rotate by fractions of the step's angle and lose no more digits than
-    the stages of a short chain. Hence an angle of 2^(bits/6) is always allowed. No angle may exceed
-    2^(2 bits/5): a rotated momentum loses twice as many digits as the angle has, because sums grow with the
-    square of the angle. A step with a larger angle reports a state that is not finite.
+    Let ``a`` denote the angle. A relative rounding error of 2^-bits in the angle gives an error of a*2^-bits
+    in the point, and an error about eight times as large in the field at this point. Along a ``chain`` of
+    angles (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain * 8^(chain-1) * 2^-bits; the
+    bound on this error is 2^-LEFT. The stages of a long chain rotate by fractions of the step's angle and
+    lose no more digits than the stages of a short chain. Hence an angle of 2^(bits/6) is always allowed. No
+    angle may exceed 2^(2 bits/5), because the sums that give the rotated momentum, and therefore their
+    rounding errors, grow with the square of the angle. A step with a larger angle reports a state that is not
+    finite.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -80,8 +82,8 @@ def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial. They are stretched so that
     they vanish at zero, where the value stays exact. Among the polynomials with a given leading term, they
     have the smallest maximum. The error of the result is equally large everywhere, and in a steady motion it
-    always has the same sign. Half a bit would suffice for a single value, but makes the norm of a quaternion
-    drift by 4e-12 in 64,000 steps.
+    always has the same sign. For a single value, an error of half a bit would be small enough. In 64,000
+    steps, however, such an error makes the norm of a quaternion drift by 4e-12.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]

@@ -28,7 +28,7 @@
  *             102 add, 184 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
  *             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
- *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
+ *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
  * stack:      at most 13440 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 2536 of them
  *             as a margin; functions of the mathematical library add to this
  * command:    orderconds emit dipole --method vcf:cf4 --target c -o .
@@ -382,8 +382,8 @@ static void dipole_vcf_cf4_count_matrix(dipole_vcf_cf4_statistics *statistics)
 }
 
 /*
- * A backward difference times sign, from the term with index first on. The latest solution is added
- * last, so that the rest of the sum can be computed before it is known.
+ * A backward difference times sign, without the terms before the index first. The term of the latest
+ * solution is added last, so the other terms can be summed before that solution is known.
  */
 static inline void dipole_vcf_cf4_difference(const struct dipole_vcf_cf4_memory *memory,
     size_t order, size_t first, double sign, double sum[static 12])
@@ -1316,7 +1316,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         + d_xi4_2 * w274;
     const double new_mu2 = w277 + d_xi3_0 * w278 + d_xi3_1 * w279 + d_xi4_0 * w280
         + d_xi4_1 * w281;
-    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
+    /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

@@ -25,7 +25,7 @@
  *             2 mul for an initial guess, in the first step of a run
  *             11 add, 34 mul, 1 div a matrix of the equations of xi1, n1
  *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of xi1, n1
- *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
+ *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
  * stack:      at most 4736 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 800 of them as
  *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit dipole --method vcg:midpoint --target c -o .
@@ -283,8 +283,8 @@ static void dipole_vcg_midpoint_count_matrix(dipole_vcg_midpoint_statistics *sta
 }
 
 /*
- * A backward difference times sign, from the term with index first on. The latest solution is added
- * last, so that the rest of the sum can be computed before it is known.
+ * A backward difference times sign, without the terms before the index first. The term of the latest
+ * solution is added last, so the other terms can be summed before that solution is known.
  */
 static inline void dipole_vcg_midpoint_difference(const struct dipole_vcg_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -550,7 +550,7 @@ static inline int dipole_vcg_midpoint_advance(double state[static 12], double h,
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
+    /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

@@ -21,7 +21,7 @@
  *             3 adjoint maps: an adjoint map and its inverse cancel
  *             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv: functions of the
  *             same ad_x are combined
- *             2 sums: numbers are multiplied into sums
+ *             2 sums: numeric factors become coefficients of sums
  *             arguments for parameters, which are constants: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 47 add, 80 mul, 1 stumpff_12 a step
@@ -29,7 +29,7 @@
  *             48 add, 72 mul a matrix of the equations of v1, v2, m1, m2
  *             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of v1, v2, m1, m2
- *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
+ *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
  * stack:      at most 7360 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1280 of them as
  *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
@@ -377,8 +377,8 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 }
 
 /*
- * A backward difference times sign, from the term with index first on. The latest solution is added
- * last, so that the rest of the sum can be computed before it is known.
+ * A backward difference times sign, without the terms before the index first. The term of the latest
+ * solution is added last, so the other terms can be summed before that solution is known.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -857,7 +857,7 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
     const double new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6;
     const double new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7;
     const double new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8;
-    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
+    /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + w128) + (w130 + w132)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

@@ -21,7 +21,7 @@ left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
             3 adjoint maps: an adjoint map and its inverse cancel
             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv:
             functions of the same ad_x are combined
-            2 sums: numbers are multiplied into sums
+            2 sums: numeric factors become coefficients of sums
             arguments for parameters, which are constants: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 47 add, 80 mul, 1 stumpff_12 a step
@@ -29,7 +29,7 @@ operations: 47 add, 80 mul, 1 stumpff_12 a step
             48 add, 72 mul a matrix of the equations of v1, v2, m1, m2
             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of
             the equations of v1, v2, m1, m2
-            12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
+            12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
 command:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target python -o .
 version:    orderconds 0.1.0
 
@@ -54,8 +54,8 @@ SINGULAR = 6  # the matrix of an implicit block is singular
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: one of the codes above; reason: its cause; step: the number of completed steps;
-    state: the last good state, as a tuple.
+    status: one of the codes above; reason: the cause of the failure, as a text;
+    step: the number of completed steps; state: the last good state, as a tuple.
     """
 
     def __init__(self, status, reason, step, state):
@@ -370,9 +370,9 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """A backward difference times sign, from the term with index first on. The
-    latest solution is added last, so that the rest of the sum can be computed
-    before it is known.
+    """A backward difference times sign, without the terms before the index first.
+    The term of the latest solution is added last, so the other terms can be
+    summed before that solution is known.
     """
     sum_0 = 0.0
     sum_1 = 0.0

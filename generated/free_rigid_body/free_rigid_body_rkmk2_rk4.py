@@ -40,8 +40,8 @@ TOO_FAR = 5  # the step turns or moves too far for finite numbers; a shorter ste
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: one of the codes above; reason: its cause; step: the number of completed steps;
-    state: the last good state, as a tuple.
+    status: one of the codes above; reason: the cause of the failure, as a text;
+    step: the number of completed steps; state: the last good state, as a tuple.
     """
 
     def __init__(self, status, reason, step, state):

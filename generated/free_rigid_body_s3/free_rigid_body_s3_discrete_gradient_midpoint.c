@@ -324,8 +324,8 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
 }
 
 /*
- * A backward difference times sign, from the term with index first on. The latest solution is added
- * last, so that the rest of the sum can be computed before it is known.
+ * A backward difference times sign, without the terms before the index first. The term of the latest
+ * solution is added last, so the other terms can be summed before that solution is known.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -1052,7 +1052,7 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
     const double Y_1_ = q3 * w460 - q2 * w461 + (q0 * w459 + q1 * c0_3);
     const double Y_2_ = q1 * w461 - q3 * w459 + (q0 * w460 + q2 * c0_3);
     const double Y_3_ = q2 * w459 - q1 * w460 + (q0 * w461 + q3 * c0_3);
-    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
+    /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;

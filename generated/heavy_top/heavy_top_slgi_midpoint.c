@@ -426,8 +426,8 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 }
 
 /*
- * A backward difference times sign, from the term with index first on. The latest solution is added
- * last, so that the rest of the sum can be computed before it is known.
+ * A backward difference times sign, without the terms before the index first. The term of the latest
+ * solution is added last, so the other terms can be summed before that solution is known.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -852,7 +852,7 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
+    /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

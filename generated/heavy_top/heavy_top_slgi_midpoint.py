@@ -42,8 +42,8 @@ SINGULAR = 6  # the matrix of an implicit block is singular
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: one of the codes above; reason: its cause; step: the number of completed steps;
-    state: the last good state, as a tuple.
+    status: one of the codes above; reason: the cause of the failure, as a text;
+    step: the number of completed steps; state: the last good state, as a tuple.
     """
 
     def __init__(self, status, reason, step, state):
@@ -408,9 +408,9 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """A backward difference times sign, from the term with index first on. The
-    latest solution is added last, so that the rest of the sum can be computed
-    before it is known.
+    """A backward difference times sign, without the terms before the index first.
+    The term of the latest solution is added last, so the other terms can be
+    summed before that solution is known.
     """
     sum_0 = 0.0
     sum_1 = 0.0

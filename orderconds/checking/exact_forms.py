@@ -21,8 +21,8 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""The largest value of q^2 times the uncertainty of a number for which a fraction with denominator q is
-accepted."""
+"""A fraction with denominator q is accepted for a number if q^2, times the uncertainty of the number, is at
+most this bound."""
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
 """Keys of a file that contain no coefficients."""
@@ -102,7 +102,7 @@ def _fraction(x: Constant) -> Fraction | None:
 
 
 def _bits(x: Constant) -> int:
-    """Return the number of binary places of a number that its uncertainty leaves certain."""
+    """Return how many binary places of a number are certain, computed from the uncertainty of the number."""
     return max(0, (x.unit.denominator // x.unit.numerator).bit_length() - 1)
 
 
@@ -127,7 +127,7 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Return the values of a file in which the exact text replaces each recognised number."""
+    """Return a copy of the file's values in which each recognised number is replaced by its exact text."""
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):

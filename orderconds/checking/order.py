@@ -120,10 +120,10 @@ def family_order(
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
-    ``bound`` is the order in another family, whose conditions are a subset of the conditions of ``family``.
-    Hence ``bound`` is an upper bound of the order in ``family``. ``search_limit`` is the highest order that
-    is evaluated for a file without a claim in ``family``. The search stops at the order of ``bound`` if this
-    order is at least ``search_limit``, or if ``brief`` is true. The result then contains the failing
+    ``bound`` is the result for another family, whose conditions are a subset of the conditions of ``family``.
+    Hence ``bound.order`` is an upper bound of the order in ``family``. ``search_limit`` is the highest order
+    that is evaluated for a file without a claim in ``family``. The search stops at the order ``bound.order``
+    if this order is at least ``search_limit``, or if ``brief`` is true. The result then contains the failing
     conditions of ``bound``. Conditions that follow from other conditions, or from the orders ``proved`` in
     other families, are not evaluated (:mod:`orderconds.families.reductions`). The search also ends when
     ``meter`` reports that a limit is reached.

@@ -126,7 +126,9 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
     if forms is None:
         return ""
     name, text = max(forms.texts.items(), key=lambda form: ("sqrt" in form[1], -len(form[1])))
-    return f"exact coefficients are recognised, such as {name} = {text}; orderconds refine FILE writes them"
+    return (
+        f"exact numbers agree with the decimals, such as {name} = {text}; orderconds refine FILE writes them"
+    )
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
@@ -209,8 +211,8 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families whose orders bound the orders in other families. Families in ``labels`` are
-    omitted.
+    """Return the families whose orders give lower or upper bounds of the orders in other families. Families
+    in ``labels`` are omitted.
 
     A tableau (A, b) that is a composition of midpoint rules is also read as a composition.
     """

@@ -50,7 +50,9 @@ WIDTH = 200
     shell_complete=completing(tableau_names, files=True),
 )
 @click.option(
-    "--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), also if the file claims no order in it."
+    "--family",
+    "-f",
+    help="Check only this family, such as vcg or 'rkmk(1)', even if the file claims no order in it.",
 )
 @click.option(
     "--order",
@@ -72,7 +74,7 @@ WIDTH = 200
 @click.option(
     "--require-claims",
     is_flag=True,
-    help="Exit with status 1 if a tableau claims none of the orders that are checked, and with status 2 if a "
+    help="Exit with status 1 if a tableau claims no order in the checked families, and with status 2 if a "
     "file below a directory is neither a tableau nor plainly other data.",
 )
 @click.option(
@@ -144,7 +146,7 @@ def command(
         orderconds check mine.toml --family 'rkmk(2)' --order 4
     """
     if family is not None:
-        families.get(family)  # an unknown family is reported once, not for each file
+        families.get(family)  # This call raises one error for an unknown family, before any file is read.
     job = _Job(
         path="",
         family=family,
@@ -277,8 +279,8 @@ def _checked(job: _Job) -> _Outcome:
 
 
 def _excused(arguments: Sequence[str]) -> set[str]:
-    """Return the tableau names in the files DECIMAL of the directories; a line has the form "NAME:
-    reason"."""
+    """Return the names of tableaux that need no proof. The file DECIMAL of a directory lists these names;
+    each line has the form "NAME: reason"."""
     names = set[str]()
     for argument in arguments:
         listed = Path(argument) / "DECIMAL"
@@ -289,7 +291,8 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 
 
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
-    """Yield each argument; a directory is replaced by the tableau files below it, in sorted order.
+    """Yield the files to check. An argument that is a directory yields the tableau files below it, sorted;
+    every other argument is yielded unchanged.
 
     The names of skipped files are written to stderr, with the reason. If ``strict`` is true, only files that
     are plainly other data are skipped.
@@ -316,7 +319,9 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
         if below.others:
             names = list(dict.fromkeys(below.others))
             shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
-            click.echo(f"skipped {len(below.others)} other files and hidden folders: {shown}", err=True)
+            click.echo(
+                f"skipped {len(below.others)} files or hidden folders without tableaux: {shown}", err=True
+            )
         if not below.tableaux:
             kinds = ", ".join(f"*{suffix}" for suffix in SUFFIXES)
             raise TableauError("no tableau below this directory", where=argument, expected=f"files {kinds}")
@@ -386,7 +391,9 @@ def _proof(proof: Certificate) -> str:
     if not proof.printed:
         return text
     furthest = max(proof.printed.values(), key=float)
-    return f"{text}; the digits printed in the source differ from this solution by up to {furthest}"
+    return (
+        f"{text}; the digits printed in the cited publication differ from this solution by up to {furthest}"
+    )
 
 
 def _row(family: FamilyOrder) -> tuple[str, ...]:

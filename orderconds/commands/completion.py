@@ -20,8 +20,9 @@ VARIABLE = "_ORDERCONDS_COMPLETE"
 def command(ctx: click.Context, shell: str, as_json: bool) -> int:
     """Print the script that lets SHELL complete commands, options, families, tableaux and scenes.
 
-    Add the line `eval "$(orderconds completion bash)"` to ~/.bashrc, the same with zsh to ~/.zshrc, and
-    `orderconds completion fish | source` to the configuration of fish.
+    For bash, add the line `eval "$(orderconds completion bash)"` to ~/.bashrc. For zsh, add
+    `eval "$(orderconds completion zsh)"` to ~/.zshrc. For fish, add `orderconds completion fish | source` to
+    the configuration file of fish.
 
     \b
     Examples:

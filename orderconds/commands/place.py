@@ -54,7 +54,8 @@ def put(path: str, content: bytes) -> None:
     >>> put(os.devnull, b"gone")
     """
     try:
-        target = Path(os.path.realpath(path))  # The file is written to the target of a symbolic link.
+        # If the path is a symbolic link, the file that the link points to is written.
+        target = Path(os.path.realpath(path))
         if target.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
         if target.exists() and not target.is_file():
@@ -77,5 +78,6 @@ def _write_directly(path: Path, content: bytes) -> None:
         raise
     with os.fdopen(handle, "wb") as stream:
         if os.name == "posix":
-            os.set_blocking(handle, True)  # From this line on, writing blocks until a slow reader has read.
+            # A write to a full pipe now waits until the reader has read some data.
+            os.set_blocking(handle, True)
         stream.write(content)

@@ -68,7 +68,8 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     if as_json:
         screen.print_json({"decimals": refined.decimals, "proof": proof.as_json()})
     elif output is None:
-        click.echo(refined.text.encode(), nl=False)  # UTF-8, also if the terminal has another encoding
+        # The text is written in UTF-8, even if the terminal has another encoding.
+        click.echo(refined.text.encode(), nl=False)
     return 0
 
 

@@ -193,11 +193,13 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    # A number with a long exponent could fill the memory.
+    # The pattern limits the exponent to two digits, because a number with a long exponent could fill the
+    # memory.
     number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
-    except (ValueError, ZeroDivisionError):  # for example 1/0 or 1/2e3
+    except (ValueError, ZeroDivisionError):
+        # The pattern also matches some texts that are no numbers, such as 1/0 and 1/2e3.
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")
@@ -252,4 +254,4 @@ def _print_proof(order: Order, proof: Infeasible) -> None:
     ):
         click.echo(f"  {condition}")
         click.echo(f"    ({multiplier}) * ({equation})")
-    click.echo(f"the sum of these products is {proof.consequence}, but {proof.reason}")
+    click.echo(f"the sum of the products above is {proof.consequence}, but {proof.reason}")

@@ -45,7 +45,7 @@ def command(
     bicoloured   rooted trees with vertices of two colours     prk
     free         free (unrooted) trees                         symplectic_rk
     essential    free trees without two equal halves           symplectic_rk
-    directed     free trees whose edges carry a direction      sprk
+    directed     free trees whose edges have a direction       sprk
     directed-rooted  rooted trees with directed edges               prk_same_weights
     alternating  free trees whose neighbours differ in colour  sprk_separable
     action       action trees of variational methods           vcg, vcf, vrkmk
@@ -53,8 +53,8 @@ def command(
     letters      Lyndon words of letters A and B               splitting
 
     In text drawings the root is in the first line; in pictures (--svg) it is at the bottom. A directed edge
-    leads from a derivative in q to one in p (or mu); a diamond (L) is a coadjoint action on mu. A note such
-    as (>*>) after a vertex shows its word of derivatives: > is a branch, * the edge to the parent.
+    leads from a derivative in q to a derivative in p (or mu); a diamond (L) is a coadjoint action on mu. A
+    note such as (>*>) after a vertex shows the order of its edges: > is a branch, * the edge to the parent.
 
     \b
     Examples:

@@ -5,8 +5,8 @@ Every format is translated to and from the keys of a tableau file
 files, and its text is never executed as code. Importing an exported method gives exactly the same method;
 rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other formats omit the
 proof (:func:`left_out`). A decimal from another program counts as exact if it has fewer than 12 significant
-digits, as a double if it has the digits of one, else as rounded (``~``). The floats of a NumPy archive are
-doubles.
+digits, as a double if it has the digits of a double, else as rounded (``~``). The floats of a NumPy archive
+are doubles.
 """
 
 from __future__ import annotations

@@ -174,7 +174,7 @@ def _stages(entries: Arrays, where: str) -> Data:
     sound = len(counts) == len(starts) > pair and min(counts) >= 0 and sum(counts) == len(rows)
     if not sound:
         raise TableauError(
-            "count that does not fit start or exponentials",
+            "the array count does not agree with the array start or exponentials",
             where=where,
             expected="as many entries in count as in start, and sum(count) rows of exponentials",
         )
@@ -189,8 +189,8 @@ def _stages(entries: Arrays, where: str) -> Data:
 
 
 def with_family(data: Data) -> Data:
-    """Return the keys of a file with a family. A file without one has the family of its arrays, ``rk`` for A
-    and b.
+    """Return the keys of a file, including ``family``. If the file has no key ``family``, its arrays
+    determine the family; for example, A and b determine ``rk``.
 
     >>> with_family({"A": [[]], "b": ["1"]})["family"]
     'rk'
@@ -231,7 +231,7 @@ def _integer(text: str, where: str) -> int:
 
 def coefficient(text: str) -> str:
     """Return a number from another program's file as a coefficient without exponent. A long decimal counts as
-    a double if it has the digits of one, else as a rounded decimal.
+    a double if it has the digits of a double, else as a rounded decimal.
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333d', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']

@@ -1,4 +1,4 @@
-"""Texts of a tableau in comments of source files: one line each, so that no text ends its comment.
+"""Texts of a tableau as comments of source files. Each text is one line, so that it cannot end the comment.
 
 A backslash and every character that could end a line or a comment, or change the direction of writing, is
 escaped as in Python; ``*/`` and ``/*`` are separated for C.
@@ -32,7 +32,7 @@ def unescaped(text: str) -> str:
 
 
 def _is_control(character: str) -> bool:
-    """Whether a character is a control or format character, or a separator of lines or paragraphs."""
+    """Return True if a character is a control or format character, or a separator of lines or paragraphs."""
     return unicodedata.category(character) in ("Cc", "Cf", "Cs", "Zl", "Zp")
 
 

@@ -81,7 +81,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _is_plain(table: Table) -> bool:
-    """Whether a table is a plain Butcher tableau: it has no named matrix, and a row without a name."""
+    """Return True if a table is a plain Butcher tableau: no matrix has a name, and some row has no name."""
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)
 
@@ -94,6 +94,7 @@ def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
         raise TableauError(
             f"{len(weights)} rows of weights",
             where=where,
-            expected="lines c, a_1, ..., a_s, then one or two that begin with an empty cell: b, embedded b",
+            expected="lines with c_i and a row of A, then a line with b, and at most one line with "
+            "embedded b; the lines of b and embedded b begin with an empty cell",
         )
     return butcher(stages, weights)

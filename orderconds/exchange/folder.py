@@ -37,7 +37,7 @@ class Folder:
     tableaux: list[str] = field(default_factory=list)
     skipped: list[tuple[str, str]] = field(default_factory=list)
     others: list[str] = field(default_factory=list)
-    """Names of files and hidden folders that no format reads."""
+    """Names of hidden folders, and of files whose suffix belongs to no format."""
 
 
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
@@ -77,8 +77,8 @@ def _is_hidden(name: str) -> bool:
 
 @dataclass(frozen=True)
 class Reason:
-    """Why a file is skipped; ``plain`` is true if the file is plainly other data and not a tableau that no
-    format reads."""
+    """Why a file is skipped. ``plain`` is true if the file is plainly other data, and false if it may be a
+    tableau in a notation that cannot be read."""
 
     text: str
     plain: bool = True
@@ -107,7 +107,7 @@ def _reason(path: str | Path) -> Reason | None:
         content = bytes_of(path)
     except InputError:
         return None
-    return _REASONS[of](content) if of in _REASONS else Reason("a suffix that no format has")
+    return _REASONS[of](content) if of in _REASONS else Reason("a suffix that belongs to no format")
 
 
 def _of_json(content: bytes) -> Reason | None:
@@ -123,7 +123,7 @@ def _of_json(content: bytes) -> Reason | None:
 
 
 def _is_matrix(value: object) -> bool:
-    """Whether a value is a list of rows with numbers."""
+    """Return True if a value is a list of rows with numbers."""
     if not isinstance(value, list) or not value or not all(isinstance(row, list) for row in value):
         return False
     return any(isinstance(x, int | float | str) for row in value for x in row)

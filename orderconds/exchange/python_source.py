@@ -57,7 +57,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def reason_to_skip(content: bytes) -> str:
-    """Return why a module is no tableau, or an empty text if it assigns the arrays of one.
+    """Return why a module is no tableau, or an empty text if it assigns the arrays of a tableau.
 
     >>> reason_to_skip(b"import os"), reason_to_skip(b"A = [[0]]\\nb = [1]")
     ('no assignment to A and b', '')
@@ -77,7 +77,7 @@ def reason_to_skip(content: bytes) -> str:
 
 
 def is_plainly_other(content: bytes) -> bool:
-    """Whether a module is valid and assigns no list or array to A, a or b.
+    """Return True if a Python module is valid and assigns no list or array to A, a or b.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
     [True, False, True]
@@ -174,7 +174,7 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
 
 
 def _is_harmless(statement: ast.Expr) -> bool:
-    """Whether an expression is a docstring, or a call that changes none of its arguments."""
+    """Return True if an expression is a docstring, or a call that changes none of its arguments."""
     value = statement.value
     if isinstance(value, ast.Call):
         return isinstance(value.func, ast.Name) and value.func.id in HARMLESS
@@ -182,12 +182,12 @@ def _is_harmless(statement: ast.Expr) -> bool:
 
 
 def _is_script_part(statement: ast.If) -> bool:
-    """Whether a block runs only if the module is a script: ``if __name__ == "__main__"``."""
+    """Return True if a block runs only if the module is a script: ``if __name__ == "__main__"``."""
     return any(isinstance(node, ast.Name) and node.id == "__name__" for node in ast.walk(statement.test))
 
 
 def _targets_are_names(statement: ast.stmt) -> bool:
-    """Whether a statement assigns whole names only."""
+    """Return True if a statement assigns to variables only, and not to entries or attributes."""
     if isinstance(statement, ast.AnnAssign):
         return True
     return isinstance(statement, ast.Assign) and all(

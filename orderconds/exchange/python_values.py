@@ -47,7 +47,8 @@ class Array:
 
 @dataclass(frozen=True)
 class Computed:
-    """A value that only execution yields: the reason, and the line of the module."""
+    """A value that only execution of the module could compute: the expression that is not understood, and its
+    line."""
 
     reason: str
     line: int
@@ -95,7 +96,7 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value) -> None:
-        """Assign a name; names of numbers that the comments define keep their definition."""
+        """Assign a value to a name, unless the comments of the module define a number of this name."""
         if name not in self.named:
             self.known[name] = value
 
@@ -177,7 +178,7 @@ class Values:
         if isinstance(node.op, ast.Pow):
             exponent = rational(self._number(node.right))
             if exponent is None or abs(exponent.numerator) > 64 or exponent.denominator > 24:
-                raise _NotLiteral(node, "a power with such an exponent")
+                raise _NotLiteral(node, "a power whose exponent is not a small fraction")
             return Power(self._number(node.left), exponent)
         # A long sum is a deep tree, so the operands of one chain are collected without recursion.
         signs: list[str] = []
@@ -226,7 +227,8 @@ class Values:
 
 
 def _class(operator: ast.operator) -> str:
-    """Return the class of operators that are combined from left to right in one chain."""
+    """Return ``sum`` for + and -, ``product`` for * and /, and an empty text for other operators. A chain
+    combines operators of one kind from left to right."""
     return {"+": "sum", "-": "sum", "*": "product", "/": "product"}.get(OPERATORS.get(type(operator), ""), "")
 
 
@@ -238,7 +240,7 @@ def _require_doubles(node: ast.Call) -> None:
 
 
 def _is_integral(value: Value) -> bool:
-    """Whether a value is an integer, or an array of integers."""
+    """Return True if a value is an integer, or an array of integers."""
     if isinstance(value, Array):
         return all(map(_is_integral, value.items))
     if isinstance(value, Chain) and value.operators == ("-",) and value.operands[0] == ZERO:

@@ -24,7 +24,7 @@ class Rows:
 
     @property
     def plainly_other(self) -> bool:
-        """Whether the header names columns, but not c and the columns of A."""
+        """True if the table has a header whose first name is not c, so it is not the header of a tableau."""
         return bool(self.header) and self.header[0] != "c"
 
 

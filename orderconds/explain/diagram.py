@@ -40,9 +40,9 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right.
 
-    ``legs`` = (before, letters) means that the first ``letters`` branches are letters of one word, and that
-    the edge to the parent is an additional letter of this word, after the first ``before`` branches. ``legs``
-    is None if the position of this edge does not matter. ``label`` is the text of a letter.
+    ``legs`` is a pair of numbers (m, n): the first n branches are letters of one word, and the edge to the
+    parent is an additional letter of this word, after the first m branches. ``legs`` is None if the position
+    of this edge does not matter. ``label`` is the text of a letter.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

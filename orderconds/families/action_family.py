@@ -54,7 +54,8 @@ class ActionFamily(Family):
 
     @abstractmethod
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random methods of the family, one method for each sample of the ring.
+        """Return the action series of random methods of the family. An element of ``ring`` is a vector of
+        samples, and each sample belongs to one of the methods.
 
         These methods have enough stages to distinguish the independent conditions up to ``order``.
         """

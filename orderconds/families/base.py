@@ -98,7 +98,8 @@ class Family(ABC):
     """The name of a family that has the same conditions up to order 2. These conditions contain no bracket
     and no momentum."""
     bounds_others: ClassVar[bool] = False
-    """True if ``check`` computes the order in this family to bound the orders in other families."""
+    """True if ``check`` computes the order in this family to obtain bounds of the orders in other
+    families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
     """The families in which a 2N (low-storage) scheme has the same order as in this family."""
 
@@ -258,8 +259,8 @@ class Family(ABC):
         return self
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which ``check`` evaluates a file that claims no order. The method is called on
-        the family that has the same name as the format of the file."""
+        """Return the family in which ``check`` evaluates ``method`` if its file claims no order. ``check``
+        calls this function for the family that has the same name as the format of the file."""
         return self
 
     @classmethod
@@ -326,7 +327,7 @@ class Family(ABC):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order that theorems derive from the orders in other families, or 0.
 
-        ``orders`` maps the labels of the other families to these orders. The method need not derive bounds
+        ``orders`` maps the labels of the other families to these orders. A subclass need not derive bounds
         that already follow from :attr:`implies`.
         """
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))

@@ -90,8 +90,9 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
     """Return True if the Crouch-Grossman method of a tableau is proved to be symmetric.
 
-    A variational method is symmetric if its discrete Lagrangian is symmetric, that is, if the products of
-    exponentials that lead to the stages are symmetric.
+    The sufficient condition is that the products of exponentials that lead to the stages are symmetric. The
+    variational method of the same tableau is also symmetric, because its discrete Lagrangian
+    is then symmetric.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))

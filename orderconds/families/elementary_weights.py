@@ -73,8 +73,10 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return the condition ``weight = 1/gamma`` of each tree. If ``switching`` is given, each dependent
-    condition contains its relation to independent conditions.
+    """Return the condition ``weight = 1/gamma`` of each tree.
+
+    ``switching`` expresses the weights of all trees by the weights of independent trees. If it is given, each
+    dependent condition contains its relation to independent conditions.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]

@@ -3,7 +3,7 @@ file."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
@@ -84,8 +84,9 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A tableau as a key of the cache of proofs. Two keys are equal if the data for the proof are equal.
-    Therefore the proof is computed once, although several families use it."""
+    """A tableau as a key of the cache of proofs. Two keys are equal if both tableaux were read from files
+    with equal content. Therefore the proof is computed once, although several families use it and the file
+    is read again."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -94,10 +95,20 @@ class _Key:
         return hash(self.tableau.name)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Key) and other.tableau is self.tableau
+        if not isinstance(other, _Key):
+            return False
+        own, others = self.content, other.content
+        same = own is not None and own == others and self.tableau == other.tableau
+        return same or self.tableau is other.tableau
+
+    @property
+    def content(self) -> Mapping[str, object] | None:
+        """The content of the file; None if the tableau or its proof differs from the file."""
+        file = self.tableau.file
+        return None if file is None or file.proof is not self.tableau.proof else file.data
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=64)
 def _certify(key: _Key, least: int) -> Certificate:
     tableau = key.tableau
     proof = tableau.proof

@@ -280,7 +280,8 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # Two equal decimals in a file would count as one unknown.
+            # Each decimal in the file is one unknown, and equal decimals are the same unknown. Decimals that
+            # agree up to the sign therefore get more digits, until they differ.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1

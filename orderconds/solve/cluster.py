@@ -25,7 +25,8 @@ def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str)
     scheduler.
     """
     level = logging.root.manager.disable
-    logging.disable(logging.CRITICAL)  # otherwise dask logs a traceback for each lost connection
+    # With logging enabled, dask would log a traceback for each lost connection.
+    logging.disable(logging.CRITICAL)
     try:
         yield from _results(work, jobs, address)
     finally:

@@ -443,10 +443,10 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Layout:
-    """How the coefficients of one tableau format are parametrised.
+    """The functions that parametrise the coefficients of one tableau format.
 
-    ``ansatz`` takes a family, a specification of the method, a structure and a name; ``structures`` returns
-    the structures that a search tries.
+    ``ansatz`` is a function of a family, a specification of the method, a structure and a name.
+    ``structures`` is a function that returns the structures which a search tries.
     """
 
     ansatz: Callable[[Family, Spec, str, str], Ansatz]

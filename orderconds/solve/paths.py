@@ -75,7 +75,8 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i contains about the first i/s of the exponentials of the update.
+        # Stage i begins with the first exponentials of the update; about m i/s of these m exponentials are
+        # used.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

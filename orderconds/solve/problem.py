@@ -55,7 +55,7 @@ class Problem:
         """Return those conditions up to the order of the search that are independent for the ansatz.
 
         Conditions of even order are omitted for a symmetric method, because the order of a symmetric method
-        is even (HLW II.3.2).
+        is even (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Theorem II.3.2).
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order

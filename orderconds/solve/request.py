@@ -112,7 +112,7 @@ def solve(
     ((Fraction(1, 2), Fraction(1, 2)), 'exact')
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # order - 1 may suffice for a symmetric method
+    refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need only these conditions.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,

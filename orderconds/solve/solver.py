@@ -153,7 +153,8 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    checkpoint.remove()  # the search has ended, with or without a solution
+    # The search of this structure has ended, with or without a solution, so its checkpoint is not needed.
+    checkpoint.remove()
 
 
 def _finished(

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from orderconds.ring.traces import ADD, CONSTANT, DIVIDE, INPUT, MULTIPLY, ROOT, Operation, Trace
 
 MOST_SLOPES = 1 << 24
-"""The largest number of derivatives in memory at one time (128 MiB). If there are more points, they are
-evaluated in several parts."""
+"""The largest number of derivatives in memory at one time (128 MiB). If the derivatives at all points exceed
+this number, the points are evaluated in several groups."""
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.int64]
@@ -56,7 +56,7 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        # The function placed() appends the constants among the outputs to the recorded operations.
+        # An output may be a constant. The method ``placed`` adds such a constant to the recorded operations.
         wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
@@ -80,7 +80,8 @@ class Tape:
 
     def _forward(self, points: Floats) -> Floats:
         values = self._start(points)
-        with np.errstate(all="ignore"):  # If a search diverges, its residuals are infinite.
+        # If a search diverges, its residuals are infinite, and numpy would warn of each overflow.
+        with np.errstate(all="ignore"):
             for level in self._levels:
                 out = values[level.start : level.stop]
                 if level.kind == ROOT:

@@ -201,7 +201,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
         if self.low_storage:
             if self.stage or self.update:
                 raise TableauError(
-                    "both low_storage and stage or update",
+                    "the file contains low_storage, and also stage or update",
                     where=where,
                     expected="only one of these two forms",
                 )

@@ -184,8 +184,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
     for place in range(1, len(tree)):
         up = parents[place]
         siblings = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
-        # The longest path that starts at a vertex and goes to its parent continues to the parent of the
-        # parent, or into another branch of the parent.
+        # ``above`` is the length of the longest path whose first edge joins a vertex to its parent. At the
+        # parent, the path either continues to the parent of the parent or enters another branch.
         beyond = max([*siblings, 0 if up == 0 else above[up]])
         above[place] = beyond + 1
         heights[place] = max(below[place], above[place])

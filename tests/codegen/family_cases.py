@@ -12,7 +12,7 @@ from fractions import Fraction
 from sympy import diag
 
 from codegen.scene.problem import Problem
-from tests.strategies import field_scene, hamiltonian_scene, top_scene
+from tests.strategies import field_scene, hamiltonian_scene, linear_scene, top_scene
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,10 @@ def place(name: str) -> Callable[[], Problem]:
 
 def cotangent(name: str = "SO(3)") -> Callable[[], Problem]:
     return lambda: replace(hamiltonian_scene(name), span=SHORT)
+
+
+def linear(name: str = "SO(3)") -> Callable[[], Problem]:
+    return lambda: replace(linear_scene(name), span=SHORT)
 
 
 def top(name: str) -> Callable[[], Problem]:
@@ -102,6 +106,22 @@ CASES = {
     "composition": (
         Case("composition:triple_jump", 4, top("asymmetric"), "linear_oscillator"),
         Case("composition:mclachlan4", 4, top("symmetric"), "dipole"),
+    ),
+    "magnus": (
+        Case("magnus:magnus4", 4, linear(), "linear_oscillator_sl2"),
+        Case("magnus:magnus6", 6, linear("SL(2)"), "linear_oscillator_sl2"),
+    ),
+    "cf_magnus": (
+        Case("cf_magnus:cf_magnus4", 4, linear(), "linear_oscillator_sl2"),
+        Case("cf_magnus:lie_midpoint_triple_jump", 4, linear("GL(2)"), "linear_oscillator_sl2"),
+    ),
+    "fer": (
+        Case("fer:fer4", 4, linear(), "linear_oscillator_sl2"),
+        Case("fer:fer6", 6, linear("SL(2)"), "linear_oscillator_sl2"),
+    ),
+    "cayley": (
+        Case("cayley:cayley4", 4, linear(), "linear_oscillator_sl2"),
+        Case("cayley:cayley6", 6, linear("SL(2)"), "linear_oscillator_sl2"),
     ),
 }
 """The cases by the name of the family. The first case of a family is tried in every run of the tests."""

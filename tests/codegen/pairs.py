@@ -28,7 +28,7 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 from tests.codegen.family_cases import CASES, SHORT
 from tests.codegen.groups.action_cases import HERE, ONE_OF_EACH
-from tests.strategies import ALL_GROUPS, quadratic
+from tests.strategies import ALL_GROUPS, polynomials, quadratic
 
 SAMPLES: dict[str, Any] = {}
 """A group of each class, by the name of the class."""
@@ -59,6 +59,7 @@ class Pair:
     order: int
     hamiltonian: bool
     energy: bool
+    linear: bool
     refusal: str
 
 
@@ -79,13 +80,17 @@ class Formulas(FloatDomain):
         return Rational(p, q)
 
 
-def _field(row: str, group: Any, action: Any, start: list[Any], energy: bool) -> Problem:
-    """Return a quadratic field without symmetry, or a field f = B g that keeps the energy H.
+def _field(row: str, group: Any, action: Any, start: list[Any], energy: bool, linear: bool) -> Problem:
+    """Return a quadratic field without symmetry, a field f = B g that keeps the energy H, or a polynomial in
+    the time alone.
 
     g_i is the derivative of H along the basis element e_i, and B is a constant skew matrix.
     """
     rng = random.Random(row)
     y = [Symbol(f"y{k}", real=True) for k in range(len(start))]
+    if linear:
+        f = polynomials(rng, group.dim)
+        return FieldScene(group=group, action=action, y=y, f=f, y0=start, span=SHORT, name="pair")
     if not energy:
         f = [quadratic(rng, y, 3) / 2 for _ in range(group.dim)]
         return FieldScene(group=group, action=action, y=y, f=f, y0=start, span=SHORT, name="pair")
@@ -132,15 +137,16 @@ def _hamiltonian(row: str, group: Any) -> Problem:
 
 
 @cache
-def scene_of(kind: str, row: str, hamiltonian: bool, energy: bool) -> Problem:
+def scene_of(kind: str, row: str, hamiltonian: bool, energy: bool, linear: bool) -> Problem:
     """Return the scene of a group or of an action; InputError if there is none."""
     if kind == GROUP:
         group = SAMPLES[row]
         if hamiltonian:
             return _hamiltonian(row, group)
-        return _field(row, group, LeftMultiplication(), _exact(group.identity(FloatDomain(0.0))), energy)
+        start = _exact(group.identity(FloatDomain(0.0)))
+        return _field(row, group, LeftMultiplication(), start, energy, linear)
     action, name = ONE_OF_EACH[row]
-    return _field(row, HERE[name], action, _start(action, HERE[name]), energy)
+    return _field(row, HERE[name], action, _start(action, HERE[name]), energy, linear)
 
 
 def _start(action: Any, group: Any) -> list[Any]:
@@ -163,12 +169,13 @@ def pair(kind: str, row: str, family: str) -> Pair:
     # On a group a family for Hamiltonians is tried on T*G; an action gives a field on its manifold.
     hamiltonian = kind == GROUP and case.polynomial().paired
     energy = not hamiltonian and bool(case.polynomial().invariants)
+    linear = case.polynomial().linear
     try:
-        scene = scene_of(kind, row, hamiltonian, energy)
+        scene = scene_of(kind, row, hamiltonian, energy, linear)
         lower(scene, method_for(scene, case.method))
     except InputError as error:
         refusal = str(error)
-    return Pair(kind, row, family, case.method, case.order, hamiltonian, energy, refusal)
+    return Pair(kind, row, family, case.method, case.order, hamiltonian, energy, linear, refusal)
 
 
 def pairs(kind: str) -> Iterator[Pair]:
@@ -186,7 +193,8 @@ A number is the order of the method that is tried for the family, on this group 
 emit this method in every target, compare its steps with the interpreter, and prove its order by exact series.
 A letter refers to the refusal below the table; tests compare the refusals with this page. A group acts on
 itself by left multiplication. Families for Hamiltonians are tried on the cotangent bundle of the group, with
-a kinetic energy and a potential.
+a kinetic energy and a potential. Families for linear problems are tried with a field that depends on the
+time alone.
 """
 
 

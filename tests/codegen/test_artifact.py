@@ -86,7 +86,7 @@ def test_a_file_in_place_of_a_folder_or_a_folder_in_place_of_a_manifest_is_told(
 
 def test_a_folder_that_cannot_be_made_is_bad_input(kernels, tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(InputError, match="cannot write there"):
+    with pytest.raises(InputError, match="cannot write to this path"):
         kernels.emission(kernels.rigid(), "c").write(tmp_path / "file" / "folder")
 
 
@@ -99,7 +99,7 @@ def test_a_disk_that_is_full_after_the_header_leaves_no_header(kernels, tmp_path
             raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("orderconds.output_file.os.fsync", full)
-    with pytest.raises(InputError, match="cannot write there: no space left on device"):
+    with pytest.raises(InputError, match="cannot write to this path: no space left on device"):
         kernels.emission(kernels.rigid(), "c").write(tmp_path)
     assert len(synced) == 2
     assert list(tmp_path.iterdir()) == []
@@ -113,7 +113,7 @@ def test_an_interrupted_write_leaves_the_folder_as_it_was(kernels, tmp_path, mon
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("orderconds.output_file.os.replace", full)
-    with pytest.raises(InputError, match="cannot write there: no space left on device"):
+    with pytest.raises(InputError, match="cannot write to this path: no space left on device"):
         kernels.emission(kernels.rigid(), "c", "other_").write(tmp_path)
     assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before
 

@@ -105,7 +105,7 @@ def test_a_full_disk_is_bad_input_and_leaves_nothing(monkeypatch, tmp_path):
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr("orderconds.output_file.os.fsync", full)
-    with pytest.raises(InputError, match=r"cannot write there: no space left on device; free some space"):
+    with pytest.raises(InputError, match="cannot write to this path: no space left on device; free some"):
         build(SOURCE)
     assert list(cache_directory().iterdir()) == []
     monkeypatch.undo()

@@ -17,10 +17,11 @@ import pytest
 from sympy import Matrix, cos, exp, sin, symbols
 
 from codegen.build import CompileError, Compiler, build, compile_files
-from codegen.emitter import emit, prefix_of
+from codegen.emitter import emit
 from codegen.groups import SO3, Rotation
 from codegen.integrator import Statistics, Status, StepFailed
 from codegen.loader import load
+from codegen.prefix import prefix_of
 from codegen.printers.c.module import FLAGS
 from codegen.scene import FieldScene, param
 from orderconds.errors import InputError

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from codegen.emitter import bare, default_prefix, emit, emit_compiled, prefix_of
+from codegen.emitter import bare, emit, emit_compiled
 from codegen.errors import MethodError, SceneError
 from codegen.integrator import Statistics
 from codegen.ir.domain import FloatDomain
@@ -15,6 +15,7 @@ from codegen.ir.interpret import interpret
 from codegen.loader import load
 from codegen.lower import families_for, lowering, problem_for
 from codegen.lower.flow_words import FlowLowering
+from codegen.prefix import default_prefix, prefix_of
 from codegen.regenerate import entries
 from codegen.scenes import load as load_scene
 from orderconds.errors import InputError, UnknownName, ZeroWeight

@@ -12,6 +12,7 @@ from codegen.ir.domain import ExprDomain
 from codegen.kernel.translate import to_kernel
 from codegen.lower import families_for, lower, lowering, names
 from codegen.lower.flow_words import FlowLowering
+from codegen.lower.linear import LinearLowering
 from codegen.lower.variational import VariationalLowering
 from codegen.method import Method, parse
 from codegen.scene import FieldScene, HamiltonianScene
@@ -192,7 +193,9 @@ def test_a_family_without_lowering_is_named():
 
 
 WITH_STAGES = [
-    f for f in names() if family_class(f).has_tableau and not isinstance(lowering(f), FlowLowering)
+    f
+    for f in names()
+    if family_class(f).has_tableau and not isinstance(lowering(f), FlowLowering | LinearLowering)
 ]
 """The families whose methods are given by stages."""
 

@@ -49,7 +49,9 @@ def test_a_pair_has_its_order_and_is_emitted_or_is_refused(kind, row, family):
         assert what
         assert expected
         return
-    made = compile_method(pairs.scene_of(kind, row, found.hamiltonian, found.energy), found.method)
+    made = compile_method(
+        pairs.scene_of(kind, row, found.hamiltonian, found.energy, found.linear), found.method
+    )
     order = certified_order(made.method, made.scene).order
     assert order == found.order
     error = local_error(made.program, made.problem, made.method.ring, order + 1)

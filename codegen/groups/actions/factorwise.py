@@ -37,7 +37,8 @@ class FactorwiseAction(Action):
         factors = group.require(DirectProduct).factors
         if len(factors) != len(self.actions):
             raise SceneError(
-                f"{len(self.actions)} actions of the {len(factors)} factors of {group.name}",
+                f"the number of actions is {len(self.actions)}, the number of factors of {group.name} is "
+                f"{len(factors)}",
                 where=where,
                 expected="one action for each factor",
             )

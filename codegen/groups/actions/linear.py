@@ -24,9 +24,12 @@ class Linear(Action):
         return matvec(g, y)
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y; if the group consists of rotations, the matrix exp(x) is not formed."""
+        """Return exp(x) y; if the group consists of rotations or of large matrices, the matrix exp(x) is not
+        formed."""
         rotations = group.offers(Rotations)
-        return matvec(group.exp(d, x), y) if rotations is None else rotations.rotate(d, x, y)
+        if rotations is None:
+            return group.require(MatrixElements).exp_times(d, x, y)
+        return rotations.rotate(d, x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
         """If the group preserves lengths, return y scaled to the length of ``start``; otherwise return y.

@@ -16,7 +16,7 @@ class Cayley(CoordinateMap):
     x is a matrix, or a pure quaternion. Groups of matrices g with g^T J g = J have this map, and so have all
     groups whose algebra contains x^3 for each of its elements x. On groups of orthogonal matrices the map is
     defined for all x; on other groups 1 - x/2 may be singular for a long step, which then returns the status
-    of a step that moves too far.
+    TOO_FAR (only a shorter step has a finite result).
     """
 
     name = "cayley"

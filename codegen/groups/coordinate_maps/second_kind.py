@@ -15,7 +15,7 @@ class SecondKind(CoordinateMap):
 
     dtau_x v = sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k with E_k = exp(x_k e_k) (Owren and Marthinsen 2001).
     The inverse is the solution of this linear system. Where the system is singular, or elimination meets a
-    pivot that is zero, the step returns the status of a step that moves too far.
+    pivot that is zero, the step returns the status TOO_FAR (only a shorter step has a finite result).
     """
 
     name = "second_kind"

@@ -14,7 +14,7 @@ from codegen.integrator import Arrival, Statistics, StepFailed
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
 from codegen.lab.efficiency.work_precision import MOST_STEPS, Row
 from codegen.lab.runner import RunFailed
-from codegen.lab.timing import samples
+from codegen.lab.timing import span_times
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
 """Tolerances, from loose to tight. The first tolerance is looser than the first tolerance of peers, because a
@@ -47,19 +47,18 @@ class AdaptiveCandidate(EmittedCandidate):
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
         return not diverged and super().enough(rows)
 
-    def arrive(self, tolerance: float, statistics: Statistics | None = None) -> Arrival:
-        """Run over the span with this tolerance, and return the result at the end of the span.
+    def run(self, control: float, spans: int) -> int:
+        """Run over a multiple of the span and return the number of accepted steps."""
+        return self.arrive(control, spans=spans).accepted
 
-        An infinite tolerance denotes a run over an empty interval, whose time is the overhead of a call.
-        """
+    def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
+        """Run over a multiple of the span with this tolerance, and return the result at the end."""
         first, last = map(float, self.scene.span)
-        if math.isinf(tolerance):
-            last, tolerance = first, 1.0
         try:
             return self.runner.integrator.adaptive(
                 self.runner.initial,
                 first,
-                last,
+                first + spans * (last - first),
                 rtol=tolerance,
                 atol=tolerance,
                 limit=MOST_STEPS,
@@ -79,7 +78,7 @@ class AdaptiveCandidate(EmittedCandidate):
                 raise RunFailed("the final state is not finite")
         except ArithmeticError as failure:
             return replace(self._row(control, 0.0, 0, failure=str(failure)), h=None, steps=None)
-        times = self._net(lambda: samples(lambda: self.arrive(control)), lambda: self.arrive(math.inf))
+        times = span_times(lambda n: self.run(control, n), self.overhead)
         tried, accepted = arrival.accepted + arrival.rejected, arrival.accepted
         row = self._row(control, (last - first) / accepted, tried, error, times, statistics)
         return replace(row, steps=accepted, ns_per_step=1e9 * times[0] / accepted)

@@ -52,7 +52,8 @@ class AdvisedMethod:
 @dataclass(frozen=True, repr=False)
 class Advice:
     """The ``best`` method and the second best method ``runner_up``; None if no method reaches the error.
-    ``search`` contains all details. In a condition, an advice is true if there is a best method.
+    ``search`` contains all details. In an ``if`` statement, the object counts as true if there is a
+    best method.
     """
 
     scene: str

@@ -217,7 +217,7 @@ def _folder(output: str | None) -> Path | None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(
-            f"cannot write there: {error.strerror}",
+            f"cannot write to this path: {error.strerror}",
             where=output,
             expected="a folder that can be written to",
         ) from None

@@ -19,10 +19,10 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The largest order for which a method with the fewest brackets is tried, too.
+"""The largest order for which a recipe with the fewest brackets is added to the recipes with a cut-off.
 
-Otherwise a method has a cut-off: for example, ``rkmk(2)`` truncates dexp^{-1} after 2 brackets. For higher
-orders the search for the fewest brackets takes seconds.
+A recipe with a cut-off, for example ``rkmk(2)``, truncates dexp^{-1} after 2 brackets. For higher orders the
+search for the fewest brackets takes seconds.
 """
 
 
@@ -122,8 +122,9 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, without and with step-size control.
 
-    For each order only the smallest cut-off (:data:`SEARCHED`) that gives this order is used. Orders below
-    half the classical order are omitted, because other tableaux reach these orders with fewer stages.
+    For each order only the smallest cut-off that gives this order is used. Up to the order :data:`SEARCHED`,
+    a recipe with the fewest brackets is added. Orders below half the classical order are omitted, because
+    other tableaux reach these orders with fewer stages.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -134,7 +135,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
         # On some scenes a family has fewer order conditions, so a method has a higher order.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
-        except MethodError:  # No recipe, because the family cannot use the tableau on this scene.
+        except MethodError:
+            # The family cannot use the tableau on this scene, so the tableau has no recipe in this family.
             return
         order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
         if order >= least:

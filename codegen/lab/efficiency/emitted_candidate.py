@@ -20,11 +20,10 @@ from codegen.lab.efficiency.work_precision import (
     at_rounding,
     beyond_budget,
     doubled_steps,
-    net_times,
 )
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted, RunFailed
-from codegen.lab.timing import cost, samples, spans, spread
+from codegen.lab.timing import Overhead, span_times, spread
 from codegen.method import Method
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -59,7 +58,7 @@ class EmittedCandidate:
         self.key = repr(sorted(self.runner.artifact.manifest["files"].items()))
         self.emit_seconds = time.perf_counter() - start
         self.compile_seconds = 0.0
-        self.overhead = math.inf
+        self.overhead = Overhead(lambda: self.run(1.0, 0))
 
     def controls(self) -> Iterator[float]:
         """Yield numbers of steps: 1, 2, 4, ..."""
@@ -90,29 +89,13 @@ class EmittedCandidate:
                 raise RunFailed("the final state is not finite")
         except ArithmeticError as failure:
             return self._row(control, h, steps, failure=str(failure))
-        return self._row(control, h, steps, error, self._times(steps), statistics)
+        times = span_times(lambda n: self.run(control, n), self.overhead)
+        return self._row(control, h, steps, error, times, statistics)
 
-    def _times(self, steps: int) -> list[float]:
-        """Return the CPU seconds of a run.
-
-        A short run is timed over several spans, because the time of a call from Python varies more than the
-        time of a step.
-        """
-        count = spans(lambda n: self.runner.final(steps, spans=n), steps)
-        times = self._net(
-            lambda: samples(lambda: self.runner.final(steps, spans=count)), lambda: self.runner.final(0)
-        )
-        return [s / count for s in times]
-
-    def _net(self, sample: Callable[[], Sequence[float]], nothing: Callable[[], object]) -> list[float]:
-        """Return the times of a run without the overhead of a call; ``nothing`` is a call that makes no
-        step."""
-
-        def overhead() -> float:
-            self.overhead = min(self.overhead, cost(nothing))
-            return self.overhead
-
-        return net_times(sample, overhead)
+    def run(self, control: float, spans: int) -> int:
+        """Run over a multiple of the span and return the number of steps."""
+        self.runner.final(int(control), spans=spans)
+        return spans * int(control)
 
     def enough(self, rows: Sequence[Row]) -> bool:
         """Return True if the budget is reached or rounding errors dominate, so that finer runs are not

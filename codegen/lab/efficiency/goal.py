@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from codegen.errors import MethodError
@@ -94,6 +95,16 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
         return lowering(recipe.family).symplectic(problem, method_of(recipe, problem))
     except MethodError:
         return False
+
+
+def possible_needs(
+    recipe: Recipe, choices: Iterable[tuple[str, ...]], problem: Problem
+) -> set[tuple[str, ...]]:
+    """Return the choices whose needs a recipe may satisfy. A choice is a tuple of needs; a need that occurs
+    in several choices is tested once."""
+    choices = set(choices)
+    never = {need for need in set().union(*choices) if not possible(recipe, (need,), problem)}
+    return {needs for needs in choices if never.isdisjoint(needs)}
 
 
 def stays_on_manifold(recipe: Recipe, problem: Problem) -> bool:

@@ -26,8 +26,8 @@ factor 1 + 1/FRESH.
 
 
 EVEN = 4.0
-"""A queue is delayed equally by three things: EVEN earlier turns, an order that differs by EVEN from the
-usual order, or a kind of recipe that is predicted to be twice as slow.
+"""The delay of a queue increases by one for every EVEN turns that the queue has had, for every EVEN orders
+between its order and the usual order, and for every factor of two in the predicted time of its recipes.
 """
 
 
@@ -79,8 +79,8 @@ class Jobs(Sequence[Job]):
         return len(self.goals)
 
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
-        """Return the next job. Each job is read once, and jobs are read in order. IndexError ends an
-        iteration.
+        """Return the next job. The caller must read the jobs in the order 0, 1, 2, ..., each job once. After
+        the last job, IndexError is raised, which ends a ``for`` loop.
         """
         if k >= len(self):
             raise IndexError(k)
@@ -141,8 +141,8 @@ def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: f
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion all methods need short steps, so no method is first tried with fewer steps
-    # than all earlier predictions needed.
+    # On a scene with fast motion all methods need short steps. Therefore the first run of a method has at
+    # least as many steps as the earlier prediction with the fewest steps.
     steps = min(p.steps for p in known if math.isfinite(p.error))
     least: dict[tuple[str, bool], float] = {}
     for p in known:

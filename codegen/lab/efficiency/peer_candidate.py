@@ -14,11 +14,10 @@ from codegen.lab.efficiency.work_precision import (
     at_rounding,
     beyond_budget,
     doubled_steps,
-    net_times,
 )
 from codegen.lab.peers import TOLERANCES, Peer, PeerFailed
 from codegen.lab.reference import Reference
-from codegen.lab.timing import cost, samples, spread
+from codegen.lab.timing import Overhead, span_times, spread
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
@@ -42,6 +41,7 @@ class PeerCandidate:
         self.label, self.form = self.peer.name, self.equations.name
         self.key = f"{self.peer.version} {self.form}".rstrip()
         self.refused = False
+        self.overhead: Overhead | None = None
 
     def controls(self) -> Iterator[float]:
         """Yield tolerances from loose to tight, or numbers of steps 1, 2, 4, ..."""
@@ -63,8 +63,9 @@ class PeerCandidate:
             error = self.equations.error(outcome.state, self.exact)
             if not math.isfinite(error):
                 raise PeerFailed("the final state is not finite")
-            idle = prepared.idle
-            times = net_times(lambda: samples(prepared.run), lambda: cost(idle) if idle is not None else 0.0)
+            # The overhead of a call does not depend on the tolerance or on the number of steps.
+            self.overhead = self.overhead or Overhead(prepared.idle)
+            times = span_times(lambda n: prepared.run(n).steps, self.overhead)
         # A peer may raise any exception. After the exception all other candidates must still be measured.
         except Exception as failure:
             self.refused = not isinstance(failure, PeerFailed)

@@ -24,7 +24,7 @@ from codegen.lab.efficiency.features import Features, features
 from codegen.lab.efficiency.work_precision import MOST_STEPS
 from codegen.lab.number_types import Vector
 from codegen.lab.reference import Reference
-from codegen.lab.timing import samples, spans
+from codegen.lab.timing import Overhead, span_times
 from codegen.loader import load
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -122,6 +122,7 @@ class Racer:
         problem = self.equations.problem
         self.initial = list(problem.initial(FloatDomain(0.0)))
         self.first, self.last = map(float, problem.span)
+        self.overhead = Overhead(lambda: self.run(1.0, 0))
 
     def run(self, control: float, spans: int = 1) -> tuple[Vector, int]:
         """Return the state and the number of steps of a run over a multiple of the span."""
@@ -147,17 +148,8 @@ class Racer:
         return self.errors[control]
 
     def seconds(self, control: float, batch: float = 0.002, batches: int = 5) -> float:
-        """Return the CPU seconds of a run without the overhead of a call.
-
-        A short run is continued beyond the span, because the overhead of a call from Python exceeds the time
-        of a short run.
-        """
-        steps = self.counts[control]
-        times = spans(lambda n: self.run(control, n), steps)
-        taken = self.run(control, times)[1]
-        overhead = samples(lambda: self.run(control, 0), batch / 2, 3)[0]
-        spent = samples(lambda: self.run(control, times), batch, batches)[0]
-        return max(spent - overhead, 0.1 * spent) * steps / max(taken, 1)
+        """Return the CPU seconds of a run without the overhead of a call."""
+        return span_times(lambda n: self.run(control, n)[1], self.overhead, batch, batches)[0]
 
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the cheapest run that reaches an error.

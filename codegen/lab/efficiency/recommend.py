@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 
 from codegen.lab.efficiency.goal import Goal
-from codegen.lab.efficiency.race import Entry, Result
+from codegen.lab.efficiency.race import Result
 from codegen.lab.efficiency.search import Search
-from codegen.lab.efficiency.task import BUDGET, Task, emitted
+from codegen.lab.efficiency.task import BUDGET, Task
 from codegen.lab.progress import Progress
 from codegen.scene.problem import Problem
-from orderconds.processes import in_processes
 
 
 @dataclass(frozen=True)
@@ -55,7 +52,7 @@ class Request:
 
 @dataclass(frozen=True)
 class Recommendation:
-    """The result of a search: the recipes that reach the error, fastest first, and the extent of the search.
+    """The result of a search: the recipes that reach the error, fastest first, and data about the search.
 
     ``best`` is the most accurate run if no recipe reaches the error. ``predicted`` and ``raced`` are the
     numbers of recipes that were predicted and that were measured. ``complete`` is False if the budget ended
@@ -140,27 +137,3 @@ def recommend(request: Request, progress: Progress = str) -> Recommendation:
         search.referred,
         len(search.exact.kinks),
     )
-
-
-def race_all(
-    request: Request, errors: Sequence[float], progress: Progress = str, most: float = math.inf
-) -> tuple[dict[float, list[Result]], int, int]:
-    """Emit and race every recipe for each error, without predictions. A benchmark compares the search with
-    this function.
-
-    The race ends after ``most`` seconds. Recipes with few stages are raced first. Returned are the results,
-    the number of recipes that were emitted or refused, and the number of all recipes.
-    """
-    search = Search(request.task, (request.goal,))
-    results: dict[float, list[Result]] = {error: [] for error in errors}
-    recipes, done = sorted(search.suited, key=lambda recipe: recipe.stages), 0
-    for done, candidate in enumerate(in_processes(partial(emitted, request.task), recipes), 1):
-        progress(f"{search.problem.name}: recipe {done} of {len(recipes)}")
-        if isinstance(candidate, Entry) and request.goal.met(candidate.features):
-            racer = search.racer(candidate)
-            for error, known in results.items():
-                best = min((r.seconds for r in known if r.reached), default=math.inf)
-                known.append(racer.reach(error, best))
-        if time.monotonic() - search.start > most:
-            break
-    return results, done, len(recipes)

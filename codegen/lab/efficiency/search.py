@@ -20,7 +20,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from codegen.lab.efficiency.candidates import Recipe
-from codegen.lab.efficiency.goal import Goal, possible
+from codegen.lab.efficiency.goal import Goal, possible_needs
 from codegen.lab.efficiency.jobs import Jobs
 from codegen.lab.efficiency.prediction import Prediction
 from codegen.lab.efficiency.race import Entry, Racer, Result
@@ -99,9 +99,9 @@ class Search:
         self.referred = self.spent
         self.results = {goal.error: {} for goal in self.goals}
         self.suited: dict[Recipe, tuple[Goal, ...]] = {}
-        needs = dict.fromkeys(goal.needs for goal in self.goals)
+        needs = {goal.needs for goal in self.goals}
         for recipe in self.task.recipes():
-            known = {n for n in needs if possible(recipe, n, self.problem)}
+            known = possible_needs(recipe, needs, self.problem)
             if known:
                 self.suited[recipe] = tuple(goal for goal in self.goals if goal.needs in known)
 

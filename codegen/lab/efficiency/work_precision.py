@@ -21,18 +21,9 @@ BUDGET = 1.0
 """The longest CPU time of one run, in seconds."""
 
 MOST_STEPS = 5 * 2**21
-COUNTED = 1e-3
-"""The overhead of a call from Python is subtracted from times below this number of CPU seconds."""
-
-RESOLVED = 0.1
-"""The time of a run without the overhead is resolved if the times of the two fastest batches differ by at
-most this fraction.
-"""
 
 AGAIN = 3
-"""The largest number of repeated measurements of a run whose time is not resolved or is longer than the time
-of a run with more steps.
-"""
+"""The largest number of repeated measurements of a run that takes longer than a run with more steps."""
 
 NEAR_ROUNDING = 1e-9
 """If the error relative to the size of the state is below NEAR_ROUNDING, rounding errors may prevent further
@@ -96,25 +87,6 @@ class Candidate(Protocol):
 
     def enough(self, rows: Sequence[Row]) -> bool:
         """Return True if finer runs are not needed."""
-
-
-def net_times(sample: Callable[[], Sequence[float]], overhead: Callable[[], float]) -> list[float]:
-    """Return the times of a run without the overhead of a call, sorted.
-
-    Times of :data:`COUNTED` seconds or more are not changed, because the overhead is negligible for them. If
-    a short run takes hardly longer than its overhead, it is measured again, at most :data:`AGAIN` times,
-    until two batches give nearly the same difference.
-    """
-    spent, least = sorted(sample()), math.inf
-    for attempt in range(1 + AGAIN):
-        if spent[0] >= COUNTED:
-            break
-        least = min(least, overhead())
-        net = [s - min(least, s) for s in spent]
-        if attempt == AGAIN or len(net) < 2 or (net[0] > 0.0 and net[1] <= (1 + RESOLVED) * net[0]):
-            return net
-        spent = sorted([*spent, *sample()])
-    return spent
 
 
 def measure_rows(

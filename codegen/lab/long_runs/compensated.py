@@ -29,9 +29,15 @@ def compensated(compiled: Compiled) -> Compiled:
 
     All carries are zero initially.
 
-    Raises :class:`MethodError` if the new value of some coordinate is not the old value plus an increment.
+    Raises :class:`MethodError` if the new value of some coordinate is not the old value plus an increment,
+    and for a step by loops over arrays.
     """
     kernel = compiled.kernel
+    if kernel.arrays is not None:
+        what = f"a compensated form of {compiled.method.label} by loops over arrays"
+        raise MethodError(
+            what, where=compiled.scene.name, expected="a step with a formula for each coordinate"
+        )
     if kernel.deferred is not None:  # The step must be complete: no flow may be deferred to the next step.
         kernel = to_kernel(compiled.program, compiled.problem)
     if kernel.carried is not None:

@@ -243,7 +243,8 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If the increments vary only by rounding errors, the record is a line, and the variance is zero.
+    # If the increments of the block means are constant up to rounding errors, the means lie on a straight
+    # line. Their variance about this line is then zero.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 

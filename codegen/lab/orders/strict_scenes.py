@@ -6,18 +6,33 @@ module, every field f is polynomial and depends on state and time, and the value
 not commute. On the sphere, f has a component along the state.
 The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent of class three, acting on
 themselves or on vectors. Variational methods run on T*G with Hamiltonians that have no symmetry and depend
-on time. Splittings run on Hamiltonians in three parts with exact flows; no two of these flows commute.
+on time. Methods for linear problems run on fields that depend on the time alone, under left and right
+actions. Splittings run on Hamiltonians in three parts with exact flows; no two of these flows commute.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 
-from sympy import Matrix, Rational, Symbol
+from sympy import Expr, Matrix, Rational, Symbol
 
-from codegen.groups import GL, SO3, LeftMultiplication, MatrixGroup, Rn, Rotation
+from codegen.groups import (
+    GL,
+    SL2,
+    SO3,
+    Action,
+    Columns,
+    LeftMultiplication,
+    LieGroup,
+    MatrixGroup,
+    RightMultiplication,
+    Rn,
+    Rotation,
+)
 from codegen.lower.base import Lowering
 from codegen.lower.flow_words import FlowLowering
+from codegen.lower.linear import LinearLowering
 from codegen.scene import FieldScene, HamiltonianScene
 from codegen.scene.problem import Problem
 
@@ -192,8 +207,30 @@ def _rotating_top() -> Problem:
     )
 
 
+@cache
+def linear_fields() -> tuple[Problem, ...]:
+    """Return the linear problems y' = A(t).y of the strict protocol, under left and right actions."""
+    t, half = Symbol("t", real=True), Rational(1, 2)
+    turns = Matrix([1 - 2 * t + 3 * t**4, 2 * t - half + t**5, 1 + t**2 - t**3 + 2 * t**6])
+    maps = Matrix([1 + t - 2 * t**5, -2 + 3 * t**2 + t**6, half - t + t**3 - 2 * t**4])
+    turn = list(_turn())
+    return (
+        _of_time("SO(3) on itself, linear", SO3(), LeftMultiplication(), turns, turn),
+        _of_time("SO(3) on itself from the right, linear", SO3(), RightMultiplication(), turns, turn),
+        _of_time("SL(2) on three columns, linear", SL2(), Columns(3), maps, [1, half, -1, 2, 1, -half]),
+    )
+
+
+def _of_time(name: str, group: LieGroup, action: Action, f: Matrix, start: Sequence[Expr]) -> Problem:
+    y = Matrix([Symbol(f"y{k}", real=True) for k in range(len(start))])
+    return FieldScene(name=name, group=group, action=action, y=y, f=f, y0=start, span=_span())
+
+
 def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
-    """Return the scenes for a family: field scenes, Hamiltonian scenes, or Hamiltonians with exact flows."""
+    """Return the scenes for a family: field scenes, linear problems in time, Hamiltonian scenes, or
+    Hamiltonians with exact flows."""
+    if isinstance(family, LinearLowering):
+        return linear_fields()
     if isinstance(family, FlowLowering):
         return split_hamiltonians()
     return hamiltonians() if family.hamiltonian else fields()

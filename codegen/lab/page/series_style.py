@@ -58,9 +58,9 @@ class Style:
 class Styles:
     """The styles of all methods and peers of a report or picture, by label.
 
-    Each default method of the commands has a fixed colour and marker. For any other method they depend on its
-    label. If another method of the same report already has this colour or marker, the next free colour or
-    marker is used.
+    Each default method of the commands has a fixed colour and marker. The colour and the marker of any other
+    method depend on the label of the method. If another method of the same report already has this colour or
+    marker, the next free colour or marker is used.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour

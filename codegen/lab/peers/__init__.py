@@ -35,16 +35,23 @@ class Outcome:
     evaluations: int | None
 
 
+class Run(Protocol):
+    """A run of a peer."""
+
+    def __call__(self, spans: int = 1, /) -> Outcome:
+        """Integrate over a number of time spans."""
+
+
 @dataclass(frozen=True)
 class Prepared:
     """A peer that is prepared for one scene and for one tolerance or one number of steps.
 
-    ``run`` integrates over the span; it raises :class:`PeerFailed` if the run does not reach the end.
-    ``idle`` integrates over an empty interval, to measure the overhead of a call; it is None if the overhead
-    is negligible.
+    ``run(n)`` integrates over n time spans, by default over one; it raises :class:`PeerFailed` if the run
+    does not reach the end. ``idle`` integrates over an empty interval, to measure the overhead of a call; it
+    is None if the overhead is negligible.
     """
 
-    run: Callable[[], Outcome]
+    run: Run
     idle: Callable[[], object] | None = None
 
 

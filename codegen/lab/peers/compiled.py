@@ -102,17 +102,18 @@ def _prepare(template: str, scene: Problem, control: float) -> Prepared:
     ffi, library = _library(source(template, scene))
     start = [float(x) for x in scene.initial(FloatDomain(0.0))]
     first, last = map(float, scene.span)
-    counts = ffi.new("size_t[2]")
+    counts, adaptive = ffi.new("size_t[2]"), template == "dop853.c.j2"
 
-    def run(end: float = last, control: float = control) -> Outcome:
-        state = ffi.new("double[]", start)
-        status = library.peer(state, first, end, control, counts, counts + 1)
+    def run(spans: int = 1) -> Outcome:
+        state, end = ffi.new("double[]", start), first + spans * (last - first)
+        scale = 1 if adaptive else spans
+        status = library.peer(state, first, end, scale * control, counts, counts + 1)
         final = tuple(ffi.unpack(state, len(start)))
         if status or not all(map(math.isfinite, final)):
             raise PeerFailed(REASONS.get(status, REASONS[2]))
         return Outcome(final, int(counts[0]), int(counts[1]))
 
-    return Prepared(run, lambda: run(first, control if template == "dop853.c.j2" else 0.0))
+    return Prepared(run, lambda: run(0))
 
 
 def _library(text: str) -> tuple[cffi.FFI, Scalar]:

@@ -29,12 +29,12 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
         list(zip(variables, roots, strict=True)), start, time=first, tol=tolerance
     )
 
-    def run(end: float = last) -> Outcome:
+    def run(spans: int = 1) -> Outcome:
         solver.time = first
         solver.state[:] = start
-        outcome, _, _, steps, *_ = solver.propagate_until(end)
+        outcome, _, _, steps, *_ = solver.propagate_until(first + spans * (last - first))
         if outcome != heyoka.taylor_outcome.time_limit:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    return Prepared(run, lambda: run(first))
+    return Prepared(run, lambda: run(0))

@@ -41,9 +41,10 @@ def _prepare(method: str, projected: bool, scene: Problem, tolerance: float) -> 
         value: tuple[float, ...] = compute(y.tolist(), t)
         return value
 
-    def run() -> Outcome:
+    def run(spans: int = 1) -> Outcome:
+        end = first + spans * (last - first)
         try:
-            solver = getattr(scipy.integrate, method)(field, first, start.copy(), last, **options)
+            solver = getattr(scipy.integrate, method)(field, first, start.copy(), end, **options)
             steps = 0
             while solver.status == "running":
                 message = solver.step()

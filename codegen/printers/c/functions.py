@@ -7,12 +7,15 @@ Arrays are copied by ``memcpy``, and records are cleared by ``memset``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from itertools import groupby
 
 from codegen.ir.precision import Precision
 from codegen.printers.c.terms import Terms, literal
 from codegen.printers.c.text import block_comment, comment, fill, together
 from codegen.printers.infix import closed
+from codegen.run.batch import BATCH, complete
+from codegen.run.batch import near as without_branches
 from codegen.run.identifiers import Identifiers
 from codegen.run.language import (
     Array,
@@ -40,7 +43,7 @@ MANY = 20
 """Consecutive short statements are printed with several on a line if there are more than this number of
 them."""
 
-ONE_TEST = "one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN"
+ONE_TEST = "one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise"
 
 
 class FunctionPrinter:
@@ -54,10 +57,20 @@ class FunctionPrinter:
         # The changed parameters are found once for each function, because the search follows calls through
         # the whole unit.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
+        self.batch = BATCH in unit.parts
 
-    def called(self, name: str) -> str:
-        """Return the name of a function in C."""
+    def called(self, name: str, near: bool = False) -> str:
+        """Return the name of a function in C; ``near`` selects the form without branches."""
+        name = self.forms(name, near)
         return name if name in LIBRARY else f"{self.prefix}{name}"
+
+    def forms(self, name: str, near: bool = False) -> str:
+        """Return the name of the form of a function that a caller uses."""
+        # In a module with a batch, scalar functions use the polynomials of the loop over lanes where these
+        # are valid, so that both have the same roundings.
+        if not self.batch:
+            return name
+        return without_branches(name) if near else complete(name)
 
     def type_of(self, kind: Kind) -> str:
         """Return the type of a scalar."""
@@ -91,7 +104,7 @@ class FunctionPrinter:
             return f"{kind} {name}"
         # An optional array is declared as a pointer, because it may be NULL, and a ``static`` size excludes
         # NULL.
-        if parameter.cell or parameter.optional:
+        if parameter.cell or parameter.optional or not parameter.shape[0]:
             return f"{const}{kind} *{name}"
         promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
         promised = "" if parameter.text == "inputs" else promised
@@ -163,7 +176,8 @@ class _Body:
         # Records among the parameters are pointers, local records are not: their fields need -> or a dot.
         pointers = {p.text for p in function.parameters if p.kind is Kind.RECORD}
         tables = [table.name.text for table in printer.unit.tables]
-        self.terms = Terms(self.identifiers, printer.precision, printer.prefix, pointers, tables)
+        forms = partial(printer.forms, near=function.near)
+        self.terms = Terms(self.identifiers, printer.precision, printer.prefix, pointers, tables, forms)
         self.pointers = pointers
 
     def lines(self) -> list[str]:
@@ -225,6 +239,7 @@ class _Body:
             case While():
                 yield from self.loop(statement)
             case For(index, count, body, reverse):
+                yield from self.hints(statement)
                 # size_t is unsigned: a reversed loop decrements in its test, because `i >= 0` is
                 # always true.
                 i, n = self.identifiers.of(index), self.terms.line(count)
@@ -235,6 +250,13 @@ class _Body:
                 )
                 yield from self.inner(body)
                 yield "}"
+
+    def hints(self, loop: For) -> Iterator[str]:
+        """Yield the lines before a loop that permit a compiler to execute it in another order."""
+        if loop.independent:
+            yield f"{self.printer.prefix.upper()}INDEPENDENT"
+        if loop.parallel:
+            yield from ("#ifdef _OPENMP", "#pragma omp parallel for schedule(static)", "#endif")
 
     def inner(self, body: Body) -> list[str]:
         """Return the lines of a body inside a statement."""
@@ -373,7 +395,7 @@ class _Body:
             names = [self.identifiers.of(r) for r in results]
             given += [f"&{n}" for n in names]
             results = ()
-        start = f"{self.printer.called(name)}("
+        start = f"{self.printer.called(name, self.function.near)}("
         if results:
             (target,) = results
             start = f"{self.kind(statement, target)}{self.terms.line(target)} = {start}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from codegen.errors import SceneError
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
 from codegen.ir.precision import DOUBLE
@@ -14,8 +15,9 @@ from codegen.printers.c.text import comment
 from codegen.printers.c.words import RESERVED
 from codegen.printers.interface import Interface
 from codegen.printers.needs import functions_of
-from codegen.printers.recipe import Recipe, header
+from codegen.printers.recipe import IN_MANIFEST, Recipe, entries_set, header
 from codegen.printers.state_fields import layout, times
+from codegen.run.batch import BATCH, LANES, called_by, complete, near
 from codegen.run.identifiers import identify
 from codegen.run.language import Unit, terms
 from codegen.run.numbers import numbers_held
@@ -33,18 +35,24 @@ from codegen.templates import environment
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
+VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno")
+"""Further flags for modules with a batch. The results depend on none of these flags."""
+
 FRAMES = 640
 """The number of bytes of the stack for return addresses, saved registers and the frames of helpers."""
 
 EACH, EACH_SOLVING = 8, 10
-"""The numbers of bytes on the stack for each number of a step: first for steps without equations, then for
-steps with equations.
+"""The bytes of stack that the bound reserves for each floating-point number that a step stores: first for
+steps without equations, then for steps with equations.
 
-Single precision needs as many bytes as double precision, because an optimiser keeps pairs of numbers for
-vector instructions in 16 bytes. Where equations are solved, an optimiser also needs space for values without
-a name, which it moves out of a loop. The largest measured values with equations were 8.8 bytes in double
-precision and 8.0 bytes in single precision.
+A double has 8 bytes and a float has 4. The bound is the same for both precisions, because an optimiser also
+stores pairs of floats in vector registers of 16 bytes, that is 8 bytes for each float. If a step solves
+equations, an optimiser moves common subexpressions out of the loop, and these values need more space. The
+largest measured values with equations were 8.8 bytes in double precision and 8.0 bytes in single precision.
 """
+
+LARGEST_STACK = 6 * 2**20
+"""The largest permitted bound on the stack of a call. Most systems limit the stack to 8 MiB."""
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
 """The compilers for which tests compare the bound with the stack that calls use."""
@@ -60,14 +68,15 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # Explicit kernels call each function only a few times, so inlining all branches would make the code
-        # longer without making it faster.
+        # Only loops over equations call a Stumpff function often. Elsewhere, inlining all branches of the
+        # Stumpff functions would make the code longer without making it faster.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
         widest=max((len(loop.unknowns) for loop in kernel.loops if loop.newton is not None), default=0),
         chain=chain(kernel),
         prefix=interface.prefix,
+        batch=interface.batch,
     )
     public = {f.name: f for f in unit.functions if f.public}
     # The width is 96, because the comment adds a star and spaces to each line, and lines have at most 100
@@ -85,8 +94,14 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "time": interface.time,
         "blocks": interface.blocks,
         "inputs": interface.inputs,
+        "parameters": interface.parameters,
         "statuses": statuses(unit),
         "adaptive": interface.adaptive,
+        "batch": interface.batch,
+        "vectorised": LANES in unit.parts,
+        "build": " ".join(
+            ("-std=c11", *(VECTOR_FLAGS if interface.batch else ("-O2",)), "-ffp-contract=off")
+        ),
         "variations": interface.variations,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
@@ -131,7 +146,8 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 def helpers(unit: Unit) -> list[str]:
     """Return the helpers and library functions that a unit calls, sorted."""
-    names = set(functions_of(unit)) | {"isfinite"}
+    names = _forms(unit) if BATCH in unit.parts else set(functions_of(unit))
+    names |= {"isfinite"}
     for function in unit.functions:
         for term in terms(function.body):
             if term.op == "finite" and term.args[0].shape:
@@ -140,6 +156,17 @@ def helpers(unit: Unit) -> list[str]:
                 names.add({"abs": "fabs", "greatest": "greater"}.get(term.text, term.text))
     # pow and copysign are in math.h and need no helper.
     return sorted(names - {"power", "copysign"})
+
+
+def _forms(unit: Unit) -> set[str]:
+    """Return the functions that a unit with a batch calls, each in the form that its caller uses."""
+    names: set[str] = set()
+    for function in unit.functions:
+        form = near if function.near else complete
+        names |= {
+            form(name) for name in called_by(function.body) if name not in unit.parts and name != "sample"
+        }
+    return names
 
 
 def inverted(kernel: Kernel) -> int:
@@ -153,11 +180,13 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
 
     At -O0 a compiler uses about the bound without the margin, because each name has its own slot. Tests
-    compare the bound with ``-fstack-usage`` and with a painted stack.
+    compare the bound with ``-fstack-usage`` and with a painted stack. :class:`SceneError` is raised if the
+    bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The local variables of ``invert`` are scalars, a row and a permutation. If the kernel is inlined, there
-    # is one stack frame less.
+    # The function ``invert`` has local variables (scalars, a row, a permutation), so a step that inverts a
+    # matrix gets half a FRAMES more. If the kernel is inlined in the run, one call and its stack frame are
+    # missing, so the bound is half a FRAMES smaller.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
@@ -166,6 +195,13 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     numbers = numbers_held(unit)
     # The bound is rounded up to 64 bytes, to include the alignment of vector registers.
     bound = -(-(each * numbers + frames) // 64) * 64
+    if bound > LARGEST_STACK:
+        raise SceneError(
+            f"a step that needs {bound / 2**20:.1f} MiB of the stack",
+            where=interface.module,
+            expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
+            hint="use fewer rows, a method with fewer stages, or the target python",
+        )
     margin = f", {bound - size * numbers - frames} of them as a margin" if each > size else ""
     return f"at most {bound} bytes with {MEASURED}{margin}; functions of the mathematical library add to this"
 
@@ -173,11 +209,13 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     """Return the names that the module declares at file scope; no variable may hide these names."""
     prefix, upper = interface.prefix, interface.prefix.upper()
-    names = {"step", "run", "run_adaptive", "jacobian", "statistics", "input", "hold"}
+    names = {"step", "run", "run_adaptive", "jacobian", "run_batch", "statistics", "input", "hold"}
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
     names |= {snippet.name for snippet in snippets(interface.format)}
-    return frozenset({f"{prefix}{name}" for name in names} | {f"{upper}{name}" for name in (*STATUSES, "H")})
+    return frozenset(
+        {f"{prefix}{name}" for name in names} | {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
+    )
 
 
 def prototypes(interface: Interface) -> str:
@@ -207,6 +245,14 @@ def prototypes(interface: Interface) -> str:
         f"int {prefix}jacobian(const {real} *state, {time}{real} h, {parameters}{held}{real} *jacobian);\n"
     )
     run += derived if interface.variations else ""
+    rows = f"const {real} *parameters, " if interface.parameters else ""
+    rows += f"const {real} *inputs, " if interface.inputs else ""
+    run += (
+        f"int {prefix}run_batch(size_t lanes, size_t stride, {real} *state, {time}{real} h, size_t steps, "
+        f"{rows}int *statuses, size_t *completed);\n"
+        if interface.batch
+        else ""
+    )
     known = ((record, bool(blocks)), (callback, bool(interface.inputs)), (adaptive, interface.adaptive))
     return "".join(text for text, there in known if there) + run
 
@@ -234,8 +280,15 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     def number(x: float) -> str:
         return literal(real, real.round(float(x)))
 
-    initial = ", ".join(map(number, recipe.initial))
-    # The example starts at t = 0; the arguments are in the order of ``run``.
+    initial, entries = ", ".join(map(number, recipe.initial)), entries_set(recipe.initial)
+    declared = [f"    {real.c_type} state[{interface.size}] = {{{initial}}};"]
+    if entries is not None:
+        declared = [
+            f"    static {real.c_type} state[{interface.size}];",
+            *(f"    state[{place}] = {number(x)};" for place, x in entries),
+            *(() if entries else (f"    /* {IN_MANIFEST} */",)),
+        ]
+    # The example starts at t = 0. The arguments have the same order as the parameters of the emitted ``run``.
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
     arguments += [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     arguments += ["constant", "NULL"] if interface.inputs else []
@@ -247,7 +300,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
         *(example_input(interface) if interface.inputs else ()),
         "int main(void)",
         "{",
-        f"    {real.c_type} state[{interface.size}] = {{{initial}}};",
+        *declared,
         "    size_t completed;",
         f"    const int status = {interface.prefix}run({', '.join(arguments)});",
         '    printf("status %d after %zu steps\\n", status, completed);',

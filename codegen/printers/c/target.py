@@ -11,7 +11,8 @@ TARGET = Target(
     printer="codegen.printers.c.module:print_module",
     loader="codegen.loader:load_compiled",
     suffix=".c",
-    most_steps=81920,
+    most_steps=163840,
     compiler="codegen.build:compile_seconds",
     stack=r"stack: +at most (\d+) bytes",
+    batches=True,
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import ClassVar
 
 from codegen.ir.precision import DOUBLE, Precision
@@ -33,10 +33,14 @@ def literal(precision: Precision, x: float) -> str:
     return precision.text(x) + precision.suffix
 
 
-def style(precision: Precision, prefix: str = "") -> Style:
-    """Return the constants and function names of C: ``0.5f``, ``sqrtf``, helpers with the module's prefix."""
+def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = str) -> Style:
+    """Return the constants and function names of C: ``0.5f``, ``sqrtf``, helpers with the module's prefix.
+
+    ``forms`` maps the name of a function to the name of the form that a module uses.
+    """
 
     def called(name: str) -> str:
+        name = forms(name)
         if name not in LIBRARY:
             return prefix + name
         # isfinite is a macro for all types and gets no suffix. All other functions get the suffix, because
@@ -61,10 +65,11 @@ class Terms(Infix):
         prefix: str,
         pointers: Collection[str],
         tables: Collection[str] = (),
+        forms: Callable[[str], str] = str,
     ) -> None:
         self.identifiers, self.precision, self.prefix = identifiers, precision, prefix
         self.pointers, self.tables = frozenset(pointers), frozenset(tables)
-        self.style = style(precision, prefix)
+        self.style = style(precision, prefix, forms)
 
     def negated(self, test: Term) -> Text:
         """Return the text of the negation of a test."""
@@ -114,7 +119,8 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                # The function ``hold`` of the module copies the values behind its context.
+                # A signal with constant values is the emitted function ``hold``. Its context points to the
+                # values, which ``hold`` copies.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
@@ -124,8 +130,9 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return a name; a signal of inputs is passed as a function and the function's context."""
-        # A signal becomes two arguments, because C has no closures.
+        """Return the text of a name. A signal (the run-time inputs as a function of time) becomes two
+        arguments: a C function and its context pointer."""
+        # The context pointer is needed, because C has no closures.
         if term.kind is Kind.SIGNAL:
             return "input, context"
         if not term.own and term.text in self.tables:

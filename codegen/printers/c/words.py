@@ -42,6 +42,8 @@ RESERVED = (
 )
 """Words that no variable may have as a name, in addition to the names of the run representation.
 
-Keywords of C and, since both read headers, of C++; macros of headers that the module or its caller is likely
-to include, in any dialect; the mathematical library. Helpers have the prefix of their module.
+These are the keywords of C; the keywords of C++, because C++ programs may include the emitted header; the
+macros of the headers that the module or its caller is likely to include, in any dialect of C; and the
+functions of the mathematical library. The names of helpers are not in this set: they start with the prefix of
+their module, so they cannot be equal to a variable.
 """

@@ -294,7 +294,8 @@ class _Body:
         results = [self.terms.line(r) for r in statement.results]
         name = "sampled" if statement.function == "sample" else statement.function
         start = f"{', '.join(results)} = " if results else ""
-        # ``invert`` is a snippet with the same name in both targets.
+        # ``invert`` comes from the library of helpers, whose names have no underscore. The other functions
+        # are emitted for this module, and their names start with an underscore.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
 

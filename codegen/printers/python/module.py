@@ -15,7 +15,7 @@ from codegen.printers.python.functions import FunctionPrinter, class_of
 from codegen.printers.python.terms import Constants
 from codegen.printers.python.text import quoted
 from codegen.printers.python.words import PUBLIC, RESERVED
-from codegen.printers.recipe import Recipe, header
+from codegen.printers.recipe import IN_MANIFEST, Recipe, entries_set, header
 from codegen.printers.state_fields import layout, times
 from codegen.run.identifiers import Identifiers, identify
 from codegen.run.language import RAISES_STATUS, Unit, terms
@@ -208,7 +208,14 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     def number(x: float) -> str:
         return precision.text(precision.round(float(x)))
 
-    initial = ", ".join(map(number, recipe.initial))
+    initial, entries = ", ".join(map(number, recipe.initial)), entries_set(recipe.initial)
+    declared = [f"state = [{initial}]"]
+    if entries is not None:
+        declared = [
+            f"state = [0.0] * {interface.size}",
+            *(f"state[{place}] = {number(x)}" for place, x in entries),
+            *(() if entries else (f"# {IN_MANIFEST}",)),
+        ]
     time = ["0.0"] if interface.time else []
     known = all(p in recipe.defaults for p in interface.parameters)
     unset = [] if known else [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
@@ -218,6 +225,6 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     return [
         f"import {interface.module}",
         "",
-        f"state = [{initial}]",
+        *declared,
         f"print({interface.module}.run({', '.join(arguments)}))",
     ]

@@ -97,7 +97,8 @@ class Terms(Infix):
                 return self.argument(term)
 
     def argument(self, term: Term) -> Text:
-        """Return the text of infinity, a signal, or a test or value of an optional argument."""
+        """Return the text of one of four terms: infinity, a signal with constant values, None, or the test
+        that an optional argument is not None."""
         match term.op:
             case "given":
                 return Text((f"{self.line(term.args[0])} is not None",), COMPARED)

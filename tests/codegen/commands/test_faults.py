@@ -216,7 +216,7 @@ def test_a_disk_that_is_full_before_or_between_pages_is_one_message(room: int, t
         command, env=environment, capture_output=True, text=True, check=False, preexec_fn=limit
     )
     assert (full.returncode, full.stdout, full.stderr.count("\n")) == (2, "", 1)
-    assert f"{tmp_path}: cannot write there: file too large" in full.stderr
+    assert f"{tmp_path}: cannot write to this path: file too large" in full.stderr
     assert [path.name for path in tmp_path.rglob("*") if path.suffix in (".html", SUFFIX)] == []
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")

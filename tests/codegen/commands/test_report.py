@@ -100,7 +100,7 @@ def test_a_folder_that_cannot_be_written_to_is_found_out_first(
     blocked.write_text("", encoding="utf-8")
     result = run("free_rigid_body", "-o", str(blocked / "inside"))
     assert result.exit_code == 2
-    assert "cannot write there" in result.stderr
+    assert "cannot write to this path" in result.stderr
 
 
 def test_a_page_that_cannot_be_finished_leaves_the_old_one(tmp_path: Path) -> None:

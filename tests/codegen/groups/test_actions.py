@@ -211,7 +211,12 @@ class TestAReaderOfAScene:
             (SO3(), Stiefel(4), 12, "4 orthonormal columns of 3 rows; expected at most 3 columns"),
             (SO3(), AffineAction(), 2, "basis element 0 has a last row that is not zero; .*use Linear"),
             (SO3(), FactorwiseAction(Rotation()), 3, "of SO.3., which has no factors; .*LeftMultiplication"),
-            (Product(SO3(), Rn(1)), FactorwiseAction(Rotation()), 3, "1 actions of the 2 factors"),
+            (
+                Product(SO3(), Rn(1)),
+                FactorwiseAction(Rotation()),
+                3,
+                "the number of actions is 1, the number of factors",
+            ),
             (
                 SE2(),
                 DiagonalAction(Motion(), Linear()),

@@ -128,6 +128,20 @@ class TestTheCayleyMap:
         assert all(d.ring.is_zero(p - q) is True for p, q in zip(product, result, strict=True))
 
 
+WITH_CAYLEY = [name for name, group in HERE.items() if group.offers(CayleyMap)]
+
+
+@pytest.mark.parametrize("name", WITH_CAYLEY)
+def test_the_inverse_differential_contains_the_product_x_y_x(name):
+    s = sampler(HERE[name], "exact, series")
+    d, group, x, y = s.domain, s.group, s.vector(), s.vector()
+    half, quarter = d.rational(1, 2), d.rational(1, 4)
+    terms = zip(y, group.ad(d, x, y), group.sandwich(d, x, y), strict=True)
+    assert s.equal(group.dcayinv(d, x, y), tuple(a - half * b - quarter * c for a, b, c in terms))
+    # The formula that groups inherit is the same product.
+    assert s.equal(group.sandwich(d, x, y), CayleyMap.sandwich(group, d, x, y))
+
+
 def test_the_cayley_map_of_quaternions_covers_the_one_of_rotations():
     # A quaternion has half the angle of its rotation: cay(x) on SO(3) is the image of (1, x/2)/|(1, x/2)|,
     # and cay(y) on S^3 is (1, y/2)^2/|(1, y/2)|^2.

@@ -116,3 +116,75 @@ def test_a_solution_that_ends_soon_after_the_span_is_timed_over_the_spans_that_i
         clock.run(spans)
 
     assert timing.spans(run, 1) == 2
+
+
+def overhead_of(*times: float) -> timing.Overhead:
+    """An overhead that was measured before, and that is not measured again."""
+    known = timing.Overhead(None)
+    known.times = times
+    return known
+
+
+def test_a_short_run_is_measured_until_its_time_without_the_overhead_is_resolved() -> None:
+    batches = iter([(1.2e-6, 1.9e-6), (1.5e-6, 1.3e-6), (1.105e-6, 1.1e-6), (9.0, 9.0)])
+    found = timing.net_times(lambda: next(batches), overhead_of(9e-7))
+    assert found[:2] == pytest.approx([2e-7, 2.05e-7])
+    assert next(batches) == (9.0, 9.0)
+
+
+def test_an_uncertain_overhead_leaves_a_short_run_unresolved(clock: Clock) -> None:
+    """The run is resolved only when both of its fastest batches and both of the overhead agree."""
+    measured = iter([(2e-6, 2.5e-6), (2e-6, 2.01e-6)])
+    overhead = timing.Overhead(lambda: clock.run(0))
+    overhead.times = next(measured)
+    asked = 0
+
+    def sample() -> tuple[float, float]:
+        nonlocal asked
+        asked += 1
+        return (3e-6, 3.01e-6)
+
+    assert timing.net_times(sample, overhead)[0] == pytest.approx(1e-6)
+    assert asked == 2  # the refined overhead is certain: its two fastest batches take 2 µs each
+    assert overhead.uncertainty < 1e-9
+
+
+def test_a_run_that_is_never_resolved_and_a_long_run_end() -> None:
+    noisy = iter([(2.0 ** -(20 + k), 1e-5) for k in range(10)])
+    assert len(timing.net_times(lambda: next(noisy), overhead_of(0.0))) == 2 * (1 + timing.AGAIN)
+    assert timing.net_times(lambda: (1.0, 2.0), overhead_of(0.5)) == [0.5, 1.5]
+    assert set(timing.net_times(lambda: (1e-6,), overhead_of(1e-5))) == {1e-7}  # no run has the time zero
+
+
+def test_the_overhead_of_a_module_is_measured_once(clock: Clock) -> None:
+    idle = 0
+
+    def run(spans: int) -> int:
+        nonlocal idle
+        idle += spans == 0
+        clock.run(100 * spans)
+        return 100 * spans
+
+    overhead = timing.Overhead(lambda: run(0))
+    assert timing.span_times(run, overhead)[0] == pytest.approx(5e-6, rel=1e-6)
+    known = idle
+    for _ in range(3):
+        timing.span_times(run, overhead)
+    assert idle == known > 0
+
+
+@pytest.mark.parametrize("overhead", [1e-7, 1e-6, 2e-5])
+def test_the_time_of_a_span_depends_neither_on_the_overhead_nor_on_the_number_of_spans(
+    monkeypatch: pytest.MonkeyPatch, overhead: float
+) -> None:
+    """A run of 8 steps on its first span and of 12 on each later one; a step takes 50 ns."""
+    clock = Clock()
+    monkeypatch.setattr(timing, "time", clock)
+
+    def run(spans: int) -> int:
+        steps = 12 * spans - 4 * (spans > 0)
+        clock.now += overhead + 50e-9 * steps
+        return steps
+
+    assert timing.spans(run, run(1)) > 1
+    assert timing.span_times(run, timing.Overhead(lambda: run(0)))[0] == pytest.approx(8 * 50e-9, rel=1e-6)

@@ -52,7 +52,10 @@ def test_every_target_has_its_folders(name: str) -> None:
 def test_every_snippet_is_in_some_target() -> None:
     files = {path.stem for name in names() for path in (ROOT / "snippets" / name).glob("*.j2")}
     # Each table of a scene has a snippet of its own.
-    assert {snippet.template for snippet in snippets()} | {"number", "table"} == files
+    assert {snippet.template for batch in (False, True) for snippet in snippets(batch=batch)} | {
+        "number",
+        "table",
+    } == files
 
 
 def test_the_default_target_is_the_first_one() -> None:

@@ -1,4 +1,4 @@
-# 9: mu0[0] is the state at the beginning of the span: write its value there
+# 9: mu0[0] is a value at the start of the span: replace t by a number
 from sympy import Symbol, eye
 
 from codegen.groups import SO3

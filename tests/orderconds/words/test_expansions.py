@@ -94,7 +94,7 @@ def test_cayley_expansions_belong_to_every_quadratic_group():
 
 
 def solved(differential, series):
-    """Whether U' = sum of words in U and X, for U with these words and X the field, weight by weight."""
+    """Return True if U solves U' = (the sum of the words in U and the field X), for each weight up to 5."""
     for n in range(1, 6):
         for word in words_of_weight(n):
             found = sum(

@@ -82,7 +82,7 @@ def test_methods_in_coordinates_and_peers_run_on_all_forms_and_others_on_the_man
 
 
 def test_the_command_restricts_the_forms_and_names_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(peer_candidate, "samples", partial(timing.samples, batch=2e-4, batches=2))
+    monkeypatch.setattr(peer_candidate, "span_times", partial(timing.span_times, batch=2e-4, batches=2))
     monkeypatch.setattr(peer_candidate, "TOLERANCES", (1e-3, 1e-6))
     match = bench("dipole", ["ambient:rk4"], ["c"], ["c-dop853"], 1e-2, None, str, forms=["quaternion"])
     theirs = tuple(c for c in match.candidates if isinstance(c, PeerCandidate))
@@ -94,7 +94,7 @@ def test_the_command_restricts_the_forms_and_names_them(monkeypatch: pytest.Monk
 
 
 def test_an_emitted_step_of_a_form_has_the_error_of_the_method(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(emitted_candidate, "samples", partial(timing.samples, batch=2e-4, batches=2))
+    monkeypatch.setattr(emitted_candidate, "span_times", partial(timing.span_times, batch=2e-4, batches=2))
     scene = scenes.load("dipole")
     method = (
         bench("dipole", ["ambient:rk4"], ["c"], [], 1e-5, None, str, forms=["printed"]).candidates[0].method

@@ -24,7 +24,7 @@ from codegen.lab.efficiency.adaptive_candidate import AdaptiveCandidate
 from codegen.lab.efficiency.bench import Bench, bench, picture, table
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
 from codegen.lab.efficiency.ranking import places, seconds_to
-from codegen.lab.efficiency.work_precision import AGAIN, Candidate, Row, measure_rows, monotone, net_times
+from codegen.lab.efficiency.work_precision import Candidate, Row, measure_rows, monotone
 from codegen.lab.measurement_cache import MeasurementCache
 from codegen.lab.page.formatting import seconds
 from codegen.lab.peers import PeerFailed, Prepared, find
@@ -40,9 +40,7 @@ def _short_samples() -> Iterator[None]:
     """Times of a bench are coarse here: nothing but their order of magnitude is looked at."""
     with pytest.MonkeyPatch.context() as patch:
         for module in (emitted_candidate, adaptive_candidate, peer_candidate):
-            patch.setattr(module, "samples", partial(timing.samples, batch=2e-4, batches=2))
-        for module in (emitted_candidate, peer_candidate):
-            patch.setattr(module, "cost", partial(timing.cost, batch=2e-4, batches=2))
+            patch.setattr(module, "span_times", partial(timing.span_times, batch=2e-4, batches=2))
         yield
 
 
@@ -352,19 +350,6 @@ def test_times_in_the_wrong_order_are_measured_again() -> None:
     assert asked == [16, 32]
     failed = [replace(rows[0], seconds=None, error=None, failure="no"), *rows[2:]]
     assert monotone(failed, measure, (8, 16)) == failed
-
-
-def test_a_short_run_is_measured_until_its_time_without_the_overhead_is_resolved() -> None:
-    batches = iter([(1.2e-6, 1.9e-6), (1.5e-6, 1.3e-6), (1.11e-6, 1.1e-6), (9.0, 9.0)])
-    found = net_times(lambda: next(batches), lambda: 1e-6)
-    assert found[:2] == pytest.approx([1e-7, 1.1e-7])
-    assert next(batches) == (9.0, 9.0)
-
-
-def test_a_run_that_is_never_resolved_and_a_long_run_end() -> None:
-    noisy = iter([(2.0 ** -(20 + k), 1e-5) for k in range(10)])
-    assert len(net_times(lambda: next(noisy), lambda: 0.0)) == 2 * (1 + AGAIN)
-    assert net_times(lambda: (1.0, 2.0), lambda: 0.5) == [1.0, 2.0]
 
 
 def test_the_spread_is_drawn_and_said(body: Bench) -> None:

@@ -15,12 +15,12 @@ from codegen.emitter import Optimised
 from codegen.groups.capabilities import Coadjoint
 from codegen.ir.domain import Domain
 from codegen.ir.number import Number
-from codegen.ir.operations import Advance, Values
+from codegen.ir.operations import Advance, Bracket, Values
 from codegen.ir.program import Assign, Program
 from codegen.ir.scene_operations import FlowOf
 from codegen.ir.values import Coefficient
 from codegen.lab.orders.strict_protocol import stated_order, strict
-from codegen.lab.orders.strict_scenes import fields, hamiltonians, split_hamiltonians
+from codegen.lab.orders.strict_scenes import fields, hamiltonians, linear_fields, split_hamiltonians
 from codegen.lower import names
 from codegen.method import Method, parse
 from codegen.scene.problem import Problem
@@ -52,6 +52,20 @@ def test_variational_methods_pass_on_every_hamiltonian(spelling):
     assert [c.sentence() for c in found.values() if c.verdict != "holds"] == []
 
 
+LINEAR = [
+    *("magnus:magnus4", "magnus:magnus6", "cf_magnus:cf_magnus4", "cf_magnus:cf_magnus6"),
+    *("fer:fer4", "fer:fer6", "cayley:cayley4", "cayley:cayley6"),
+    *(pytest.param(m, marks=pytest.mark.slow) for m in ("magnus:magnus8", "cf_magnus:cf_magnus8")),
+]
+
+
+@pytest.mark.parametrize("spelling", LINEAR)
+def test_methods_for_linear_problems_pass_under_left_and_right_actions(spelling):
+    found = verdicts(spelling)
+    assert sorted(found) == sorted(scene.name for scene in linear_fields())
+    assert [c.sentence() for c in found.values() if c.verdict != "holds"] == []
+
+
 @pytest.mark.parametrize("spelling", ["splitting:strang", "splitting:blanes_moan4"])
 def test_splittings_pass_on_every_scene_with_exact_flows(spelling):
     found = verdicts(spelling)
@@ -75,6 +89,21 @@ def frozen(assign: Assign) -> Assign:
         return assign
     still = Coefficient(Number.rational(0))
     return replace(assign, operation=replace(assign.operation, coefficient=still))
+
+
+def opposite(assign: Assign) -> Assign:
+    """Brackets have the other sign."""
+    return replace(assign, args=assign.args[::-1]) if isinstance(assign.operation, Bracket) else assign
+
+
+def reversed_factors(made: Optimised) -> Optimised:
+    """The exponentials of a product act in the opposite order."""
+    body = made.program.body
+    moves = [k for k, s in enumerate(body) if isinstance(s, Assign) and s.operation.exponentials]
+    exponents = {k: body[j].args[0] for k, j in zip(moves, reversed(moves), strict=True)}
+    last = [s for k, s in enumerate(body) if k not in exponents]
+    moved = [replace(body[k], args=(x, *body[k].args[1:])) for k, x in exponents.items()]
+    return replace(made, program=replace(made.program, body=(*last, *moved)))
 
 
 @dataclass(frozen=True)
@@ -106,6 +135,15 @@ CONTROLS = {
     "CF4 factors swapped": (f"cf:{INVALID / 'cf4_factors_swapped.toml'}", None, 2, None),
     "k1/2 in stage 3": (f"rkmk(2):{INVALID / 'rkmk4_first_stage_again.toml'}", None, 2, None),
     "stage times frozen": ("rkmk(2):rk4", None, 1, altered(frozen)),
+    "nodes of a Magnus method frozen": ("magnus:magnus4", None, 1, altered(frozen)),
+    "nodes of a Magnus product frozen": ("cf_magnus:cf_magnus4", None, 1, altered(frozen)),
+    "nodes of a Fer method frozen": ("fer:fer4", None, 1, altered(frozen)),
+    "nodes of a Cayley method frozen": ("cayley:cayley4", None, 1, altered(frozen)),
+    "other sign in a tableau": (f"magnus:{INVALID / 'magnus4_bracket_sign.toml'}", None, 2, None),
+    "other sign of the bracket, Magnus": ("magnus:magnus4", None, 2, altered(opposite)),
+    "other sign of the bracket, Fer": ("fer:fer4", None, 2, altered(opposite)),
+    "other sign of the bracket, Cayley": ("cayley:cayley4", None, 2, altered(opposite)),
+    "factors of a Magnus product reversed": ("cf_magnus:cf_magnus4", None, 2, reversed_factors),
     "gyroscopic term of a splitting frozen": ("splitting:strang", None, 1, altered(frozen_gyroscope)),
 }
 """Fault -> method, the order stated for it where its file claims none, the order it has, a fault put in."""

@@ -1,0 +1,323 @@
+"""Array programs: assignments of whole matrices, which emitted code computes by loops.
+
+The text of a loop does not depend on the number of rows, so emitted code stays short for large matrices. A
+:class:`Matrix` names an array, or a rectangular part of an array. Each assignment changes one matrix. The
+scalars in a program are expressions (:mod:`codegen.ir.expr`); entries of constant matrices may contain the
+symbols :data:`ROW` and :data:`COLUMN` for their indices, which begin at zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
+from dataclasses import dataclass, replace
+
+from codegen.ir.domain import Domain, ExprDomain, Scalar
+from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.number import Number
+
+ROW, COLUMN = "row.index", "column.index"
+"""The symbols for the indices of an entry. They contain a dot, so they differ from every name in a scene."""
+
+Arrays = MutableMapping[str, list[Scalar]]
+"""The entries of arrays, row by row, by the names of the arrays."""
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """A matrix that is stored row by row in the array ``name``, from the place ``start`` on.
+
+    Neighbouring rows are ``stride`` places apart; 0 means that there is no gap between rows.
+    """
+
+    name: str
+    rows: int
+    columns: int
+    start: int = 0
+    stride: int = 0
+
+    @property
+    def step(self) -> int:
+        """The number of places from one row to the next."""
+        return self.stride or self.columns
+
+    def place(self, row: int, column: int) -> int:
+        """Return the place of an entry in the array."""
+        return self.start + row * self.step + column
+
+    def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
+        """Return the part of this matrix that begins at an entry."""
+        return Matrix(self.name, rows, columns, self.place(row, column), self.step)
+
+    @property
+    def size(self) -> int:
+        """The number of entries."""
+        return self.rows * self.columns
+
+
+Entry = Expr | tuple[Number, ...]
+"""The entries of a matrix or of a diagonal: a formula in :data:`ROW` and :data:`COLUMN`, or all numbers."""
+
+
+@dataclass(frozen=True)
+class Diagonal:
+    """The entries a_{i, i + offset} of a matrix; numbers are given from the first row that has an entry."""
+
+    offset: int
+    entry: Entry
+
+
+@dataclass(frozen=True)
+class ConstantMatrix:
+    """A matrix that does not change: ``diagonals`` of a banded matrix, or all entries of a full matrix.
+
+    The numbers of a full matrix are given row by row.
+    """
+
+    name: str
+    rows: int
+    columns: int
+    diagonals: tuple[Diagonal, ...] = ()
+    full: Entry = ()
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """The entries of all diagonals, or of the full matrix."""
+        return tuple(d.entry for d in self.diagonals) or (self.full,)
+
+    def length(self, diagonal: Diagonal) -> int:
+        """Return the number of entries of a diagonal."""
+        low, high = max(0, -diagonal.offset), min(self.rows, self.columns - diagonal.offset)
+        return max(0, high - low)
+
+    @property
+    def filled(self) -> int:
+        """The number of entries that are not zero by definition."""
+        if self.diagonals:
+            return sum(map(self.length, self.diagonals))
+        return self.rows * self.columns
+
+    def values(self, domain: Domain, symbols: Mapping[str, Scalar]) -> Iterator[tuple[int, int, Scalar]]:
+        """Yield row, column and value of each entry."""
+        for diagonal in self.diagonals:
+            first = max(0, -diagonal.offset)
+            places = [(i, i + diagonal.offset) for i in range(first, first + self.length(diagonal))]
+            yield from _valued(domain, symbols, places, diagonal.entry)
+        if not self.diagonals:
+            every = [(i, j) for i in range(self.rows) for j in range(self.columns)]
+            yield from _valued(domain, symbols, every, self.full)
+
+
+def _valued(
+    domain: Domain, symbols: Mapping[str, Scalar], places: Sequence[tuple[int, int]], entry: Entry
+) -> Iterator[tuple[int, int, Scalar]]:
+    if isinstance(entry, tuple):
+        yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
+        return
+    formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
+    kept = {s: entry.space.sym(s) for s in read}
+    for i, j in places:
+        # The indices are replaced first. A selection such as the least index is then known, and its formula
+        # is smooth.
+        indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
+        formula = evaluate([entry], formulas, {**kept, **indices})
+        yield i, j, evaluate(formula, domain, symbols)[0]
+
+
+@dataclass(frozen=True)
+class Multiplication:
+    """target = left right, or target + left right with ``added``; transposed factors are read by columns.
+
+    The arrays of the factors differ from the array of the target.
+    """
+
+    target: Matrix
+    left: Matrix
+    right: Matrix
+    left_transposed: bool = False
+    right_transposed: bool = False
+    added: bool = False
+
+    @property
+    def inner(self) -> int:
+        """The number of products in an entry of the result."""
+        return self.left.rows if self.left_transposed else self.left.columns
+
+
+@dataclass(frozen=True)
+class Apply:
+    """target = constant matrix, or matrix constant with ``from_right``; the constant may be transposed."""
+
+    target: Matrix
+    constant: ConstantMatrix
+    matrix: Matrix
+    transposed: bool = False
+    from_right: bool = False
+
+
+@dataclass(frozen=True)
+class Term:
+    """A coefficient times a matrix or its transpose. A matrix smaller than the target is padded by zeros."""
+
+    coefficient: Expr
+    matrix: Matrix
+    transposed: bool = False
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """The numbers of rows and columns of the term."""
+        m = self.matrix
+        return (m.columns, m.rows) if self.transposed else (m.rows, m.columns)
+
+
+@dataclass(frozen=True)
+class Combination:
+    """target = the sum of the terms; zero without terms.
+
+    A term may be the target itself, if it is the first and is not transposed.
+    """
+
+    target: Matrix
+    terms: tuple[Term, ...]
+
+
+ArrayStatement = Multiplication | Apply | Combination
+
+Renaming = Callable[[Matrix], Matrix]
+"""A function that returns the matrix to be used in place of a matrix."""
+
+
+@dataclass(frozen=True)
+class ArrayProgram:
+    """Assignments that compute the matrix ``result`` from the matrix ``argument``."""
+
+    argument: Matrix
+    body: tuple[ArrayStatement, ...]
+    result: Matrix
+
+    def expressions(self) -> Iterator[Expr]:
+        """Yield the scalars of the program."""
+        for statement in self.body:
+            if isinstance(statement, Combination):
+                yield from (term.coefficient for term in statement.terms)
+            elif isinstance(statement, Apply):
+                yield from (e for e in statement.constant.entries if not isinstance(e, tuple))
+
+    def constants(self) -> tuple[ConstantMatrix, ...]:
+        """Return the constant matrices, each once."""
+        return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
+
+    def evaluate(
+        self, domain: Domain, argument: Sequence[Scalar], symbols: Mapping[str, Scalar]
+    ) -> list[Scalar]:
+        """Return the entries of the result, row by row; ``symbols`` are the values of other symbols."""
+        arrays: Arrays = {self.argument.name: list(argument)}
+        for statement in self.body:
+            evaluated(statement, domain, arrays, symbols)
+        return _entries(self.result, arrays)
+
+    def moved(self, argument: Matrix, result: Matrix, name: str) -> tuple[ArrayStatement, ...]:
+        """Return the statements with other matrices for argument and result; names of all other arrays begin
+        with ``name``."""
+
+        def now(matrix: Matrix) -> Matrix:
+            if matrix.name == self.argument.name:
+                return argument
+            return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
+
+        return tuple(_renamed(statement, now) for statement in self.body)
+
+
+def _renamed(statement: ArrayStatement, now: Renaming) -> ArrayStatement:
+    target = now(statement.target)
+    match statement:
+        case Multiplication(left=left, right=right):
+            return replace(statement, target=target, left=now(left), right=now(right))
+        case Apply(matrix=matrix):
+            return replace(statement, target=target, matrix=now(matrix))
+        case Combination(terms=terms):
+            moved = tuple(replace(term, matrix=now(term.matrix)) for term in terms)
+            return replace(statement, target=target, terms=moved)
+
+
+def _entries(matrix: Matrix, arrays: Arrays) -> list[Scalar]:
+    array = arrays[matrix.name]
+    return [array[matrix.place(i, j)] for i in range(matrix.rows) for j in range(matrix.columns)]
+
+
+def evaluated(
+    statement: ArrayStatement, domain: Domain, arrays: Arrays, symbols: Mapping[str, Scalar]
+) -> None:
+    """Evaluate one statement over a domain, and store the result in ``arrays``."""
+    target = statement.target
+    zero = domain.rational(0)
+    array = arrays.setdefault(target.name, [zero] * target.size)
+    match statement:
+        case Multiplication():
+            values = _product(statement, arrays, zero)
+        case Apply():
+            values = _applied(statement, domain, arrays, symbols)
+        case Combination(terms=terms):
+            values = [zero] * target.size
+            for term in terms:
+                c = evaluate([term.coefficient], domain, symbols)[0]
+                other, (rows, columns) = arrays[term.matrix.name], term.shape
+                for i in range(rows):
+                    for j in range(columns):
+                        at = term.matrix.place(j, i) if term.transposed else term.matrix.place(i, j)
+                        place = i * target.columns + j
+                        values[place] = values[place] + c * other[at]
+    for i in range(target.rows):
+        for j in range(target.columns):
+            array[target.place(i, j)] = values[i * target.columns + j]
+
+
+def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[str, Scalar]) -> list[Scalar]:
+    target, matrix = statement.target, statement.matrix
+    values = [domain.rational(0)] * target.size
+    other = arrays[matrix.name]
+    for i, j, a in statement.constant.values(domain, symbols):
+        row, column = (j, i) if statement.transposed else (i, j)
+        if statement.from_right:
+            for b in range(target.rows):
+                at = b * target.columns + column
+                values[at] = values[at] + other[matrix.place(b, row)] * a
+            continue
+        for b in range(target.columns):
+            at = row * target.columns + b
+            values[at] = values[at] + a * other[matrix.place(column, b)]
+    return values
+
+
+def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Scalar]:
+    target, left, right = statement.target, statement.left, statement.right
+    a, b = arrays[left.name], arrays[right.name]
+    start = _entries(target, arrays) if statement.added else [zero] * target.size
+    values = []
+    for i in range(target.rows):
+        for j in range(target.columns):
+            total = start[i * target.columns + j]
+            for k in range(statement.inner):
+                x = a[left.place(k, i) if statement.left_transposed else left.place(i, k)]
+                y = b[right.place(j, k) if statement.right_transposed else right.place(k, j)]
+                total = total + x * y
+            values.append(total)
+    return values
+
+
+def operations(statement: ArrayStatement) -> dict[str, int]:
+    """Return the number of additions and products of a statement, without the formulas of entries."""
+    size = statement.target.size
+    match statement:
+        case Multiplication():
+            return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
+        case Apply(constant=constant, target=target):
+            products = constant.filled * (target.rows if statement.from_right else target.columns)
+            return {"add": max(0, products - size), "mul": products}
+        case Combination(terms=terms):
+            sizes = [term.matrix.size for term in terms]
+            scaled = [n for n, t in zip(sizes, terms, strict=True) if not _is_unit(t.coefficient)]
+            return {"add": sum(sizes[1:]), "mul": sum(scaled)}
+
+
+def _is_unit(c: Expr) -> bool:
+    return c.op == "const" and bool(c.payload.is_one or c.payload.is_minus_one)

@@ -1,0 +1,106 @@
+"""A step on n x k matrices with orthonormal columns, by loops over arrays, without n x n matrices.
+
+All generators of a step have the form B S B^T with one n x r matrix B, the basis, and skew r x r matrices S,
+the cores. The first k columns of B are the state X_0. Each evaluation of the field adds k columns, so the
+size r of a core is k times one more than the number of evaluations. With the Gram matrix G = B^T B,
+
+    [B S B^T, B T B^T] = B (S G T - T G S) B^T,
+    exp(B S B^T) B C = B (C + S phi(G S) G C),   phi(z) = (exp(z) - 1)/z.
+
+A point of the step is X_0 + B D with a small r x k matrix D, its displacement. The generator at X is
+W X^T - X W^T with W = V - X (X^T V)/2, so with X = B C and W = B E it has the core E C^T - C E^T.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from codegen.ir.array_program import (
+    Apply,
+    ArrayStatement,
+    Combination,
+    ConstantMatrix,
+    Matrix,
+    operations,
+)
+from codegen.ir.expr import Expr
+
+TERMS = 8
+"""The number of terms of phi in counts of operations. A typical number is used: it depends on the norm."""
+
+MOST_TERMS = 18
+"""The number of terms of phi at which the remainder is below the rounding errors if the norm is at most 1."""
+
+
+@dataclass(frozen=True)
+class AddUnit:
+    """target = target + value 1, for a square matrix."""
+
+    target: Matrix
+    value: int
+
+
+@dataclass(frozen=True)
+class Move:
+    """target = the displacement of exp(B S B^T) X, where X has the displacement ``start`` (None: zero).
+
+    ``core`` is S, ``gram`` the Gram matrix of the whole basis. ``start`` has at most as many rows as target.
+    """
+
+    target: Matrix
+    core: Matrix
+    gram: Matrix
+    start: Matrix | None
+
+    @property
+    def operations(self) -> dict[str, int]:
+        """The number of additions and multiplications if phi has :data:`TERMS` terms."""
+        m, k = self.core.rows, self.target.columns
+        rows = 0 if self.start is None else self.start.rows
+        products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
+        return {"add": products, "mul": products + TERMS * m * k}
+
+
+StepStatement = ArrayStatement | AddUnit | Move
+
+
+@dataclass(frozen=True)
+class ArrayStep:
+    """The statements of one step: they compute the matrix ``result`` from the matrix ``argument``.
+
+    ``estimate`` are further statements, which compute the difference ``error`` between the result and an
+    embedded solution.
+    """
+
+    argument: Matrix
+    body: tuple[StepStatement, ...]
+    result: Matrix
+    estimate: tuple[ArrayStatement, ...] = ()
+    error: Matrix | None = None
+
+    def expressions(self) -> Iterator[Expr]:
+        """Yield the scalars of the statements."""
+        for statement in (*self.body, *self.estimate):
+            if isinstance(statement, Combination):
+                yield from (term.coefficient for term in statement.terms)
+            elif isinstance(statement, Apply):
+                yield from (e for e in statement.constant.entries if not isinstance(e, tuple))
+
+    def constants(self) -> tuple[ConstantMatrix, ...]:
+        """Return the constant matrices, each once."""
+        return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
+
+    def operations(self) -> dict[str, int]:
+        """Return the number of additions and multiplications, with :data:`TERMS` terms of phi."""
+        total = {"add": 0, "mul": 0}
+        for statement in (*self.body, *self.estimate):
+            match statement:
+                case AddUnit(target=target):
+                    own = {"add": target.rows}
+                case Move():
+                    own = statement.operations
+                case _:
+                    own = operations(statement)
+            total = {name: n + own.get(name, 0) for name, n in total.items()}
+        return total

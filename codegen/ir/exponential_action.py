@@ -1,0 +1,219 @@
+"""The action exp(A) y of the exponential of an n x n matrix on a vector, without the matrix exp(A).
+
+In doubles the matrix is halved s times, until its largest row sum is small, and a Taylor polynomial of exp(A
+2^-s) is applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). With degree m
+the polynomial is y + A (p/m!), where p is the sum of (m!/j!) A^(j-1) y over j from 1 to m, by Horner's rule.
+The integers m!/j! are exact in floating-point arithmetic. So all rounding errors depend on y, and the
+length of y does not drift if A is skew: coefficients 1/j! would have the same error in every step.
+Emitted code executes the same operations in the same order (:mod:`codegen.run.exponential_action`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from codegen.ir.vector_function import VectorFunction
+
+if TYPE_CHECKING:
+    from codegen.ir.domain import Scalar
+    from codegen.ir.expr import Expr
+
+HALVINGS = 13
+"""The largest number of halvings. For larger matrices the result is NaN, because it would take too long."""
+
+SPARSE = 12
+"""The largest number of rows for which a call contains only the entries of A that are not zero. Emitted code
+then has one sum for each row, without a loop."""
+
+
+@cache
+def degrees(bits: int) -> tuple[int, ...]:
+    """Return the degrees of the Taylor polynomials. The integers m!/j! of the largest degree m are exact with
+    ``bits`` binary digits.
+
+    >>> degrees(53), degrees(24)
+    ((6, 10, 14, 18, 22), (5, 9, 13))
+    """
+    m = 1
+    while _odd(math.factorial(m + 1)) < 2**bits:
+        m += 1
+    return tuple(range(m, 3, -4))[::-1]
+
+
+def _odd(x: int) -> int:
+    return x // (x & -x)
+
+
+@cache
+def largest_norms(bits: int) -> tuple[float, ...]:
+    """Return the largest row sum for each degree m: ((m + 1)! 2^-(bits + 10))^(1/(m + 1)), rounded to three
+    digits.
+
+    The remainder of the Taylor polynomial is then below 2^-10 times the unit roundoff. It must be this small,
+    because it changes the length of y by the same amount in every step.
+
+    >>> largest_norms(53)
+    (0.0066, 0.0927, 0.349, 0.796, 1.41)
+    """
+    norms = ((math.lgamma(m + 2) - (bits + 10) * math.log(2)) / (m + 1) for m in degrees(bits))
+    return tuple(float(f"{math.exp(x):.3g}") for x in norms)
+
+
+@dataclass(frozen=True)
+class ExponentialAction(VectorFunction):
+    """exp(A) y; the arguments are the entries of A row by row, and y.
+
+    If ``pattern`` is not zero, only some entries of A are arguments, and all others are zero: entry k is an
+    argument if bit k of the pattern is set.
+    """
+
+    n: int
+    pattern: int = 0
+
+    @property
+    def name(self) -> str:
+        """The name in expressions and in emitted code."""
+        return f"expmv{self.n}" + (f"_{self.pattern:x}" if self.pattern else "")
+
+    @property
+    def size(self) -> int:
+        """The number of results."""
+        return self.n
+
+    @property
+    def places(self) -> tuple[int, ...]:
+        """The places in the matrix of the entries that are arguments."""
+        return tuple(k for k in range(self.n**2) if not self.pattern or self.pattern >> k & 1)
+
+    @property
+    def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
+        """For each row of the matrix, pairs: the place of an entry among the arguments, and its column."""
+        entries = list(enumerate(self.places))
+        return tuple(
+            tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)
+        )
+
+    @property
+    def arrays(self) -> tuple[int, ...]:
+        """The lengths of the matrix and of the vector."""
+        return (len(self.places), self.n)
+
+    @property
+    def operations(self) -> dict[str, int]:
+        """The number of operations for a polynomial of degree 18, without halvings."""
+        products = 18 * (len(self.places) + self.n)
+        return {"add": products, "mul": products}
+
+    def matrix(self, args: Sequence[Scalar], zero: Scalar) -> list[Scalar]:
+        """Return all entries of the matrix."""
+        result = [zero] * self.n**2
+        for place, x in zip(self.places, args, strict=False):
+            result[place] = x
+        return result
+
+    def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return the derivative of the results: exp([[A, A'], [0, A]]) (y', y) is the pair of the derivative
+        and exp(A) y."""
+        space, n, entries = args[0].space, self.n, len(self.places)
+        a, e = (self.matrix(x[:entries], space.zero) for x in (args, rates))
+        y, v = args[entries:], rates[entries:]
+        zeros = [space.zero] * n
+        block = [x for i in range(n) for x in (*a[n * i : n * i + n], *e[n * i : n * i + n])]
+        block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
+        larger = ExponentialAction(2 * n)
+        both = (*block, *v, *y)
+        expanded = larger.expanded(both)
+        results = space.vector(larger.name, both) if expanded is None else expanded
+        return tuple(results[:n])
+
+    def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
+        """Return y if A is zero, the call with a pattern for a small matrix with zeros, and otherwise
+        None."""
+        if self.pattern:
+            return None
+        size = self.n**2
+        pattern = sum(1 << k for k, x in enumerate(args[:size]) if not x.is_zero)
+        if not pattern:
+            return tuple(args[size:])
+        if self.n > SPARSE:
+            return None
+        own = ExponentialAction(self.n, pattern)
+        return args[0].space.vector(own.name, (*(args[k] for k in own.places), *args[size:]))
+
+    def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
+        """Return exp(A) y in doubles."""
+        entries, rows = len(self.places), self.rows
+        a, y = list(args[:entries]), list(args[entries:])
+        norm = 0.0
+        for row in rows:
+            total = 0.0
+            for k, _ in row:
+                total += abs(a[k])
+            norm = max(norm, total)
+        norms = largest_norms(53)
+        scale, parts = 1.0, 1
+        while norm * scale > norms[-1] and parts < 2**HALVINGS:
+            scale, parts = 0.5 * scale, 2 * parts
+        norm *= scale
+        if not norm <= norms[-1]:
+            return (math.nan,) * self.n
+        a = [x * scale for x in a]
+        degree = next(m for m, bound in zip(degrees(53), norms, strict=True) if norm <= bound)
+        for _ in range(parts):
+            p, weight = y, 1.0
+            for k in range(degree, 1, -1):
+                weight *= k
+                p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
+            y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
+        return tuple(y)
+
+    def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return exp(A) y for mpmath numbers; :class:`OverflowError` for entries above 2^40."""
+        entries, rows = len(self.places), self.rows
+        largest = max((abs(x) for x in args[:entries]), default=0) * self.n
+        if not largest < 2**40:
+            raise OverflowError("the norm of the matrix is too large for its exponential")
+        # Each part loses few digits, because the norm of its matrix is below 1.
+        parts = int(largest) + 1
+        work = context.clone()
+        work.dps = digits + 15 + len(str(parts))
+        a = [work.mpf(x) / parts for x in args[:entries]]
+        y = [work.mpf(x) for x in args[entries:]]
+        for _ in range(parts):
+            term, k = y, 0
+            while any(abs(x) > work.eps * max(1, max(map(abs, y))) for x in term):
+                k += 1
+                term = [x / k for x in _product(rows, a, term)]
+                y = [x + z for x, z in zip(y, term, strict=True)]
+        return tuple(context.mpf(x) for x in y)
+
+    def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return exp(A) y for power series, exactly; the constant terms of A must be nilpotent."""
+        entries, rows = len(self.places), self.rows
+        total = term = list(args[entries:])
+        longest = self.n * (ring.order + 2)
+        for k in range(1, longest + 1):
+            factor = ring.rational(1, k)
+            term = [factor * x for x in _product(rows, args[:entries], term, ring.zero)]
+            if all(ring.is_zero(x) is True for x in term):
+                return tuple(total)
+            total = [x + z for x, z in zip(total, term, strict=True)]
+        raise ArithmeticError(f"an exponential series does not end within {longest} terms")
+
+
+def _product(
+    rows: Sequence[Sequence[tuple[int, int]]], a: Sequence[Scalar], y: Sequence[Scalar], zero: Scalar = 0.0
+) -> list[Scalar]:
+    """Return A y."""
+    result = []
+    for row in rows:
+        terms = [a[k] * y[j] for k, j in row]
+        total = terms[0] if terms else zero
+        for x in terms[1:]:
+            total = total + x
+        result.append(total)
+    return result

@@ -1,0 +1,288 @@
+"""From programs to kernels that compute with whole matrices (:mod:`codegen.ir.array_step`)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cache
+
+from codegen.errors import MethodError
+from codegen.groups.actions.rotation import Rotation
+from codegen.groups.bernoulli import bernoulli_over_factorial, last_term
+from codegen.groups.so3 import SO3
+from codegen.ir.array_program import (
+    COLUMN,
+    ROW,
+    Apply,
+    ArrayStatement,
+    Combination,
+    Entry,
+    Matrix,
+    Multiplication,
+    Term,
+)
+from codegen.ir.array_step import AddUnit, ArrayStep, Move, StepStatement
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, evaluate
+from codegen.ir.kernel import Estimate, Kernel
+from codegen.ir.kernel import Field as StateBlock
+from codegen.ir.operations import Act, ActExp, Advance, Bracket, Exp, InverseDexp, Linear, Zero
+from codegen.ir.program import EMBEDDED, Assign, Program
+from codegen.ir.scene_operations import Field
+from codegen.ir.values import Kind, Var
+from codegen.lower import lower
+from codegen.method import Method
+from codegen.passes import PassReport, blocks, optimise
+from codegen.scene.field_scene import FieldScene
+from codegen.scene.matrix_field import MatrixField
+from codegen.scene.problem import TIME, Problem
+
+STATE, NEW, BASIS, GRAM, ERROR = "state", "new state", "basis", "gram", "error"
+"""The names of arrays: the state, the new state, the basis B, its Gram matrix, and the error estimate."""
+
+
+def refused(scene: Problem, what: str, expected: str) -> MethodError:
+    """Return the error for a method that has no step by loops over arrays."""
+    hint = "explicit methods of the families rkmk, cf and cg are possible, for example rkmk:rk4"
+    return MethodError(what, where=scene.name, expected=expected, hint=hint)
+
+
+@dataclass(frozen=True)
+class ArrayMethod:
+    """A method on a scene with large matrices: the program before and after each pass, and the kernel."""
+
+    lowered: Program
+    program: Program
+    trace: tuple[PassReport, ...]
+    kernel: Kernel
+
+
+def array_method(scene: Problem, method: Method) -> ArrayMethod:
+    """Return the compiled method. The passes are verified on a scene on the sphere, because they do not read
+    the field and the size of the matrices.
+
+    MethodError is raised for a method that has no kernel (:func:`array_kernel`).
+    """
+    model = _model(not scene.autonomous)
+    lowered = lower(model, method)
+    if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
+        expected = "an explicit method for a scene with large matrices"
+        raise refused(scene, f"the implicit stages of {method.label}", expected)
+    program, trace = optimise(lowered, model)
+    return ArrayMethod(lowered, program, trace, array_kernel(program, scene))
+
+
+@cache
+def _model(timed: bool) -> Problem:
+    """Return a field on the sphere without symmetries, on which the passes of a program are verified."""
+    from sympy import Matrix as Column
+    from sympy import Rational, Symbol, symbols
+
+    x, y, z = point = symbols("x y z", real=True)
+    t = Symbol(TIME) if timed else Rational(1, 3)
+    field_on_sphere = Column([y * z + t / 2, x - z * Rational(1, 3), x * y + Rational(1, 5)])
+    start = Column([1, 0, 0])
+    return FieldScene(group=SO3(), action=Rotation(), y=point, f=field_on_sphere, y0=start, span=(0, 1))
+
+
+def array_kernel(program: Program, scene: Problem) -> Kernel:
+    """Return the kernel of an explicit program on a scene whose field is given by formulas of matrices.
+
+    MethodError is raised for implicit stages and for operations without a formula for generators of low rank.
+    """
+    assert scene.matrices is not None
+    step = _Builder(program, scene, scene.matrices).step()
+    (block,) = scene.state
+    n, k = scene.matrices.rows, scene.matrices.columns
+    about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
+    state = (StateBlock(block.name, block.symbols, about),)
+    estimate = None if step.error is None else Estimate((), 0)
+    return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), estimate=estimate, arrays=step)
+
+
+@dataclass
+class _Builder:
+    """Collects the statements of one step."""
+
+    program: Program
+    scene: Problem
+    matrices: MatrixField
+    domain: ExprDomain = field(default_factory=ExprDomain)
+    body: list[StepStatement] = field(default_factory=list)
+    cores: dict[Var, Matrix] = field(default_factory=dict)
+    points: dict[Var, Matrix | None] = field(default_factory=dict)
+    times: dict[Var, Expr] = field(default_factory=dict)
+    blocks: int = 1
+
+    def __post_init__(self) -> None:
+        count = sum(isinstance(a.operation, Field) for a in self.program.assigns())
+        n, k = self.matrices.rows, self.matrices.columns
+        self.k, width = k, k * (1 + count)
+        self.argument = Matrix(STATE, n, k)
+        self.basis, self.gram = Matrix(BASIS, n, width), Matrix(GRAM, width, width)
+        self.one = self.domain.space.one
+
+    def step(self) -> ArrayStep:
+        """Return the step."""
+        first = self.basis.part(0, 0, self.matrices.rows, self.k)
+        self.sum(first, (self.one, self.argument))
+        self.body.append(Multiplication(self.gram.part(0, 0, self.k, self.k), first, first, True))
+        for var in self.program.inputs:
+            if var.kind is Kind.REAL:
+                self.times[var] = self.domain.space.sym(var.name)
+            else:
+                self.points[var] = None
+        for statement in self.program.body:
+            if not isinstance(statement, Assign):
+                raise refused(self.scene, f"the equations of {statement.label}", "an explicit method")
+            self.run(statement)
+        outputs = dict(self.program.outputs)
+        embedded = outputs.pop(EMBEDDED, None)
+        (end,) = outputs.values()
+        n, new = self.matrices.rows, self.points[end]
+        result = Matrix(NEW, n, self.k)
+        self.displaced(result, new)
+        body = tuple(self.body)
+        lower = None if embedded is None else self.points[embedded]
+        if new is None or lower is None:
+            return ArrayStep(self.argument, body, result)
+        # The estimate is the difference of the displacements times the basis, so no digits are lost.
+        rows = max(new.rows, lower.rows)
+        difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
+        terms = (Term(self.one, new), Term(-self.one, lower))
+        product = Multiplication(error, self.basis.part(0, 0, n, rows), difference)
+        return ArrayStep(self.argument, body, result, (Combination(difference, terms), product), error)
+
+    def run(self, assign: Assign) -> None:
+        """Append the statements of an assignment."""
+        operation, args = assign.operation, assign.args
+        (target,) = assign.targets
+        match operation:
+            case Field():
+                self.cores[target] = self.evaluated(target, args[0], *args[1:])
+            case Linear():
+                terms = [(c.evaluate(self.domain), self.cores[a]) for c, a in assign.terms]
+                self.cores[target] = self.combination(target.name, terms)
+            case Zero():
+                self.cores[target] = self.combination(target.name, [])
+            case Bracket(dual=False):
+                self.cores[target] = self.bracket(target.name, self.cores[args[0]], self.cores[args[1]])
+            case InverseDexp(dual=False, order=order):
+                self.cores[target] = self.inverse(
+                    target.name, self.cores[args[0]], self.cores[args[1]], order
+                )
+            # An element of the group is a single exponential, and is stored as the core of its exponent.
+            case Exp():
+                self.cores[target] = self.cores[args[0]]
+            case Act() | ActExp():
+                self.points[target] = self.moved(target.name, self.cores[args[0]], self.points[args[1]])
+            case Advance(coefficient=c):
+                self.times[target] = self.times[args[0]] + c.evaluate(self.domain)
+            case _:
+                what = f"the operation {operation.name} for generators of low rank"
+                raise refused(self.scene, what, "another method")
+
+    def sum(self, target: Matrix, *terms: tuple[Expr, Matrix]) -> Matrix:
+        """Append a linear combination."""
+        self.body.append(Combination(target, tuple(Term(c, m) for c, m in terms)))
+        return target
+
+    def displaced(self, target: Matrix, displacement: Matrix | None) -> None:
+        """Append target = X_0 + B D."""
+        self.sum(target, (self.one, self.argument))
+        if displacement is not None:
+            columns = self.basis.part(0, 0, self.matrices.rows, displacement.rows)
+            self.body.append(Multiplication(target, columns, displacement, added=True))
+
+    def evaluated(self, target: Var, point: Var, *time: Var) -> Matrix:
+        """Append the evaluation of the field; return its core."""
+        n, k, name = self.matrices.rows, self.k, target.name
+        displacement, x = self.points[point], self.argument
+        if displacement is not None:
+            x = Matrix(f"{name} point", n, k)
+            self.displaced(x, displacement)
+        first = k * self.blocks
+        w = self.basis.part(0, first, n, k)
+        t = self.times[time[0]] if time else self.domain.rational(0)
+        self.body += [self.at_time(s, t, name) for s in self.matrices.program.moved(x, w, name)]
+        products, halved = Matrix(f"{name} gram", k, k), Matrix(f"{name} correction", k, k)
+        self.body.append(Multiplication(products, x, w, True))
+        self.sum(halved, (self.domain.rational(-1, 2), products))
+        self.body.append(Multiplication(w, x, halved, added=True))
+        self.blocks += 1
+        known = self.basis.part(0, 0, n, first + k)
+        self.body.append(Multiplication(self.gram.part(0, first, first + k, k), known, w, True))
+        above = Term(self.one, self.gram.part(0, first, first, k), True)
+        self.body.append(Combination(self.gram.part(first, 0, k, first), (above,)))
+        return self.core(name, displacement, first)
+
+    def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
+        """Append S = E C^T - C E^T for E = the unit vectors from ``first`` on; return S."""
+        k = self.k
+        core = self.sum(Matrix(name, first + k, first + k))
+        below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
+        if displacement is not None:
+            m = displacement.rows
+            turned = Term(self.one, displacement, True)
+            self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
+            self.sum(core.part(0, first, m, k), (-self.one, displacement))
+        self.body += [AddUnit(below, 1), AddUnit(right, -1)]
+        return core
+
+    def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
+        """Return a statement of the field with the values of parameters and the time."""
+        values = {**self.scene.scalars(self.domain, t)}
+        values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
+
+        def now(root: Expr) -> Expr:
+            (value,) = evaluate([root], self.domain, values)
+            assert isinstance(value, Expr)
+            return value
+
+        match statement:
+            case Combination(terms=terms):
+                moved = tuple(replace(term, coefficient=now(term.coefficient)) for term in terms)
+                return replace(statement, terms=moved)
+            case Apply(constant=constant):
+
+                def entry(given: Entry) -> Entry:
+                    return given if isinstance(given, tuple) else now(given)
+
+                diagonals = tuple(replace(d, entry=entry(d.entry)) for d in constant.diagonals)
+                return replace(
+                    statement, constant=replace(constant, diagonals=diagonals, full=entry(constant.full))
+                )
+            case _:
+                return statement
+
+    def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
+        """Append a linear combination of cores; it has the size of the largest core."""
+        size = max([m.rows for _, m in terms], default=self.k)
+        return self.sum(Matrix(name, size, size), *terms)
+
+    def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
+        """Append N - N^T with N = S G T, the core of a bracket; return it."""
+        right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
+        self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
+        self.body.append(Multiplication(product, x, right))
+        size = max(x.rows, y.rows)
+        terms = (Term(self.one, product), Term(-self.one, product, True))
+        core = Matrix(name, size, size)
+        self.body.append(Combination(core, terms))
+        return core
+
+    def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
+        """Append dexp^{-1}_x y, truncated after ``order`` brackets; return its core."""
+        terms, power = [(self.one, y)], y
+        for k in range(1, last_term(order) + 1):
+            power = self.bracket(f"{name} bracket {k}", x, power)
+            b = bernoulli_over_factorial(k)
+            if b:
+                terms.append((self.domain.rational(b.numerator, b.denominator), power))
+        return self.combination(name, terms)
+
+    def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
+        """Append the action of an exponential; return the displacement of the new point."""
+        rows = core.rows if start is None else max(core.rows, start.rows)
+        target = Matrix(name, rows, self.k)
+        self.body.append(Move(target, core, self.gram, start))
+        return target

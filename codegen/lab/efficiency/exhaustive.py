@@ -1,0 +1,186 @@
+"""The exhaustive search: every recipe of the library is run, and no recipe is left out because of its order,
+its family or a time limit for predictions. A benchmark compares the usual search with this search.
+
+Each recipe is first run by the interpreter with more and more steps, as long as the run may be fast enough.
+The counted operations give the time of a step, and the measured error gives the number of steps for the
+target. The product of this time and this number, divided by SAFE, is a lower bound of the time of the recipe.
+If the bound exceeds WORST times the best measured time for each error, the recipe is excluded. All other
+recipes are emitted, compiled and raced. A sample of the excluded recipes is also raced. The times of the
+sample show whether the bound is safe.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import TypeVar
+
+from codegen.lab.efficiency.candidates import Recipe
+from codegen.lab.efficiency.prediction import CALL, FEWEST_SWEEPS, Bar, Prediction
+from codegen.lab.efficiency.race import Entry, Result
+from codegen.lab.efficiency.recommend import Request
+from codegen.lab.efficiency.search import Key, Search
+from codegen.lab.efficiency.task import emitted, predicted
+from codegen.lab.progress import Progress
+from orderconds.processes import in_processes
+
+WORST = 1.25
+"""The largest accepted ratio of the time of a recommended recipe to the best time."""
+
+SAFE = 8.0
+"""A predicted time (the number of steps times the time of a step) may be too large by at most this factor."""
+
+T = TypeVar("T")
+
+SAMPLE = 12
+"""The number of excluded recipes that are also raced. Half of them are the recipes closest to the bound."""
+
+
+@dataclass
+class Exhausted:
+    """The result of an exhaustive search.
+
+    ``known`` is the time of a known recipe for each error, ``results`` contains the runs for each error, and
+    ``recipes`` is the number of recipes of the library.
+    ``raced`` recipes were emitted and measured, ``refused`` recipes cannot be compiled for the scene,
+    ``copies`` have the same code as another recipe, and ``excluded`` exceed the bound. ``nearest`` is the
+    least time of the sampled excluded recipes divided by the best time for the same error. ``complete`` is
+    False if the time limit ended the search.
+    """
+
+    known: Mapping[float, float]
+    recipes: int
+    results: dict[float, list[Result]] = field(default_factory=dict)
+    raced: int = 0
+    refused: int = 0
+    copies: int = 0
+    excluded: int = 0
+    nearest: float = math.inf
+    complete: bool = True
+    codes: set[str] = field(default_factory=set)
+
+    def best(self, error: float) -> float:
+        """Return the least measured time for an error in seconds."""
+        times = (r.seconds for r in self.results.get(error, ()) if r.reached)
+        return min(self.known[error], min(times, default=math.inf))
+
+    def text(self) -> str:
+        """Return the numbers of recipes in words."""
+        counts = f"{self.raced} raced, {self.excluded} above the bound, {self.refused} refused"
+        counts += f", {self.copies} with the same code"
+        if math.isfinite(self.nearest):
+            counts += f"; fastest of {SAMPLE} above the bound: {self.nearest:.1f} times the best"
+        return counts if self.complete else f"{counts}; ended by the time limit"
+
+
+def exhaust(
+    request: Request,
+    known: Mapping[float, float],
+    progress: Progress = str,
+    most: float = math.inf,
+) -> Exhausted:
+    """Search the whole library for each error of ``known``.
+
+    ``known`` contains the measured time of some recipe for each error in seconds; infinity if no recipe is
+    known to reach the error. The search ends after ``most`` seconds.
+    """
+    search = Search(request.task, (request.goal,))
+    limits = {error: WORST * SAFE * seconds for error, seconds in known.items()}
+    predictions = _predicted(search, limits, progress)
+    recipes = list(search.suited)
+    done = Exhausted(known, len(recipes), {error: [] for error in known})
+    done.refused = sum(bool(predictions[_key(r)].failure) for r in recipes)
+    open_ = [r for r in recipes if not predictions[_key(r)].failure]
+    ratios = {r: least_ratio(predictions[_key(r)], limits) for r in open_}
+    ordered = sorted(open_, key=lambda r: (math.isinf(ratios[r]), ratios[r]))
+    kept = [r for r in ordered if ratios[r] <= 1.0]
+    above = [r for r in ordered if ratios[r] > 1.0]
+    sample = sampled(above)
+    done.excluded = len(above) - len(sample)
+    for number, candidate in enumerate(in_processes(partial(emitted, request.task), [*kept, *sample]), 1):
+        progress(f"{search.problem.name}: racing recipe {number} of {len(kept) + len(sample)}")
+        if not isinstance(candidate, Entry):
+            done.refused += 1
+        elif candidate.code in done.codes:
+            done.copies += 1
+        else:
+            ratio = _raced(done, search, candidate)
+            if number > len(kept):
+                done.nearest = min(done.nearest, ratio)
+        if time.monotonic() - search.start > most:
+            done.complete = number == len(kept) + len(sample)
+            break
+    return done
+
+
+def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
+    """Return the interpreted runs of all recipes. A recipe with step-size control and the same recipe without
+    step-size control share a run."""
+    recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
+    bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
+    jobs = [(recipe, bars) for recipe in recipes]
+    predictions: dict[Key, Prediction] = {}
+    for k, prediction in enumerate(in_processes(partial(predicted, search.task), jobs)):
+        progress(f"{search.problem.name}: running recipe {k + 1} of {len(jobs)} step by step")
+        assert prediction is not None  # None is returned only if there is no bar.
+        predictions[_key(recipes[k])] = prediction
+    return predictions
+
+
+def _key(recipe: Recipe) -> Key:
+    return recipe.method, recipe.form
+
+
+def least_ratio(prediction: Prediction, limits: Mapping[float, float]) -> float:
+    """Return the least ratio, over all errors, of the predicted time to the limit for the error. If the ratio
+    is above 1, the recipe is excluded.
+
+    A recipe whose interpreted runs fail is not excluded (ratio 0), because emitted code, which solves
+    equations by Newton's method, may succeed. Such a recipe is excluded only if a single step exceeds all
+    limits.
+
+    >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
+    >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
+    100.0
+    >>> least_ratio(replace(slow, error=math.inf), {1e-4: 1e-2})
+    0.0
+    """
+    step = 1e-9 * (CALL + prediction.outside + FEWEST_SWEEPS * prediction.sweep)
+    if not math.isfinite(prediction.error):
+        longest = max(limits.values())
+        return step / longest if step > longest else 0.0
+    return min(prediction.seconds(error) / limit for error, limit in limits.items())
+
+
+def sampled(excluded: Sequence[T]) -> list[T]:
+    """Return a sample of the excluded recipes, which are sorted by their predicted times.
+
+    >>> sampled(range(102))
+    [0, 1, 2, 3, 4, 5, 6, 22, 38, 54, 70, 86]
+    >>> sampled(range(3))
+    [0, 1, 2]
+    """
+    if len(excluded) <= SAMPLE:
+        return list(excluded)
+    near = SAMPLE // 2
+    far = SAMPLE - near
+    rest = len(excluded) - near
+    return [*excluded[:near], *(excluded[near + k * rest // far] for k in range(far))]
+
+
+def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
+    """Race a recipe for each error; return the least ratio of its time to the best time of other recipes."""
+    done.codes.add(candidate.code)
+    done.raced += 1
+    racer = search.racer(candidate)
+    ratio = math.inf
+    for error, known in done.results.items():
+        best = done.best(error)
+        result = racer.reach(error, best)
+        known.append(result)
+        if result.reached:
+            ratio = min(ratio, result.seconds / best)
+    return ratio

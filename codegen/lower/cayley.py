@@ -1,0 +1,35 @@
+"""Cayley methods for y' = A(t).y on quadratic groups: y1 = cay(Omega).y0, cay(x) = (1 - x/2)^-1 (1 + x/2).
+
+Omega contains brackets of the values h A(t + c_i h), and products such as x*y*x, which are in the algebra of
+a quadratic group (:mod:`orderconds.families.cayley`).
+"""
+
+from __future__ import annotations
+
+from codegen.groups.capabilities import CayleyMap
+from codegen.ir.scene_operations import CayleyElement
+from codegen.ir.values import Var
+from codegen.lower.base import Objection
+from codegen.lower.linear import LinearLowering
+from codegen.lower.stages import Stages
+from codegen.scene.problem import Problem
+
+
+class CayleyLowering(LinearLowering):
+    """Cayley methods; a step has no exponential."""
+
+    family = "cayley"
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return the reason why the family does not accept a scene: a field that depends on the state, or a
+        group without Cayley map."""
+        linear = super().objection(scene)
+        group = scene.as_field().group
+        if linear is not None or group.offers(CayleyMap) is not None:
+            return linear
+        expected = "a quadratic group, such as SO(n), Sp(2n), SL(2) or U(n), whose algebra contains x^3"
+        return Objection(f", whose group is {group.name}", expected)
+
+    def move(self, stages: Stages, x: Var, y: Var) -> Var:
+        """Append and return cay(x).y."""
+        return stages.builder.act("Y", stages.builder.add(CayleyElement(), "g", x), y)

@@ -1,0 +1,11 @@
+"""Commutator-free Magnus methods for y' = A(t).y: exponentials of linear combinations of h A(t + c_i h)."""
+
+from __future__ import annotations
+
+from codegen.lower.magnus import MagnusLowering
+
+
+class CommutatorFreeMagnusLowering(MagnusLowering):
+    """Commutator-free Magnus methods: Magnus methods without brackets."""
+
+    family = "cf_magnus"

@@ -1,0 +1,11 @@
+"""Fer methods for y' = A(t).y: exp(F_1) exp(F_2), where F_1 is a quadrature, and F_2 a sum of brackets."""
+
+from __future__ import annotations
+
+from codegen.lower.magnus import MagnusLowering
+
+
+class FerLowering(MagnusLowering):
+    """Fer methods: only the last exponent contains terms without brackets, and it has no other terms."""
+
+    family = "fer"

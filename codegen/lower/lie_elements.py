@@ -1,0 +1,88 @@
+"""Lie elements in the values of a field at nodes: the exponents of methods for y' = A(t).y.
+
+A tableau of format ``magnus`` defines elements of the Lie algebra as combinations of brackets of h A(t + c_i
+h). A value is stored without its common power of h: the bracket of two values at nodes has the power 2, and a
+combination multiplies only the terms of higher power by h. So the powers of h cost almost nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from codegen.errors import MethodError
+from codegen.ir.program import Builder
+from codegen.ir.scene_operations import Sandwich
+from codegen.ir.values import Coefficient, Kind, Var
+from codegen.method import Method
+from orderconds.tableau.brackets import Bracket, Combination, Product, Term, spell
+
+
+@dataclass(frozen=True)
+class Scaled:
+    """The value h^power times ``var``."""
+
+    var: Var
+    power: int
+
+
+@dataclass
+class LieElements:
+    """Appends the elements of a method to a program; each term is computed once.
+
+    ``nodes`` are the values A(t + c_i h), ``elements`` the named elements of the tableau.
+    """
+
+    build: Builder
+    method: Method
+    nodes: Sequence[Var]
+    elements: Mapping[str, Combination]
+    known: dict[Term, Scaled] = field(default_factory=dict)
+
+    def exponent(self, target: str, combination: Combination) -> Var:
+        """Append target = the combination, with all powers of h."""
+        return self._sum(target, combination, 0).var
+
+    def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:
+        """Append a combination; by default its power of h is the least power of its terms."""
+        terms = [(self.method.number(x), self._value(term)) for term, x in combination]
+        terms = [(x, value) for x, value in terms if not x.is_zero]
+        least = min((value.power for _, value in terms), default=1) if power is None else power
+        if power is None and len(terms) == 1 and terms[0][0].is_one:
+            return terms[0][1]
+        scaled = [(Coefficient(x, value.power - least), value.var) for x, value in terms]
+        return Scaled(self.build.lin(target, Kind.ALG, scaled), least)
+
+    def _value(self, term: Term) -> Scaled:
+        if term not in self.known:
+            self.known[term] = self._new(term)
+        return self.known[term]
+
+    def _new(self, term: Term) -> Scaled:
+        if isinstance(term, int):
+            return Scaled(self.nodes[term], 1)
+        if isinstance(term, str):
+            return self._sum(term, self.elements[term])
+        if isinstance(term, Bracket):
+            x, y = self._value(term.left), self._value(term.right)
+            return Scaled(self.build.bracket("bracket", x.var, y.var), x.power + y.power)
+        return self._palindrome(term)
+
+    def _palindrome(self, term: Product) -> Scaled:
+        """Append x_1 x_2 ... x_2 x_1, a product whose value is in the algebra of a quadratic group."""
+        factors = term.factors
+        if len(factors) % 2 == 0 or factors != factors[::-1]:
+            raise MethodError(
+                f"the product {spell(term)}",
+                where=self.method.label,
+                expected="products with an odd number of factors that read the same in both directions, such "
+                "as 1*2*1",
+                hint="(x+y)*z*(x+y) - x*z*x - y*z*y is x*z*y + y*z*x, with named elements for the sums",
+            )
+        middle = len(factors) // 2
+        result = self._value(factors[middle])
+        for outer in reversed(factors[:middle]):
+            x = self._value(outer)
+            var = self.build.add(Sandwich(), "product", x.var, result.var)
+            result = Scaled(var, 2 * x.power + result.power)
+        return result

@@ -1,0 +1,22 @@
+"""Magnus methods for y' = A(t).y: the exponential of a Lie element in the values h A(t + c_i h).
+
+The exponent contains brackets. A product of several exponentials is also accepted. The conventions are those
+of :mod:`orderconds.families.magnus`: with a left action, [2,1] is the bracket [A_2, A_1], and the first
+exponential acts first.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.values import Var
+from codegen.lower.linear import LinearLowering
+from codegen.lower.stages import Stages
+
+
+class MagnusLowering(LinearLowering):
+    """Magnus methods, with one exponential or with several."""
+
+    family = "magnus"
+
+    def move(self, stages: Stages, x: Var, y: Var) -> Var:
+        """Append and return exp(x).y."""
+        return stages.builder.act("Y", stages.builder.exp("g", x), y)

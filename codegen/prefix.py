@@ -1,0 +1,52 @@
+"""Prefixes of emitted modules: the start of every external name, and the names of the files."""
+
+from __future__ import annotations
+
+import keyword
+import re
+
+from codegen.method import Method
+from codegen.scene.problem import Problem
+from orderconds.errors import InputError
+
+HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
+"""Names of the headers and modules that emitted files or their examples include. No emitted file may have
+such a name."""
+
+
+def default_prefix(scene: Problem, method: Method) -> str:
+    """Return the prefix SCENE_FAMILY_TABLEAU_, or SCENE_TABLEAU_ if the tableau's name starts with the
+    family.
+
+    A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
+    """
+    family = method.family + ("" if method.cutoff is None else str(method.cutoff))
+    tableau = method.name
+    named = bool(tableau) and tableau.startswith(method.family)
+    parts = [scene.name, *([] if named else [family]), tableau]
+    name = re.sub(r"\W", "_", "_".join(filter(None, parts)), flags=re.ASCII)
+    return prefix_of(name, "this name is the scene's file name: rename the file, or use --prefix NAME")
+
+
+def prefix_of(name: str, hint: str = "") -> str:
+    """Return a prefix that ends in one underscore; raise an InputError if it is not an identifier of C and
+    Python.
+
+    The names of the files begin with the prefix. It must not be a keyword, because Python cannot import a
+    module with this name. It must not be the name of a header or module that emitted code includes.
+    """
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
+        raise InputError(
+            f"the prefix {name!r}",
+            where="--prefix",
+            expected="a letter, then letters, digits and _",
+            hint=hint,
+        )
+    module = name.rstrip("_")
+    if keyword.iskeyword(module) or module in HEADERS:
+        raise InputError(
+            f"the prefix {name!r}",
+            where="--prefix",
+            expected="a name that is neither a keyword of Python nor a standard header",
+        )
+    return module + "_"

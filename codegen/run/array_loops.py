@@ -1,0 +1,348 @@
+"""Assignments of whole matrices (:mod:`codegen.ir.array_program`) as loops.
+
+The length of the text does not depend on the numbers of rows and columns. Sums are formed for four columns at
+once, because four sums that do not depend on each other keep a processor busy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from codegen.ir.array_program import (
+    COLUMN,
+    ROW,
+    Apply,
+    ArrayStatement,
+    Combination,
+    ConstantMatrix,
+    Diagonal,
+    Entry,
+    Matrix,
+    Multiplication,
+)
+from codegen.ir.array_program import Term as Summand
+from codegen.ir.array_step import AddUnit
+from codegen.ir.expr import Expr, walk
+from codegen.ir.number import Number
+from codegen.ir.precision import Precision
+from codegen.run.language import Assign, For, Statement, Table
+from codegen.run.terms import Term, count, narrow, number, own, real, value, whole, wide
+
+GROUP = 4
+"""The number of columns whose sums are formed at once."""
+
+_ROW, _COLUMN, _TERM = count("i"), count("j"), count("k")
+_ENTRY = real("entry")
+"""The entry of a constant matrix."""
+
+Index = Term | int
+Group = Callable[[Term | None, int], Iterator[Statement]]
+"""A function of the first column of a group (None: column 0) and the number of columns."""
+
+
+@dataclass(frozen=True)
+class ArrayLoops:
+    """Writes assignments of matrices; ``arrays`` are the names of arrays that are arguments."""
+
+    arrays: dict[str, Term]
+
+    def array(self, matrix: Matrix, size: int = 0) -> Term:
+        """Return the array that contains a matrix."""
+        known = self.arrays.get(matrix.name)
+        return own(matrix.name, size or matrix.size) if known is None else known
+
+    def entry(self, matrix: Matrix, row: Index, column: Index) -> Term:
+        """Return an entry of a matrix."""
+        return self.array(matrix)[_place(matrix, row, column)]
+
+    def statements(self, statement: ArrayStatement | AddUnit) -> Iterator[Statement]:
+        """Yield the statements of an assignment."""
+        match statement:
+            case Multiplication():
+                yield from self.product(statement)
+            case Apply(from_right=True):
+                yield from self.applied_from_right(statement)
+            case Apply():
+                yield from self.applied(statement)
+            case Combination():
+                yield from self.combination(statement)
+            case AddUnit(target=target, value=unit):
+                entry = self.entry(target, _ROW, _ROW)
+                yield For(_ROW, whole(target.rows), (Assign(entry, entry + number(float(unit))),))
+
+    def product(self, p: Multiplication) -> Iterator[Statement]:
+        """Yield the loops of a product."""
+
+        def factor(row: Index, k: Term) -> Term:
+            return self.entry(p.left, k, row) if p.left_transposed else self.entry(p.left, row, k)
+
+        def other(k: Term, column: Index) -> Term:
+            return self.entry(p.right, column, k) if p.right_transposed else self.entry(p.right, k, column)
+
+        def group(first: Term | None, columns: int) -> Iterator[Statement]:
+            places = [_shifted(first, c) for c in range(columns)]
+            yield from self.sums(p.target, _ROW, places, p.inner, factor, other, added=p.added)
+
+        yield For(_ROW, whole(p.target.rows), tuple(_in_groups(p.target.columns, group)))
+
+    def sums(
+        self,
+        target: Matrix,
+        row: Index,
+        columns: Sequence[Index],
+        inner: int,
+        factor: Callable[[Index, Term], Term],
+        other: Callable[[Term, Index], Term],
+        *,
+        added: bool = False,
+        before: Sequence[Statement] = (),
+    ) -> Iterator[Statement]:
+        """Yield the statements that compute some entries of one row as sums of products."""
+        totals = [real(f"total_{c}") for c in range(len(columns))]
+        left = real("factor")
+        for total, column in zip(totals, columns, strict=True):
+            yield Assign(total, self.entry(target, row, column) if added else number(0.0))
+        terms = [*before, Assign(left, factor(row, _TERM))]
+        terms += [
+            Assign(total, total + left * other(_TERM, column))
+            for total, column in zip(totals, columns, strict=True)
+        ]
+        yield For(_TERM, whole(inner), tuple(terms))
+        for total, column in zip(totals, columns, strict=True):
+            yield Assign(self.entry(target, row, column), total)
+
+    def combination(self, c: Combination) -> Iterator[Statement]:
+        """Yield the loops of a linear combination."""
+        target = c.target
+        full = [t for t in c.terms if t.shape == (target.rows, target.columns)]
+        weights: dict[int, Term | None] = {}
+        for n, term in enumerate(c.terms):
+            weights[id(term)], statements = self.weight(f"{target.name} weight {n}", term.coefficient)
+            yield from statements
+        flat = _is_whole(target) and all(_is_whole(t.matrix) and not t.transposed for t in full)
+        yield self.over(target, lambda place: self.total(full, weights, place), flat=flat)
+        for term in c.terms:
+            if any(term is t for t in full):
+                continue
+            part = target.part(0, 0, *term.shape)
+
+            def more(place: _Place, term: Summand = term, part: Matrix = part) -> Term:
+                return _plus(self.at(part, place), term, weights[id(term)], self.summand(term, place))
+
+            yield self.over(part, more, flat=False)
+
+    def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
+        """Return the sum of terms at one place."""
+        result: Term | None = None
+        for term in terms:
+            result = _plus(result, term, weights[id(term)], self.summand(term, place))
+        return number(0.0) if result is None else result
+
+    def summand(self, term: Summand, place: _Place) -> Term:
+        """Return an entry of the matrix of a term."""
+        turned = _Place(place.column, place.row) if term.transposed and place.column is not None else place
+        return self.at(term.matrix, turned)
+
+    def at(self, matrix: Matrix, place: _Place) -> Term:
+        """Return the entry of a matrix at a place."""
+        if place.column is None:
+            return self.array(matrix)[place.row if not matrix.start else place.row + matrix.start]
+        return self.entry(matrix, place.row, place.column)
+
+    def over(self, target: Matrix, entry: Callable[[_Place], Term], *, flat: bool) -> Statement:
+        """Return the loop that sets all entries of a matrix; with ``flat`` it is a single loop."""
+        if flat:
+            place = _Place(_ROW, None)
+            return For(_ROW, whole(target.size), (Assign(self.at(target, place), entry(place)),))
+        place = _Place(_ROW, _COLUMN)
+        inner = For(_COLUMN, whole(target.columns), (Assign(self.at(target, place), entry(place)),))
+        return For(_ROW, whole(target.rows), (inner,))
+
+    def weight(self, name: str, c: Expr) -> tuple[Term | None, list[Statement]]:
+        """Return a coefficient, None for 1 and -1, and the statements that compute it."""
+        if _sign(c):
+            return None, []
+        if c.op in ("const", "sym"):
+            return value(c), []
+        # The coefficient is computed once, before the loop.
+        return own(name), [Assign(own(name), value(c))]
+
+    def applied(self, a: Apply) -> Iterator[Statement]:
+        """Yield the loops of a constant matrix times a matrix."""
+        c, target = a.constant, a.target
+        if not c.diagonals:
+            yield from self.applied_full(a)
+            return
+        if not _covers(c):
+            yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
+        for n, diagonal in enumerate(c.diagonals):
+            i, j = _along(diagonal, _ROW)
+            before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
+            row, column = (j, i) if a.transposed else (i, j)
+            columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
+            body = (*before, Assign(_ENTRY, entry), *columns)
+            yield For(_ROW, whole(c.length(diagonal)), body)
+
+    def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
+        """Return the function that sets or changes columns of a row of the target."""
+
+        def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
+            for place in (_shifted(first, b) for b in range(columns)):
+                goal = self.entry(a.target, row, place)
+                one = _ENTRY * self.entry(a.matrix, column, place)
+                yield Assign(goal, goal + one if added else one)
+
+        return set_columns
+
+    def applied_full(self, a: Apply) -> Iterator[Statement]:
+        """Yield the loops of a full matrix times a matrix."""
+        c = a.constant
+        i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
+        before, entry = constant_entry(c.full, c.name, i, j, c.columns * i + j)
+
+        def group(first: Term | None, columns: int) -> Iterator[Statement]:
+            yield from self.sums(
+                *(a.target, _ROW, [_shifted(first, n) for n in range(columns)], a.matrix.rows),
+                lambda row, k: entry,
+                lambda k, column: self.entry(a.matrix, k, column),
+                before=before,
+            )
+
+        yield For(_ROW, whole(a.target.rows), tuple(_in_groups(a.target.columns, group)))
+
+    def applied_from_right(self, a: Apply) -> Iterator[Statement]:
+        """Yield the loops of a matrix times a constant matrix."""
+        c, target = a.constant, a.target
+        yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
+
+        def inner(i: Term, j: Term, before: Sequence[Statement], entry: Term) -> tuple[Statement, ...]:
+            row, column = (j, i) if a.transposed else (i, j)
+            goal, line = self.entry(target, _TERM, column), self.entry(a.matrix, _TERM, row)
+            rows = For(_TERM, whole(target.rows), (Assign(goal, goal + line * _ENTRY),))
+            return (*before, Assign(_ENTRY, entry), rows)
+
+        if not c.diagonals:
+            before, entry = constant_entry(c.full, c.name, _ROW, _COLUMN, c.columns * _ROW + _COLUMN)
+            body = For(_COLUMN, whole(c.columns), inner(_ROW, _COLUMN, before, entry))
+            yield For(_ROW, whole(c.rows), (body,))
+        for n, diagonal in enumerate(c.diagonals):
+            i, j = _along(diagonal, _ROW)
+            before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
+            yield For(_ROW, whole(c.length(diagonal)), inner(i, j, before, entry))
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A row and a column; without a column, ``row`` is the place in the array."""
+
+    row: Term
+    column: Term | None
+
+
+def constant_entry(
+    given: Entry, table: str, row: Term, column: Term, place: Term
+) -> tuple[list[Statement], Term]:
+    """Return an entry of a constant matrix, and the statements that compute its indices as numbers.
+
+    ``table`` is the name of the table if the entries are numbers, ``place`` the index in it.
+    """
+    if isinstance(given, tuple):
+        return [], real(table, len(given))[place]
+    read = {node.payload for node in walk([given]) if node.op == "sym"}
+    indices = ((ROW, row), (COLUMN, column))
+    before: list[Statement] = [Assign(own(s), narrow(wide(at))) for s, at in indices if s in read]
+    return before, value(given)
+
+
+def table_name(matrix: ConstantMatrix, number: int) -> str:
+    """Return the name of the table with the numbers of a diagonal."""
+    return f"{matrix.name}_diagonal_{number + 1}"
+
+
+def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
+    """Yield the tables of entries that are given as numbers."""
+    for c in constants:
+        listed: list[tuple[str, Entry, str]] = [
+            (
+                table_name(c, n),
+                d.entry,
+                f"The entries a[i][i + {d.offset}] of a {c.rows} x {c.columns} matrix.",
+            )
+            for n, d in enumerate(c.diagonals)
+        ]
+        listed.append((c.name, c.full, f"The entries of a {c.rows} x {c.columns} matrix, row by row."))
+        for name, entry, about in listed:
+            if isinstance(entry, tuple) and entry:
+                yield Table(real(name, len(entry)), (_rounded(entry, precision),), about)
+
+
+def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ...]:
+    return tuple(map(precision.round, entries))
+
+
+def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
+    """Yield the statements for all columns, in groups; the last group may be smaller."""
+    groups, rest = divmod(columns, GROUP)
+    if groups == 1:
+        yield from group(None, GROUP)
+    elif groups > 1:
+        first, number_of = count("first_column"), count("group")
+        yield For(number_of, whole(groups), (Assign(first, GROUP * number_of), *group(first, GROUP)))
+    if rest:
+        yield from group(whole(GROUP * groups) if groups else None, rest)
+
+
+def _shifted(first: Term | None, column: int) -> Index:
+    if first is None:
+        return column
+    if first.op == "number":
+        return int(first.number) + column
+    return first + column if column else first
+
+
+def _along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
+    """Return row and column of an entry of a diagonal."""
+    offset = diagonal.offset
+    if not offset:
+        return place, place
+    return (place + -offset, place) if offset < 0 else (place, place + offset)
+
+
+def _place(matrix: Matrix, row: Index, column: Index) -> Index:
+    """Return the place of an entry in its array."""
+    if isinstance(row, int) and isinstance(column, int):
+        return matrix.place(row, column)
+    constant = matrix.start + sum(n * x for n, x in ((matrix.step, row), (1, column)) if isinstance(x, int))
+    place: Term | None = None
+    for n, x in ((matrix.step, row), (1, column)):
+        if isinstance(x, Term):
+            scaled = x if n == 1 else n * x
+            place = scaled if place is None else place + scaled
+    assert place is not None
+    return place + constant if constant else place
+
+
+def _is_whole(matrix: Matrix) -> bool:
+    """Return True if there is no gap between the rows of a matrix."""
+    return matrix.step == matrix.columns
+
+
+def _covers(c: ConstantMatrix) -> bool:
+    """Return True if the first diagonal sets every row."""
+    return c.rows == c.columns and c.diagonals[0].offset == 0
+
+
+def _sign(c: Expr) -> int:
+    if c.op != "const":
+        return 0
+    return 1 if c.payload.is_one else -1 if c.payload.is_minus_one else 0
+
+
+def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
+    """Return a sum with one more term."""
+    sign = _sign(term.coefficient)
+    scaled = entry if weight is None else weight * entry
+    if total is None:
+        return -scaled if sign < 0 else scaled
+    return total - scaled if sign < 0 else total + scaled

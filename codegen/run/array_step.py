@@ -1,0 +1,247 @@
+"""A step by loops over arrays (:mod:`codegen.ir.array_step`) as functions of a unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from codegen.ir.array_program import Combination, Matrix, Multiplication
+from codegen.ir.array_program import Term as Summand
+from codegen.ir.array_step import MOST_TERMS, ArrayStep, Move
+from codegen.ir.expr import Space
+from codegen.ir.precision import Precision
+from codegen.run.array_loops import ArrayLoops, tables
+from codegen.run.language import (
+    RAISES_STATUS,
+    Array,
+    Assign,
+    Call,
+    For,
+    Function,
+    If,
+    Return,
+    Statement,
+    Table,
+    While,
+)
+from codegen.run.plan import STEP, Plan
+from codegen.run.step import ADVANCE
+from codegen.run.terms import (
+    BAD_STEP,
+    INFINITY,
+    NOT_FINITE,
+    OK,
+    Kind,
+    Term,
+    all_finite,
+    both,
+    call,
+    code,
+    count,
+    given,
+    is_finite,
+    negated,
+    number,
+    own,
+    real,
+    select,
+    whole,
+)
+
+RECIPROCALS = "reciprocal"
+"""The name of the table of 1/(j + 2)."""
+
+MOST_PARTS = 2**20
+"""The largest number of parts of an exponential: each part has an exponent of norm at most 1."""
+
+_PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
+
+
+def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
+    """Return the function of a step, and the functions that it calls, callees first."""
+    moves = {_name(s): s for s in step.body if isinstance(s, Move)}
+    functions = [_Exponential(name, move, plan.format).function() for name, move in moves.items()]
+    return (*functions, _advance(plan, step))
+
+
+def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
+    """Return the tables of a step: reciprocals, and the entries of constant matrices."""
+    row = tuple(precision.round(Fraction(1, j + 2)) for j in range(MOST_TERMS + 1))
+    own_table = Table(real(RECIPROCALS, MOST_TERMS + 1), (row,), "1/(j + 2)")
+    return (own_table, *tables(step.constants(), precision))
+
+
+def _name(move: Move) -> str:
+    """Return the name of the function of a move; its arrays have fixed sizes."""
+    start = 0 if move.start is None else move.start.rows
+    return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
+
+
+def _advance(plan: Plan, step: ArrayStep) -> Function:
+    """Return the function that makes one step."""
+    state = plan.state()
+    given_arrays = {step.argument.name: state}
+    if step.error is not None:
+        given_arrays[step.error.name] = plan.error
+    loops = ArrayLoops(given_arrays)
+    result = loops.array(step.result)
+    parameters = (state, *plan.moment(), *plan.parameters)
+    parameters += () if step.error is None else (plan.error,)
+    body: list[Statement] = [
+        If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
+        *_declared(step, loops),
+    ]
+    for statement in step.body:
+        if isinstance(statement, Move):
+            body.append(_call(statement, loops))
+        else:
+            body += loops.statements(statement)
+    body += [
+        If(negated(all_finite(result)), (Return(code(NOT_FINITE)),)),
+        *_estimated(plan, step, loops),
+        Assign(state, result),
+        Return(code(OK)),
+    ]
+    return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS, often=True)
+
+
+def _estimated(plan: Plan, step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
+    """Return the statement that computes the error estimate, if the caller passes an array for it."""
+    if step.error is None:
+        return []
+    body = [s for statement in step.estimate for s in loops.statements(statement)]
+    return [If(given(plan.error), tuple(body))]
+
+
+def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
+    """Return the declarations of all arrays, each with its size."""
+    sizes: dict[str, int] = {}
+    for statement in (*step.body, *step.estimate):
+        target = statement.target
+        # The statements contain parts of the basis and of the Gram matrix: the last entry of the largest
+        # part determines the size.
+        end = target.place(target.rows - 1, target.columns - 1) + 1
+        sizes[target.name] = max(end, sizes.get(target.name, 0))
+    local = [name for name in sizes if name not in loops.arrays]
+    loops.arrays.update({name: own(name, sizes[name]) for name in local})
+    return [Array(loops.arrays[name]) for name in local]
+
+
+def _call(move: Move, loops: ArrayLoops) -> Call:
+    start = () if move.start is None else (loops.array(move.start),)
+    arguments = (loops.array(move.core), loops.array(move.gram), *start, loops.array(move.target))
+    return Call(_name(move), arguments)
+
+
+@dataclass
+class _Exponential:
+    """Builds the function that applies an exponential to a point."""
+
+    name: str
+    move: Move
+    precision: Precision
+
+    def function(self) -> Function:
+        """Return the function: target = D + S phi(G S) (G C), in parts if the norm exceeds 1."""
+        move, k = self.move, self.move.target.columns
+        m = move.core.rows
+        core, gram = Matrix("core", m, m), Matrix("gram", move.gram.rows, move.gram.columns)
+        target = Matrix("result", move.target.rows, k)
+        start = None if move.start is None else Matrix("start", move.start.rows, k)
+        self.core, self.gram, self.target, self.start = core, gram, target, start
+        self.matrix, self.image = Matrix("matrix", m, m), Matrix("image", m, k)
+        self.total, self.term, self.next = (Matrix(n, m, k) for n in ("total", "term", "next"))
+        given = [core, gram, *([start] if start is not None else []), target]
+        loops = ArrayLoops({x.name: real(x.name, x.size) for x in given})
+        local = (self.matrix, self.total, self.term, self.next)
+        loops.arrays.update({x.name: real(x.name, x.size) for x in local})
+        self.loops = loops
+        parameters = tuple(loops.arrays[x.name] for x in given)
+        body = (*(Array(loops.arrays[x.name]) for x in local), *self.statements())
+        about = (
+            f"The displacement D of exp(B S B^T) X, where B has {m} columns, S is the core, G = B^T B is the "
+            "Gram matrix, and X = X_0 + B D."
+        )
+        return Function(self.name, about, parameters, tuple(body))
+
+    def statements(self) -> Iterator[Statement]:
+        """Yield the statements of the function."""
+        m = self.core.rows
+        square, norm, scale = real("square"), real("norm"), real("scale")
+        parts, part = count("parts"), count("part")
+        matrix = self.loops.array(self.matrix)
+        yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
+        product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
+        diagonal = matrix[(m + 1) * _ROW]
+        # Each product occurs twice in the trace. The sums of different rows do not depend on each other.
+        below = For(_COLUMN, _ROW, (Assign(total, total + product),))
+        added = Assign(square, square - (2.0 * total + diagonal * diagonal))
+        yield Assign(square, number(0.0))
+        # -trace((G S)^2) is the square of the Frobenius norm of B S B^T. The eigenvalues of a skew matrix are
+        # pairs with equal absolute values, so half of the square bounds the square of the spectral norm.
+        yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
+        yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
+        yield Assign(scale, number(1.0))
+        yield Assign(parts, whole(1))
+        halved = (Assign(scale, 0.5 * scale), Assign(parts, 2 * parts))
+        yield While(both(norm * scale > 1.0, parts < MOST_PARTS), halved)
+        yield from self.terms(norm * scale)
+        yield from self.begun()
+        yield For(part, parts, tuple(self.advanced(scale)))
+        lost = For(
+            _PLACE,
+            whole(self.target.size),
+            (Assign(self.loops.array(self.target)[_PLACE], INFINITY - INFINITY),),
+        )
+        yield If(norm * scale > 1.0, (lost,))
+
+    def terms(self, size: Term) -> Iterator[Statement]:
+        """Yield the statements that compute the number of terms of phi after the first."""
+        terms, bound, theta = count("terms"), real("bound"), real("theta")
+        tiny = 0.5 * self.precision.unit
+        yield Assign(theta, size)
+        yield Assign(terms, whole(0))
+        yield Assign(bound, 0.5 * theta * theta)
+        more = (
+            Assign(terms, terms + 1),
+            Assign(bound, bound * theta * real(RECIPROCALS, MOST_TERMS + 1)[terms]),
+        )
+        yield While(both(bound > tiny, terms < MOST_TERMS), more)
+
+    def begun(self) -> Iterator[Statement]:
+        """Yield the statements that set the result to the displacement of the given point."""
+        one = Space().one
+        terms = () if self.start is None else (Summand(one, self.start),)
+        yield from self.loops.statements(Combination(self.target, terms))
+
+    def advanced(self, scale: Term) -> Iterator[Statement]:
+        """Yield the statements that apply one part of the exponential."""
+        m, k, loops = self.core.rows, self.target.columns, self.loops
+        total, term, following = (loops.array(x) for x in (self.total, self.term, self.next))
+        terms, order, factor = count("terms"), count("order"), real("ratio")
+        first = self.gram.part(0, 0, m, k)
+        entry = loops.entry(self.total, _ROW, _COLUMN)
+        copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
+        yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
+        moved_by = Multiplication(
+            self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
+        )
+        displaced = tuple(loops.statements(moved_by))
+        # The displacement before the first part is zero if no start is given.
+        yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
+        yield Assign(term, total)
+        added = (
+            Assign(term[_PLACE], factor * following[_PLACE]),
+            Assign(total[_PLACE], total[_PLACE] + term[_PLACE]),
+        )
+        series = (
+            *loops.statements(Multiplication(self.next, self.matrix, self.term)),
+            Assign(factor, scale * real(RECIPROCALS, MOST_TERMS + 1)[order]),
+            For(_PLACE, whole(self.total.size), added),
+        )
+        yield For(order, terms, series)
+        yield from loops.statements(Multiplication(self.next, self.core, self.total))
+        result = loops.array(self.target)
+        moved = Assign(result[_PLACE], result[_PLACE] + scale * following[_PLACE])
+        yield For(_PLACE, whole(self.next.size), (moved,))

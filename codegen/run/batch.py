@@ -1,0 +1,315 @@
+"""Steps of many independent systems: a batch, whose systems are called lanes.
+
+Every lane has its own state, parameters, inputs and status. All lanes have the same time and step size. The
+arrays are structures of arrays: component k of lane i is ``state[k stride + i]``, and parameters and inputs
+have the same layout.
+
+An explicit kernel is evaluated for many lanes by one loop without branches, which compilers turn into vector
+instructions. Assignments that read only t and h are before the loop. The loop evaluates sines and Stumpff
+functions near zero only; elsewhere they return NaN. A lane whose new state is not finite is left unchanged by
+the loop, and the scalar step is called for it. The scalar step knows all arguments, and finds the status if
+the step fails. Where the loop succeeds, it has the same roundings as the scalar step.
+
+Kernels with equations, and kernels that call other functions, run lane after lane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from codegen.ir.expr import walk
+from codegen.kernel.schedule import Simple
+from codegen.run.arithmetic import outputs
+from codegen.run.language import (
+    Array,
+    Assign,
+    Call,
+    For,
+    Function,
+    If,
+    Return,
+    Statement,
+    assigned,
+    reads,
+    statements,
+    terms,
+)
+from codegen.run.plan import STEP, STEPS, STRIDE, TIME, Plan
+from codegen.run.step import exact_time
+from codegen.run.terms import (
+    BAD_STEP,
+    OK,
+    STATUS,
+    Kind,
+    Term,
+    absent,
+    both,
+    code,
+    count,
+    holding,
+    is_finite,
+    negated,
+    number,
+    own,
+    paired,
+    real,
+    select,
+    whole,
+)
+from codegen.run.trajectory import Rows
+from codegen.run.values import simple
+
+BATCH, LANES = "run_batch", "advance_lanes"
+"""The names of the public function, and of the function with the loop over lanes."""
+
+BLOCK = 128
+"""The number of lanes that make all their steps before the next lanes begin. Their states then stay in the
+cache."""
+
+VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
+"""Functions that have a form without branches, besides the Stumpff functions."""
+
+_TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
+_LANE, _DONE, _ENDED = count("lane"), count("step"), count("ended", 1)
+_STATE, _PARAMETERS, _INPUTS = real("state", 0), real("parameters", 0), real("inputs", 0)
+_STOPPED, _FAILED, _ALONE, _HELD = "stopped", "failed", "alone", "held"
+
+
+def _statuses() -> Term:
+    return Term("name", (), Kind.STATUS, "statuses", shape=(0,))
+
+
+def functions(plan: Plan) -> list[Function]:
+    """Return the functions of a batch, callees first; no functions if a batch was not requested."""
+    if not plan.kernel.batch:
+        return []
+    if obstacle(plan):
+        return [_batch(plan, _one_by_one(plan))]
+    return [_advance_lanes(plan), _batch(plan, _blocks(plan))]
+
+
+def obstacle(plan: Plan) -> str:
+    """Return the reason why lanes run one after another; '' if one loop steps many lanes."""
+    kernel = plan.kernel
+    if kernel.loops:
+        return "equations are solved"
+    if kernel.deferred is not None or plan.parts or kernel.carried is not None:
+        return "a step is a sequence of function calls"
+    if not kernel.outputs or kernel.outlined:
+        return "a step calls functions with arrays"
+    called = called_by(_statements(plan))
+    others = sorted(name for name in called if name not in VECTORISED and not name.startswith("stumpff_"))
+    return f"{others[0]} has no form without branches" if others else ""
+
+
+def called_by(body: Iterable[Statement]) -> set[str]:
+    """Return the names of the functions that statements call, in expressions or as statements."""
+    listed = list(statements(body))
+    values = [term.value for term in terms(listed) if term.value is not None]
+    return {str(n.payload) for n in walk(values) if n.op == "call"} | {
+        s.function for s in listed if isinstance(s, Call)
+    }
+
+
+def _statements(plan: Plan) -> list[Statement]:
+    """Return the statements of an explicit kernel, with its outputs."""
+    ends, _ = outputs(plan.arrangement, plan.symbols)
+    inner = [s for s in plan.arrangement.statements if isinstance(s, Simple)]
+    return [*(single for s in inner for single in simple(s)), *ends]
+
+
+def near(name: str) -> str:
+    """Return the name of the form of a function without branches.
+
+    >>> near("sin"), near("stumpff_12"), near("sqrt")
+    ('sin_near', 'stumpff_12_near', 'sqrt')
+    """
+    return f"{name}_near" if name in ("sin", "cos") or name.startswith("stumpff_") else name
+
+
+def complete(name: str) -> str:
+    """Return the name of the form that has the same roundings as :func:`near`, for all arguments.
+
+    >>> complete("sin"), complete("stumpff_12")
+    ('sin_complete', 'stumpff_12')
+    """
+    return f"{name}_complete" if name in ("sin", "cos") else name
+
+
+def _entry(array: Term, row: int, place: Term) -> Term:
+    """Return entry ``place`` of a row of an array with rows of ``stride`` numbers."""
+    return array[row * STRIDE + place] if row else array[place]
+
+
+def _advance_lanes(plan: Plan) -> Function:
+    """Return the function that makes one step of many lanes without branches."""
+    stopped, failed = real(_STOPPED, 0), real(_FAILED, 0)
+    before, inside = _split(plan)
+    loaded = [Assign(own(s), _entry(_STATE, k, _PLACE)) for k, s in enumerate(plan.symbols)]
+    loaded += [Assign(p, _entry(_PARAMETERS, k, _PLACE)) for k, p in enumerate(plan.parameters)]
+    read = plan.arrangement.symbols()
+    for sample in plan.kernel.samples:
+        loaded += [
+            Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
+        ]
+    ends, new = outputs(plan.arrangement, plan.symbols)
+    # All values enter the test, as in the scalar step: x - x is 0 if x is finite, else NaN.
+    unread = [own(s) for s in plan.symbols if s not in read]
+    check = real("check")
+    passed = check.equals(number(0.0))
+    body: list[Statement] = [
+        Assign(_PLACE, _FIRST + _LANE),
+        *loaded,
+        *inside,
+        *ends,
+        Assign(check, paired([x - x for x in (*new, *unread)]) + stopped[_LANE]),
+        *(
+            Assign(_entry(_STATE, k, _PLACE), select(passed, x, own(s)))
+            for k, (x, s) in enumerate(zip(new, plan.symbols, strict=True))
+        ),
+        Assign(failed[_LANE], select(passed, number(0.0), number(1.0))),
+    ]
+    loop = For(_LANE, _NUMBER, tuple(body), independent=True)
+    about = (
+        "One step of some lanes: the loop has no branches, so compilers can use vector instructions. A lane "
+        "that has stopped, or whose new state is not finite, keeps its state, and failed is 1."
+    )
+    parameters = _lane_parameters(plan, stopped, failed)
+    return Function(LANES, about, parameters, (*before, loop), often=True, near=True)
+
+
+def _lane_parameters(plan: Plan, stopped: Term, failed: Term) -> tuple[Term, ...]:
+    shared = ((_PARAMETERS,) if plan.parameters else ()) + ((_INPUTS,) if plan.kernel.inputs else ())
+    return (_FIRST, _NUMBER, STRIDE, _STATE, *plan.moment(), *shared, stopped, failed)
+
+
+def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
+    """Return the statements of the kernel that depend on t and h only, and all others."""
+    shared, before, inside = {TIME.text, STEP.text}, [], []
+    for statement in plan.arrangement.statements:
+        assert isinstance(statement, Simple)
+        for single in simple(statement):
+            if all(term.text in shared for term in reads(single) if term.own or term.text not in shared):
+                before.append(single)
+                shared |= {term.text for term in assigned(single)}
+            else:
+                inside.append(single)
+    return before, inside
+
+
+def _batch(plan: Plan, work: list[Statement]) -> Function:
+    """Return the public function."""
+    statuses, ended = _statuses(), count("completed", 0)
+    bad = count("bad")
+    flag = Term("name", (), Kind.FLAG, bad.text)
+    first = select(flag, code(BAD_STEP), code(OK))
+    body: list[Statement] = [
+        Assign(flag, both(STEPS > 0, negated(is_finite(STEP)))),
+        For(_LANE, _TOTAL, (Assign(statuses[_LANE], first), Assign(ended[_LANE], whole(0)))),
+        If(flag, (Return(code(BAD_STEP)),)),
+        *work,
+        Assign(STATUS, code(OK)),
+        # The loop runs backwards, so that the result is the status of the first lane that failed.
+        For(
+            _LANE,
+            _TOTAL,
+            (If(statuses[_LANE].differs(code(OK)), (Assign(STATUS, statuses[_LANE]),)),),
+            reverse=True,
+        ),
+        Return(STATUS),
+    ]
+    time = (TIME,) if plan.time else ()
+    own_data = ((_PARAMETERS,) if plan.parameters else ()) + ((_INPUTS,) if plan.kernel.inputs else ())
+    parameters = (_TOTAL, STRIDE, _STATE, *time, STEP, STEPS, *own_data, statuses, ended)
+    return Function(BATCH, "", parameters, tuple(body), Kind.STATUS, public=True)
+
+
+def _gathered(plan: Plan) -> list[Statement]:
+    """Return the statements that copy the state and the inputs of one lane to arrays."""
+    alone, held = real(_ALONE, plan.size), real(_HELD, len(plan.kernel.inputs))
+    rows = [Assign(alone[k], _entry(_STATE, k, _PLACE)) for k in range(plan.size)]
+    if plan.kernel.inputs:
+        rows += [Assign(held[k], _entry(_INPUTS, k, _PLACE)) for k in range(len(plan.kernel.inputs))]
+    return list(rows)
+
+
+def _arrays(plan: Plan) -> list[Statement]:
+    listed = [Array(real(_ALONE, plan.size))]
+    return [*listed, *([Array(real(_HELD, len(plan.kernel.inputs)))] if plan.kernel.inputs else [])]
+
+
+def _scattered(plan: Plan) -> list[Statement]:
+    alone = real(_ALONE, plan.size)
+    return [Assign(_entry(_STATE, k, _PLACE), alone[k]) for k in range(plan.size)]
+
+
+def _values(plan: Plan) -> tuple[Term, ...]:
+    return tuple(_entry(_PARAMETERS, k, _PLACE) for k in range(len(plan.parameters)))
+
+
+def _one_by_one(plan: Plan) -> list[Statement]:
+    """Return the statements that run all lanes, one after another."""
+    held = real(_HELD, len(plan.kernel.inputs))
+    time = (TIME,) if plan.time else ()
+    signals = (holding(held),) if plan.kernel.inputs else ()
+    none = (absent(Rows(plan).trajectory), whole(0), *(absent(x) for x in plan.counted))
+    alone = real(_ALONE, plan.size)
+    arguments = (alone, *time, STEP, STEPS, *_values(plan), *signals, *none, _ENDED)
+    body: list[Statement] = [
+        Assign(_PLACE, _LANE),
+        *_arrays(plan),
+        Array(_ENDED),
+        *_gathered(plan),
+        Call("run", arguments, (STATUS,)),
+        Assign(_statuses()[_PLACE], STATUS),
+        Assign(count("completed", 0)[_PLACE], _ENDED[0]),
+        *_scattered(plan),
+    ]
+    return [For(_LANE, _TOTAL, tuple(body), parallel=True)]
+
+
+def _blocks(plan: Plan) -> list[Statement]:
+    """Return the loops over blocks of lanes and over steps."""
+    stopped, failed = real(_STOPPED, BLOCK), real(_FAILED, BLOCK)
+    statuses, ended = _statuses(), count("completed", 0)
+    block = count("block")
+    rest = _TOTAL - _FIRST
+    later = exact_time(TIME, _DONE, STEP)
+    shared = ((_PARAMETERS,) if plan.parameters else ()) + ((_INPUTS,) if plan.kernel.inputs else ())
+    vector = (_FIRST, _NUMBER, STRIDE, _STATE, *plan.moment(later), *shared, stopped, failed)
+    held = (real(_HELD, len(plan.kernel.inputs)),) if plan.kernel.inputs else ()
+    alone = real(_ALONE, plan.size)
+    scalar = (alone, *plan.moment(later), *_values(plan), *held)
+    stop: tuple[Statement, ...] = (
+        Assign(statuses[_PLACE], STATUS),
+        Assign(ended[_PLACE], _DONE),
+        Assign(stopped[_LANE], number(1.0)),
+    )
+    again: tuple[Statement, ...] = (
+        Assign(_PLACE, _FIRST + _LANE),
+        *_gathered(plan),
+        Call("step", scalar, (STATUS,)),
+        If(STATUS.equals(code(OK)), tuple(_scattered(plan)), stop),
+    )
+    running = both(failed[_LANE] > 0.0, stopped[_LANE].equals(number(0.0)))
+    steps: tuple[Statement, ...] = (
+        Call(LANES, vector),
+        For(_LANE, _NUMBER, (If(running, again),)),
+    )
+    inner: tuple[Statement, ...] = (
+        Assign(_FIRST, block * BLOCK),
+        Assign(_NUMBER, select(rest < BLOCK, rest, whole(BLOCK))),
+        Array(stopped, zero=True),
+        Array(failed),
+        *_arrays(plan),
+        For(_DONE, STEPS, steps),
+        For(
+            _LANE,
+            _NUMBER,
+            (
+                Assign(_PLACE, _FIRST + _LANE),
+                If(statuses[_PLACE].equals(code(OK)), (Assign(ended[_PLACE], STEPS),)),
+            ),
+        ),
+    )
+    return [For(block, (_TOTAL + (BLOCK - 1)) // BLOCK, inner, parallel=True)]

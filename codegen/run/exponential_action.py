@@ -1,0 +1,98 @@
+"""The action of the matrix exponential on a vector as a function of a unit.
+
+The statements compute exactly what :mod:`codegen.ir.exponential_action` computes in doubles.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.exponential_action import HALVINGS, SPARSE, ExponentialAction, degrees, largest_norms
+from codegen.ir.precision import Precision
+from codegen.run.language import Array, Assign, For, Function, If, Statement, While
+from codegen.run.terms import INFINITY, Term, both, count, number, real, select, size, total, whole
+
+_ROW, _COLUMN, _PLACE, _PART = count("i"), count("j"), count("place"), count("part")
+
+
+def exponential_action(function: ExponentialAction, precision: Precision) -> Function:
+    """Return the function that computes exp(a) y."""
+    n, entries = function.n, len(function.places)
+    a, y, result = real("a", entries), real("y", n), real("result", n)
+    b, p, work = real("scaled", entries), real("p", n), real("work", n)
+    norm, scale, weight = real("norm"), real("scale"), real("weight")
+    parts, degree, factor = count("parts"), real("degree"), real("factor")
+    sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
+    chosen = number(float(sizes[-1]))
+    for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
+        chosen = select(norm > bound, chosen, number(float(m)))
+    horner = (
+        Assign(weight, weight * factor),
+        Assign(factor, factor - 1.0),
+        *_product(function, b, p, work),
+        For(_ROW, whole(n), (Assign(p[_ROW], work[_ROW] + weight * result[_ROW]),)),
+    )
+    part = (
+        Assign(p, result),
+        Assign(weight, number(1.0)),
+        Assign(factor, degree),
+        While(factor > 1.0, horner),
+        For(_ROW, whole(n), (Assign(p[_ROW], p[_ROW] / weight),)),
+        *_product(function, b, p, work),
+        For(_ROW, whole(n), (Assign(result[_ROW], result[_ROW] + work[_ROW]),)),
+    )
+    computed = (
+        For(_PLACE, whole(entries), (Assign(b[_PLACE], a[_PLACE] * scale),)),
+        Assign(degree, chosen),
+        Assign(result, y),
+        For(_PART, parts, part),
+    )
+    body: tuple[Statement, ...] = (
+        *map(Array, (b, p, work)),
+        *_norm(function, a, norm),
+        Assign(scale, number(1.0)),
+        Assign(parts, whole(1)),
+        While(
+            both(norm * scale > bounds[-1], parts < 2**HALVINGS),
+            (Assign(scale, number(0.5) * scale), Assign(parts, parts * 2)),
+        ),
+        Assign(norm, norm * scale),
+        If(norm > bounds[-1], (_nan(result),), computed),
+    )
+    about = f"result = exp(a) y for the {n} x {n} matrix a{_entries(function)}: Taylor polynomials."
+    return Function(function.name, about, (a, y, result), body)
+
+
+def _nan(result: Term) -> For:
+    """Return the statement that fills the result with NaNs."""
+    return For(_ROW, whole(result.shape[0]), (Assign(result[_ROW], INFINITY - INFINITY),))
+
+
+def _entries(function: ExponentialAction) -> str:
+    return ", of which the array contains the entries that are not zero" if function.pattern else ""
+
+
+def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
+    """Return the statements that compute the largest row sum."""
+    row = real("row_sum")
+    larger = Assign(norm, select(row > norm, row, norm))
+    if function.n > SPARSE:
+        added = Assign(row, row + size(a[function.n * _ROW + _COLUMN]))
+        inner = (Assign(row, number(0.0)), For(_COLUMN, whole(function.n), (added,)), larger)
+        return [Assign(norm, number(0.0)), For(_ROW, whole(function.n), inner)]
+    result: list[Statement] = [Assign(norm, number(0.0))]
+    for entries in function.rows:
+        if entries:
+            result += [Assign(row, total(size(a[k]) for k, _ in entries)), larger]
+    return result
+
+
+def _product(function: ExponentialAction, a: Term, y: Term, result: Term) -> list[Statement]:
+    """Return the statements result = a y."""
+    if function.n > SPARSE:
+        value = real("total")
+        added = Assign(value, value + a[function.n * _ROW + _COLUMN] * y[_COLUMN])
+        inner = (Assign(value, number(0.0)), For(_COLUMN, whole(function.n), (added,)))
+        return [For(_ROW, whole(function.n), (*inner, Assign(result[_ROW], value)))]
+    return [
+        Assign(result[i], total(a[k] * y[j] for k, j in row) if row else number(0.0))
+        for i, row in enumerate(function.rows)
+    ]

@@ -1,0 +1,100 @@
+"""Linear problems in time: y' = A(t).y, where A contains the time and parameters, but not the state."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from codegen.errors import SceneError
+from codegen.groups.actions import Action
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import MatrixElements
+from codegen.groups.linear_algebra import Vector, units
+from codegen.ir.domain import FloatDomain
+from codegen.scene.arguments import check_group
+from codegen.scene.field_scene import FieldScene
+from codegen.scene.problem import Problem
+
+if TYPE_CHECKING:
+    import sympy
+
+
+def LinearScene(
+    *,
+    group: LieGroup,
+    action: Action,
+    A: sympy.Matrix | Sequence[sympy.Expr],
+    y0: Sequence[sympy.Expr],
+    span: tuple[sympy.Expr, sympy.Expr],
+    y: Sequence[sympy.Symbol] | None = None,
+    velocity: Sequence[sympy.Expr] | None = None,
+    invariants: Mapping[str, sympy.Expr] | None = None,
+    name: str = "scene",
+    title: str = "",
+) -> Problem:
+    """Return the scene y' = A(t).y for a group acting on a manifold.
+
+    ``A`` is a column of ``group.dim`` formulas in the symbol ``t`` and in parameters. For a group of n x n
+    matrices it may also be a square matrix of formulas, which must be in the Lie algebra. ``y`` are the
+    coordinate symbols for ``velocity`` and ``invariants``, by default ``y0``, ``y1`` and so on. All other
+    arguments are those of :func:`codegen.scene.FieldScene`: every field scene whose field does not depend on
+    the state is a linear problem in time. For y' = y A(t) the action is ``RightMultiplication()``, and the
+    sign of A is changed. :class:`SceneError` is raised for a matrix outside of the algebra, for an A that
+    depends on the state, and in the cases in which ``FieldScene`` raises it.
+
+    >>> from sympy import Matrix, Symbol
+    >>> from codegen.groups import SL2, Linear
+    >>> A = Matrix([[0, 1], [-1 - Symbol("t"), 0]])
+    >>> LinearScene(group=SL2(), action=Linear(), A=A, y0=[1, 0], span=(0, 1)).linear
+    True
+    """
+    from sympy import Matrix, Symbol
+
+    check_group(name, group)
+    points = [Symbol(f"y{k}", real=True) for k in range(len(y0))] if y is None else y
+    entries = A if isinstance(A, Matrix) else Matrix(list(A))
+    square = entries.rows == entries.cols > 1
+    scene = FieldScene(
+        group=group,
+        action=action,
+        y=points,
+        f=_components(name, group, entries) if square else list(entries),
+        y0=y0,
+        span=span,
+        velocity=velocity,
+        invariants=invariants,
+        name=name,
+        title=title,
+    )
+    if not scene.linear:
+        raise SceneError(
+            "A depends on the state",
+            where=name,
+            expected="formulas in t and parameters",
+            hint="use FieldScene",
+        )
+    return scene
+
+
+def _components(name: str, group: LieGroup, matrix: sympy.Matrix) -> list[sympy.Expr]:
+    """Return the coordinates of a matrix in the Lie algebra."""
+    from sympy import Matrix, Rational, simplify
+
+    matrices = group.offers(MatrixElements)
+    if matrices is None or matrices.order != matrix.rows:
+        raise SceneError(
+            f"A is a {matrix.rows} x {matrix.rows} matrix",
+            where=name,
+            expected=f"a column of {group.dim} formulas"
+            + (f", or a {matrices.order} x {matrices.order} matrix" if matrices is not None else ""),
+        )
+    d = FloatDomain(0.0)
+    elements: tuple[Vector[float], ...] = units(d, group.dim)
+    basis = Matrix([[Rational(entry) for entry in matrices.hat(d, e)] for e in elements]).T
+    column = matrix.reshape(matrix.rows**2, 1)
+    result = (basis.T * basis).LUsolve(basis.T * column)
+    if any(simplify(x) != 0 for x in basis * result - column):
+        raise SceneError(
+            "A is not in the Lie algebra", where=name, expected=f"a matrix of the Lie algebra of {group.name}"
+        )
+    return list(result)

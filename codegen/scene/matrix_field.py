@@ -1,0 +1,67 @@
+"""Fields on Stiefel manifolds that are given by formulas of whole matrices."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from codegen.ir.array_program import ArrayProgram
+from codegen.ir.domain import Domain, Scalar
+from codegen.ir.expr import walk
+
+
+@dataclass(frozen=True)
+class MatrixField:
+    """A tangent field V(X) on the matrices with orthonormal columns; ``program`` computes V.
+
+    The generator of the motion at X is W X^T - X W^T with W = V - X (X^T V)/2. It is a skew matrix with V =
+    (W X^T - X W^T) X, and its rank is at most twice the number of columns.
+    """
+
+    program: ArrayProgram
+
+    @property
+    def rows(self) -> int:
+        """The number of rows of X."""
+        return self.program.argument.rows
+
+    @property
+    def columns(self) -> int:
+        """The number of columns of X."""
+        return self.program.argument.columns
+
+    def reads(self, symbol: str) -> bool:
+        """Return True if the formulas of coefficients and entries contain a symbol."""
+        nodes = walk(self.program.expressions())
+        return any(node.op == "sym" and node.payload == symbol for node in nodes)
+
+    def velocity(
+        self, domain: Domain, x: Sequence[Scalar], symbols: Mapping[str, Scalar]
+    ) -> tuple[Scalar, ...]:
+        """Return V(X), row by row."""
+        return tuple(self.program.evaluate(domain, x, symbols))
+
+    def generator(
+        self, domain: Domain, x: Sequence[Scalar], symbols: Mapping[str, Scalar]
+    ) -> tuple[Scalar, ...]:
+        """Return the n x n matrix W X^T - X W^T, row by row; this is for small matrices only."""
+        n, k = self.rows, self.columns
+        v, half = self.velocity(domain, x, symbols), domain.rational(1, 2)
+
+        def total(terms: Sequence[Scalar]) -> Scalar:
+            value = terms[0]
+            for term in terms[1:]:
+                value = value + term
+            return value
+
+        gram = [[total([x[k * i + a] * v[k * i + b] for i in range(n)]) for b in range(k)] for a in range(k)]
+        w = [
+            v[k * i + b] - half * total([x[k * i + a] * gram[a][b] for a in range(k)])
+            for i in range(n)
+            for b in range(k)
+        ]
+        return tuple(
+            total([w[k * i + b] * x[k * j + b] - x[k * i + b] * w[k * j + b] for b in range(k)])
+            for i in range(n)
+            for j in range(n)
+        )

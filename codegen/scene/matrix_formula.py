@@ -1,0 +1,206 @@
+"""Formulas of whole matrices, with which a scene states its field for large matrices.
+
+The operators are ``@`` (product), ``+``, ``-``, ``*`` (by a scalar) and ``.T`` (transpose). Scalars are
+numbers and sympy formulas in ``t`` and in parameters. Products are computed in the order that needs the
+fewest operations, so ``X @ X.T @ A @ X`` never forms a matrix with n^2 entries.
+
+>>> X = unknown(800, 4)
+>>> A = banded(800, {-1: -1, 0: 2, 1: -1})
+>>> velocity = A @ X - X @ X.T @ A @ X
+>>> velocity.rows, velocity.columns
+(800, 4)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Union
+
+from codegen.errors import SceneError
+
+if TYPE_CHECKING:
+    import sympy
+
+Coefficient = Union["sympy.Expr", int, float]
+"""A scalar in a formula."""
+
+EntryFormula = Union[Callable[..., "Coefficient"], Sequence["Coefficient"], "Coefficient"]
+"""The entries of a matrix or a diagonal: a function of the indices, all entries, or one number for all."""
+
+
+class MatrixFormula:
+    """A matrix in a formula, with its numbers of rows and columns."""
+
+    rows: int
+    columns: int
+    __array_ufunc__: ClassVar[None] = None
+    """NumPy calls the operators of this class, and does not treat a formula as an entry of an array."""
+
+    @property
+    def T(self) -> MatrixFormula:
+        """The transpose."""
+        return Transposed(self)
+
+    def __matmul__(self, other: object) -> MatrixFormula:
+        return Times(self, _matrix(other))
+
+    def __rmatmul__(self, other: object) -> MatrixFormula:
+        return Times(_matrix(other), self)
+
+    def __add__(self, other: object) -> MatrixFormula:
+        return Sum(self, _matrix(other))
+
+    def __sub__(self, other: object) -> MatrixFormula:
+        return Sum(self, -_matrix(other))
+
+    def __neg__(self) -> MatrixFormula:
+        return Scaled(-1, self)
+
+    def __mul__(self, factor: Coefficient) -> MatrixFormula:
+        return Scaled(_scalar(factor), self)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: Coefficient) -> MatrixFormula:
+        import sympy
+
+        return Scaled(sympy.Integer(1) / sympy.sympify(_scalar(divisor)), self)
+
+
+@dataclass(frozen=True, eq=False)
+class Unknown(MatrixFormula):
+    """The matrix X of the state."""
+
+    rows: int
+    columns: int
+
+
+@dataclass(frozen=True, eq=False)
+class Constant(MatrixFormula):
+    """A constant matrix: entries of its diagonals by their offsets, or all entries."""
+
+    rows: int
+    columns: int
+    diagonals: Mapping[int, EntryFormula] | None
+    entries: EntryFormula | None
+
+
+@dataclass(frozen=True, eq=False)
+class Transposed(MatrixFormula):
+    """The transpose of a matrix."""
+
+    matrix: MatrixFormula
+
+    def __post_init__(self) -> None:
+        _sized(self, self.matrix.columns, self.matrix.rows)
+
+
+@dataclass(frozen=True, eq=False)
+class Scaled(MatrixFormula):
+    """A scalar times a matrix."""
+
+    factor: Coefficient
+    matrix: MatrixFormula
+
+    def __post_init__(self) -> None:
+        _sized(self, self.matrix.rows, self.matrix.columns)
+
+
+@dataclass(frozen=True, eq=False)
+class Sum(MatrixFormula):
+    """The sum of two matrices."""
+
+    left: MatrixFormula
+    right: MatrixFormula
+
+    def __post_init__(self) -> None:
+        _match(self, (self.left.rows, self.left.columns), (self.right.rows, self.right.columns), "sum")
+        _sized(self, self.left.rows, self.left.columns)
+
+
+@dataclass(frozen=True, eq=False)
+class Times(MatrixFormula):
+    """The product of two matrices."""
+
+    left: MatrixFormula
+    right: MatrixFormula
+
+    def __post_init__(self) -> None:
+        _match(self, (self.left.columns,), (self.right.rows,), "product")
+        _sized(self, self.left.rows, self.right.columns)
+
+
+def unknown(rows: int, columns: int) -> Unknown:
+    """Return the symbol of the state of a :class:`codegen.scene.StiefelScene`: a matrix X."""
+    _size(rows, "rows")
+    _size(columns, "columns")
+    return Unknown(rows, columns)
+
+
+def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None = None) -> Constant:
+    """Return a matrix that is zero outside some diagonals; it is square unless ``columns`` is given.
+
+    ``diagonals`` maps an offset j - i to the entries a_ij: one scalar for all, a function of the row i, or
+    the list of all entries of the diagonal. Rows and columns are counted from 0. Emitted code contains the
+    numbers of a list; a scalar or a function takes one line. :class:`SceneError` is raised for an offset
+    outside the matrix, and later for a list of a wrong length.
+    """
+    _size(rows, "rows")
+    width = rows if columns is None else columns
+    _size(width, "columns")
+    if not diagonals:
+        raise SceneError("a matrix without diagonals", where="banded", expected="at least one offset")
+    for offset in diagonals:
+        if not isinstance(offset, int) or not -rows < offset < width:
+            raise SceneError(
+                f"the diagonal {offset!r}",
+                where="banded",
+                expected=f"an integer from {1 - rows} to {width - 1}",
+            )
+    return Constant(rows, width, dict(diagonals), None)
+
+
+def full(rows: int, columns: int, entries: EntryFormula) -> Constant:
+    """Return a matrix without zeros: a function of row and column, counted from 0, or a list of rows.
+
+    A product with this matrix takes rows x columns operations for each column of the other matrix.
+    """
+    _size(rows, "rows")
+    _size(columns, "columns")
+    return Constant(rows, columns, None, entries)
+
+
+def _sized(formula: MatrixFormula, rows: int, columns: int) -> None:
+    # The classes are frozen; the size of a formula follows from its parts.
+    object.__setattr__(formula, "rows", rows)
+    object.__setattr__(formula, "columns", columns)
+
+
+def _size(value: object, what: str) -> None:
+    if not isinstance(value, int) or isinstance(value, bool) or value < 1:
+        raise SceneError(f"{what} = {value!r}", where="matrix", expected="a positive integer")
+
+
+def _matrix(value: object) -> MatrixFormula:
+    if isinstance(value, MatrixFormula):
+        return value
+    raise SceneError(
+        f"{type(value).__name__} {str(value)[:40]} in a formula of matrices",
+        expected="a matrix",
+        hint="write constant matrices as banded(n, {...}) or full(n, m, rows)",
+    )
+
+
+def _scalar(value: Coefficient) -> Coefficient:
+    if isinstance(value, MatrixFormula):
+        raise SceneError("a matrix * a matrix", expected="a scalar", hint="write the product as A @ B")
+    return value
+
+
+def _match(formula: MatrixFormula, left: tuple[int, ...], right: tuple[int, ...], what: str) -> None:
+    if left == right:
+        return
+    sizes = " and ".join(" x ".join(map(str, size)) for size in (left, right))
+    kind = "matrices" if len(left) > 1 else "columns and rows"
+    raise SceneError(f"the {what} of {kind} {sizes}", expected="equal sizes")

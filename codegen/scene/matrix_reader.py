@@ -1,0 +1,357 @@
+"""Formulas of matrices (:mod:`codegen.scene.matrix_formula`) as array programs.
+
+Transposes are moved to the factors of products. Each product is computed in its cheapest order, which forms
+no matrix with n^2 entries. Equal products are computed once. Matrices with more columns than rows are stored
+as their transposes, so each stored matrix has n rows or is small.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from math import inf
+
+from codegen.errors import SceneError
+from codegen.ir.array_program import (
+    COLUMN,
+    ROW,
+    Apply,
+    ArrayProgram,
+    ArrayStatement,
+    Combination,
+    ConstantMatrix,
+    Diagonal,
+    Entry,
+    Matrix,
+    Multiplication,
+    Term,
+)
+from codegen.ir.decimals import exact
+from codegen.ir.expr import Expr
+from codegen.ir.number import Number
+from codegen.scene.formulas import Reader
+from codegen.scene.matrix_formula import (
+    Constant,
+    EntryFormula,
+    MatrixFormula,
+    Scaled,
+    Sum,
+    Times,
+    Transposed,
+    Unknown,
+)
+
+ARGUMENT, RESULT = "point", "velocity"
+"""The names of the arrays for X and for the value of the formula."""
+
+
+@dataclass(frozen=True)
+class _Factor:
+    """A factor of a product: the unknown, a constant matrix, or a sum, possibly transposed."""
+
+    formula: MatrixFormula
+    transposed: bool
+
+    @property
+    def rows(self) -> int:
+        return self.formula.columns if self.transposed else self.formula.rows
+
+    @property
+    def columns(self) -> int:
+        return self.formula.rows if self.transposed else self.formula.columns
+
+    @property
+    def constant(self) -> Constant | None:
+        return self.formula if isinstance(self.formula, Constant) else None
+
+
+@dataclass(frozen=True)
+class _Stored:
+    """A matrix of the program, or its transpose."""
+
+    matrix: Matrix
+    transposed: bool = False
+
+    @property
+    def rows(self) -> int:
+        return self.matrix.columns if self.transposed else self.matrix.rows
+
+    @property
+    def columns(self) -> int:
+        return self.matrix.rows if self.transposed else self.matrix.columns
+
+
+Summand = tuple[Expr, tuple[_Factor, ...]]
+"""A coefficient and the factors of a product."""
+
+
+def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayProgram:
+    """Return the program that computes a formula in the unknown ``x``.
+
+    :class:`SceneError` is raised for another unknown, for wrong sizes, for entries that cannot be read, and
+    for a summand without X.
+    """
+    if not isinstance(formula, MatrixFormula) or (formula.rows, formula.columns) != (x.rows, x.columns):
+        size = f"{formula.rows} x {formula.columns}" if isinstance(formula, MatrixFormula) else repr(formula)
+        raise SceneError(f"the velocity {size}", where=reader.name, expected=f"{x.rows} x {x.columns}")
+    return _Compiler(reader, x).program(formula)
+
+
+@dataclass
+class _Compiler:
+    """Collects the statements of one program."""
+
+    reader: Reader
+    x: Unknown
+    body: list[ArrayStatement] = field(default_factory=list)
+    known: dict[object, _Stored] = field(default_factory=dict)
+    constants: dict[int, ConstantMatrix] = field(default_factory=dict)
+
+    def program(self, formula: MatrixFormula) -> ArrayProgram:
+        """Return the program."""
+        one = self.reader.space.one
+        stored = self.total(tuple(self.summands(formula, one, False)), self.x.rows, self.x.columns)
+        result = Matrix(RESULT, self.x.rows, self.x.columns)
+        self.body.append(Combination(result, (Term(one, stored.matrix, stored.transposed),)))
+        return ArrayProgram(self.argument, tuple(_joined(self.body)), result)
+
+    @property
+    def argument(self) -> Matrix:
+        """The matrix X."""
+        return Matrix(ARGUMENT, self.x.rows, self.x.columns)
+
+    def summands(self, formula: MatrixFormula, c: Expr, transposed: bool) -> Iterable[Summand]:
+        """Yield the products whose sum is c times a formula or its transpose."""
+        match formula:
+            case Scaled(factor=factor, matrix=matrix):
+                own = self.reader.scalar(factor, "a coefficient of the velocity")
+                yield from self.summands(matrix, c * own, transposed)
+            case Sum(left=left, right=right):
+                yield from self.summands(left, c, transposed)
+                yield from self.summands(right, c, transposed)
+            case Transposed(matrix=matrix):
+                yield from self.summands(matrix, c, not transposed)
+            case Times():
+                number, factors = self.factors(formula, transposed)
+                yield from self.distributed(c * number, factors)
+            case _:
+                yield c, (self.factor(formula, transposed),)
+
+    def factor(self, formula: MatrixFormula, transposed: bool) -> _Factor:
+        """Return a formula as a factor; raise :class:`SceneError` for another unknown."""
+        if isinstance(formula, Unknown) and formula is not self.x:
+            raise SceneError(
+                "the velocity contains another unknown",
+                where=self.reader.name,
+                expected="the matrix x of the scene",
+            )
+        return _Factor(formula, transposed)
+
+    def factors(self, formula: MatrixFormula, transposed: bool) -> tuple[Expr, tuple[_Factor, ...]]:
+        """Return the coefficient and the factors of a product."""
+        match formula:
+            case Times(left=left, right=right):
+                (a, first), (b, second) = (self.factors(part, transposed) for part in (left, right))
+                return a * b, (*second, *first) if transposed else (*first, *second)
+            case Transposed(matrix=matrix):
+                return self.factors(matrix, not transposed)
+            case Scaled(factor=factor, matrix=matrix):
+                own, inner = self.factors(matrix, transposed)
+                return self.reader.scalar(factor, "a coefficient of the velocity") * own, inner
+            case _:
+                return self.reader.space.one, (self.factor(formula, transposed),)
+
+    def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
+        """Yield a product as summands; sums with a constant matrix or with n^2 entries are multiplied out."""
+        for k, factor in enumerate(factors):
+            parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
+            alone = [inner for _, inner in parts if len(inner) == 1 and inner[0].constant is not None]
+            large = min(factor.rows, factor.columns) > self.x.columns
+            if isinstance(factor.formula, Sum) and (alone or large):
+                for own, inner in parts:
+                    yield from self.distributed(c * own, (*factors[:k], *inner, *factors[k + 1 :]))
+                return
+        yield c, factors
+
+    def total(self, summands: tuple[Summand, ...], rows: int, columns: int) -> _Stored:
+        """Return the sum of products."""
+        values = [(c, self.product(factors)) for c, factors in summands]
+        if len(values) == 1 and values[0][0] is self.reader.space.one:
+            return values[0][1]
+        # A matrix with more columns than rows is stored as its transpose.
+        flipped = columns > rows
+        target = self.fresh(*((columns, rows) if flipped else (rows, columns)))
+        terms = tuple(Term(c, v.matrix, v.transposed is not flipped) for c, v in values)
+        self.body.append(Combination(target, terms))
+        return _Stored(target, flipped)
+
+    def fresh(self, rows: int, columns: int) -> Matrix:
+        """Return a new matrix."""
+        return Matrix(f"value {len(self.body) + 1}", rows, columns)
+
+    def product(self, factors: tuple[_Factor, ...]) -> _Stored:
+        """Return a product; each product is computed once."""
+        if factors not in self.known:
+            self.known[factors] = self._product(factors)
+        return self.known[factors]
+
+    def _product(self, factors: tuple[_Factor, ...]) -> _Stored:
+        if len(factors) == 1:
+            return self.single(factors[0])
+        cost, k = _cheapest(factors)
+        if cost == inf:
+            raise self.constant_product()
+        left, right = factors[:k], factors[k:]
+        for side, others, from_right in ((left, right, False), (right, left, True)):
+            if len(side) == 1 and side[0].constant is not None:
+                return self.applied(side[0], self.product(others), from_right)
+        return self.multiplied(self.product(left), self.product(right))
+
+    def single(self, factor: _Factor) -> _Stored:
+        """Return the unknown or a sum as a matrix."""
+        if factor.constant is not None:
+            raise self.constant_product()
+        if isinstance(factor.formula, Unknown):
+            return _Stored(self.argument, factor.transposed)
+        summands = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
+        return self.total(summands, factor.rows, factor.columns)
+
+    def constant_product(self) -> SceneError:
+        """Return the error for a constant matrix or a product of constant matrices."""
+        return SceneError(
+            "a constant matrix that is not multiplied by X",
+            where=self.reader.name,
+            expected="a formula in which each product contains X",
+        )
+
+    def applied(self, factor: _Factor, other: _Stored, from_right: bool) -> _Stored:
+        """Return the product of a constant matrix and another matrix."""
+        assert factor.constant is not None
+        constant = self.constant(factor.constant)
+        # C Z^T = (Z C^T)^T: the stored matrix is not transposed, and the constant changes its side.
+        transposed = factor.transposed is not other.transposed
+        right = from_right is not other.transposed
+        rows = other.rows if from_right else factor.rows
+        columns = factor.columns if from_right else other.columns
+        target = self.fresh(*((columns, rows) if other.transposed else (rows, columns)))
+        self.body.append(Apply(target, constant, other.matrix, transposed, right))
+        return _Stored(target, other.transposed)
+
+    def multiplied(self, left: _Stored, right: _Stored) -> _Stored:
+        """Return the product of two matrices that depend on X."""
+        rows, columns = left.rows, right.columns
+        if columns > rows:
+            # (A B)^T = B^T A^T has more rows than columns.
+            target = self.fresh(columns, rows)
+            turned = (not right.transposed, not left.transposed)
+            self.body.append(Multiplication(target, right.matrix, left.matrix, *turned))
+            return _Stored(target, True)
+        target = self.fresh(rows, columns)
+        self.body.append(Multiplication(target, left.matrix, right.matrix, left.transposed, right.transposed))
+        return _Stored(target)
+
+    def constant(self, given: Constant) -> ConstantMatrix:
+        """Return a constant matrix with its entries read."""
+        key = id(given)
+        if key not in self.constants:
+            name = f"matrix_{len(self.constants) + 1}"
+            self.constants[key] = _constant(self.reader, name, given)
+        return self.constants[key]
+
+
+def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
+    """Return the statements without a copy at the end, if the copied matrix is computed by the statement
+    before."""
+    *before, last = body
+    assert isinstance(last, Combination)
+    (term,) = last.terms
+    if not before or before[-1].target != term.matrix or term.transposed:
+        return body
+    return [*before[:-1], replace(before[-1], target=last.target)]
+
+
+def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
+    """Return the least number of products of a chain, and the place where the last product is formed."""
+    n = len(factors)
+    best: dict[tuple[int, int], tuple[float, int]] = {(i, i + 1): (0.0, i) for i in range(n)}
+    for length in range(2, n + 1):
+        for i in range(n - length + 1):
+            j = i + length
+            splits = [
+                (best[i, k][0] + best[k, j][0] + _cost(factors[i:k], factors[k:j]), k)
+                for k in range(i + 1, j)
+            ]
+            best[i, j] = min(splits)
+    cost, k = best[0, n]
+    return cost, k
+
+
+def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...]) -> float:
+    """Return the number of products of two matrices; infinity if both are constant."""
+    rows, inner, columns = left[0].rows, right[0].rows, right[-1].columns
+    first, second = (side[0].constant if len(side) == 1 else None for side in (left, right))
+    if first is not None and second is not None:
+        return inf
+    if first is not None:
+        return _filled(first) * columns
+    if second is not None:
+        return rows * _filled(second)
+    return rows * inner * columns
+
+
+def _filled(constant: Constant) -> float:
+    if constant.diagonals is None:
+        return constant.rows * constant.columns
+    return len(constant.diagonals) * constant.rows
+
+
+def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
+    import sympy
+
+    row, column = sympy.Symbol(ROW), sympy.Symbol(COLUMN)
+    size = given.rows * given.columns
+    if given.diagonals is None:
+        assert given.entries is not None
+        entry = _entry(
+            reader, given.entries, (row, column), size, f"the {given.rows} x {given.columns} matrix"
+        )
+        return ConstantMatrix(name, given.rows, given.columns, (), entry)
+    matrix = ConstantMatrix(name, given.rows, given.columns)
+    diagonals = []
+    # The main diagonal comes first, because it sets every row.
+    for offset in sorted(given.diagonals, key=lambda x: (abs(x), x)):
+        length = matrix.length(Diagonal(offset, ()))
+        entry = _entry(reader, given.diagonals[offset], (row,), length, f"the diagonal {offset}")
+        diagonals.append(Diagonal(offset, entry))
+    return ConstantMatrix(name, given.rows, given.columns, tuple(diagonals))
+
+
+def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], size: int, what: str) -> Entry:
+    """Return entries as a formula or as numbers."""
+    if callable(given):
+        given = given(*indices)
+    numbers = _flat(given)
+    if numbers is None:
+        return reader.scalar(given, f"the entries of {what}", more=(ROW, COLUMN))
+    if len(numbers) != size:
+        raise SceneError(
+            f"{len(numbers)} entries of {what}", where=reader.name, expected=f"{size} entries, or a function"
+        )
+    values = [exact(x) for x in numbers]
+    if None in values:
+        wrong = numbers[values.index(None)]
+        raise SceneError(f"the entry {wrong!r} of {what}", where=reader.name, expected="a rational number")
+    return tuple(Number.rational(x.numerator, x.denominator) for x in values if x is not None)
+
+
+def _flat(given: object) -> list[object] | None:
+    """Return the entries of a list, of a list of rows, or of an array; None for a scalar."""
+    if hasattr(given, "tolist"):
+        given = given.tolist()
+    if not isinstance(given, list | tuple):
+        return None
+    entries: list[object] = []
+    for entry in given:
+        inner = _flat(entry)
+        entries += [entry] if inner is None else inner
+    return entries

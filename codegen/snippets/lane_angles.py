@@ -1,0 +1,65 @@
+"""Sine and cosine without branches, for loops over many systems: constants of the reduction, and polynomials.
+
+An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. The sum of 2x/pi and ROUND is
+rounded to an integer by the addition itself. The number pi/2 is a sum of parts: the products of k with all
+parts but the last are exact, because each part has few bits. sin r = r c_1(r^2) and cos r = c_0(r^2) are the
+polynomials of :func:`codegen.snippets.stumpff.economised`.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from codegen.ir.precision import DOUBLE, Precision
+from codegen.snippets.stumpff import PI, economised
+
+LARGEST = {53: 2**20, 24: 2**9}
+"""The largest angle, for each number of bits of the significand. For larger angles the result is NaN."""
+
+_PARTS = {53: (31, 31, 31), 24: (12, 11, 11)}
+_REDUCED = Fraction(5, 8)
+"""A bound on r^2; (pi/4)^2 is 0.617."""
+
+
+def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
+    """Return the constants of the reduction: the largest angle, 2/pi, the parts of pi/2, and the number whose
+    addition rounds to an integer.
+
+    >>> constants = reduction()
+    >>> constants["largest"], constants["round"], len(constants["parts"])
+    (1048576.0, 6755399441055744.0, 4)
+    """
+    rest, parts = _half_pi(), []
+    for bits in _PARTS[precision.bits]:
+        unit = Fraction(2) ** (_exponent(rest) - bits)
+        part = (rest // unit) * unit
+        parts.append(float(part))
+        rest -= part
+    return {
+        "largest": float(LARGEST[precision.bits]),
+        "per_quarter": float(precision.round(Fraction(2) / PI)),
+        "parts": [*parts, float(precision.round(rest))],
+        "round": 1.5 * 2.0 ** (precision.bits - 1),
+    }
+
+
+def polynomial(k: int, precision: Precision = DOUBLE) -> list[float]:
+    """Return the coefficients of c_k for reduced angles, from the lowest degree."""
+    return [float(precision.round(c)) for c in economised(k, _REDUCED, precision.bits)]
+
+
+def _half_pi() -> Fraction:
+    """Return pi/2 with an error below 2^-160 (Machin's formula)."""
+
+    def arctangent(n: int) -> Fraction:
+        return sum((Fraction((-1) ** j, (2 * j + 1) * n ** (2 * j + 1)) for j in range(80)), Fraction(0))
+
+    return 2 * (4 * arctangent(5) - arctangent(239))
+
+
+def _exponent(x: Fraction) -> int:
+    """Return the smallest e such that x < 2^e."""
+    e = x.numerator.bit_length() - x.denominator.bit_length() + 1
+    while x < Fraction(2) ** (e - 1):
+        e -= 1
+    return e
