@@ -73,7 +73,7 @@ __all__ = [
 
 __all__ += actions.__all__
 
-MODULES: dict[str, tuple[str, ...]] = {
+LISTED: dict[str, tuple[str, ...]] = {
     "affine": ("Affine",),
     "cotangent": ("Cotangent",),
     "galilean": ("Galilean",),
@@ -98,11 +98,11 @@ MODULES: dict[str, tuple[str, ...]] = {
 }
 """The names of the group classes of each module. A line of this table registers a group."""
 
-LISTED = tuple(sorted((name for names in MODULES.values() for name in names), key=str.lower))
+lazy(__name__, base=("LieGroup",), **LISTED)
 
-lazy(__name__, base=("LieGroup",), **MODULES)
-
-GROUPS: Registry[LieGroup] = Registry("group", __name__, LISTED)
+GROUPS: Registry[LieGroup] = Registry(
+    "group", __name__, sorted((name for names in LISTED.values() for name in names), key=str.lower)
+)
 
 Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 
@@ -139,7 +139,7 @@ def unregister(cls: type[LieGroup] | type[Action]) -> None:
 
 
 def listing() -> list[dict[str, str]]:
-    """Return name and first docstring line of every group, for ``orderconds list groups``."""
+    """Return name and first docstring paragraph of every group, for ``orderconds list groups``."""
     return GROUPS.listing()
 
 

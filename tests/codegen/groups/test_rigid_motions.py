@@ -124,7 +124,13 @@ def spin():
     return FieldScene(group=group, action=LeftMultiplication(), y=q, f=f, y0=UNIT, span=(0, 1), name="spin")
 
 
-SCENES = {"body": body_on_a_spring, "shear": shear, "free body": free_body, "momenta": free_body_of_momenta, "spin": spin}
+SCENES = {
+    "body": body_on_a_spring,
+    "shear": shear,
+    "free body": free_body,
+    "momenta": free_body_of_momenta,
+    "spin": spin,
+}
 
 
 @cache
