@@ -61,8 +61,7 @@ def check(
     2
     """
     order, tolerance = _bounds(order, tolerance, limits)
-    if not isinstance(tableau, Tableau):
-        tableau = read(tableau)
+    tableau = tableau if isinstance(tableau, Tableau) else read(tableau)
     given, tableau = tableau, with_tolerance(tableau, tolerance)
     wanted = [*_wanted(tableau, family)]
     proof, broken = _proof(tableau)
@@ -70,8 +69,8 @@ def check(
     embedded = _embedded(enclosed, [f for f, _ in wanted])
     computed = properties(tableau)
     dense = extension_order(tableau)
-    claims = (*_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
-    broken += claims if family is None else ()
+    if family is None:
+        broken += (*_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
     broken += _missing_claims(enclosed, tableau) if complete else []
     orders = _named(_orders(enclosed, wanted, facts, order, Meter(limits or Limits())), tableau)
     broken += [f"{f.family}: certificate {f.certificate}" for f in _not_proved(orders) if certified]
