@@ -74,9 +74,7 @@ def _hamiltonian(problem: Problem) -> Expr:
             f"{found}, because it has {len(symbols)} coordinates", expected="coordinates (q, p), q first"
         )
     point = tuple(space.sym(s) for s in symbols)
-    rates = problem.action.velocity(
-        Formulas(ExprDomain(space)), problem.group, tuple(problem.roots), point
-    )
+    rates = problem.action.velocity(Formulas(ExprDomain(space)), problem.group, tuple(problem.roots), point)
     n = len(symbols) // 2
     total = space.zero
     for x, y in zip((*rates[:n], *(-r for r in rates[n:])), (*point[n:], *point[:n]), strict=True):
