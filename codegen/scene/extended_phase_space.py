@@ -27,9 +27,9 @@ def extended(problem: Problem) -> Problem:
     """Return the extended problem; raise SceneError for a field that is not linear, and for a Hamiltonian
     that does not depend on time.
 
-    A linear problem is extended by :mod:`codegen.scene.linear_extension`. For a Hamiltonian problem the new coordinates are called tau and u; underscores are appended to a name that is taken. The summand u
-    is added to the first part that does not depend on time. If all parts depend on time, u becomes a new
-    part.
+    A linear problem is extended by :mod:`codegen.scene.linear_extension`. For a Hamiltonian problem the new
+    coordinates are called tau and u; underscores are appended to a name that is taken. The summand u is added
+    to the first part that does not depend on time. If all parts depend on time, u becomes a new part.
     """
     if problem.linear and not problem.paired and not problem.carries_momentum:
         return extended_linear(problem, _fresh("u", {*problem.symbols, *problem.parameters}))
