@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TypedDict
 
 from codegen.argument import count
 from codegen.certify import certified_order
@@ -39,6 +41,35 @@ def extension_of(method: Method, scene: Problem) -> Continuous:
         )
     order = min(computed.order, certified_order(method, scene).order)
     return continuous(program, problem, order)
+
+
+class RunOptions(TypedDict, total=False):
+    """The options of :func:`codegen.emit` for the run to an end time and for compensated summation."""
+
+    integrate: bool
+    events: int
+    dense: bool
+    compensate: bool
+
+
+@dataclass(frozen=True)
+class RunRequest:
+    """The values of :class:`RunOptions`, with their defaults."""
+
+    integrate: bool = False
+    events: int = 0
+    dense: bool = False
+    compensate: bool = False
+
+    @property
+    def observed(self) -> bool:
+        """True if the module contains a run to an end time."""
+        return self.integrate or self.events > 0 or self.dense
+
+    @property
+    def any(self) -> bool:
+        """True if an option differs from its default."""
+        return self.observed or self.compensate
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:

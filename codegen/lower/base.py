@@ -51,6 +51,7 @@ class Lowering(ABC):
 
     A subclass sets :attr:`family` and implements :meth:`problem` and :meth:`lower`. It usually derives from
     :class:`codegen.lower.field.FieldLowering` (vector fields),
+    :class:`codegen.lower.linear.LinearLowering` (y' = A(t).y),
     :class:`codegen.lower.variational.VariationalLowering` (Hamiltonians on T*G) or
     :class:`codegen.lower.flow_words.FlowLowering` (Hamiltonians in parts), which implement :meth:`problem`.
     All other members have defaults.

@@ -238,40 +238,10 @@ class Observation:
     def locate(self) -> Function:
         """Return the function that encloses the time of the first event in a part of a step."""
         plan, state, high, ahead = self.plan, self.plan.state(), self.high[0], self.ahead
-        i, trials, side = count("i"), count("trials"), real("side")
-        estimate, width, change = real("estimate"), real("width"), flag("change")
-        low_weight, high_weight, longer = real("low_weight"), real("high_weight"), real("longer")
-        # The secant through both values gives a time for each function with a change of sign.
-        a, b = self.values[i] * low_weight, ahead[i] * high_weight
-        candidate = (
-            Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
-            If(estimate < self.middle, (Assign(self.middle, estimate),)),
-        )
-        halved = either((trials % 3).equals(2), negated(is_finite(self.middle)))
-        guess: tuple[Statement, ...] = (
-            Assign(self.middle, high),
-            For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
-            If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
-            # An accurate guess is moved by one width, so that the next guess closes the interval.
-            If(self.middle > high - width, (Assign(self.middle, high - width),)),
-            If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
-        )
-        # If the same end moves twice, the weight of the other end is halved (Illinois).
-        moved_high = (
-            Assign(high, self.middle),
-            Assign(ahead, self.measured),
-            Assign(self.reached, self.inner),
-            Assign(low_weight, select(side > 0.0, 0.5 * low_weight, number(1.0))),
-            Assign(high_weight, number(1.0)),
-            Assign(side, number(1.0)),
-        )
-        moved_low = (
-            Assign(self.low, self.middle),
-            Assign(self.values, self.measured),
-            Assign(high_weight, select(side < 0.0, 0.5 * high_weight, number(1.0))),
-            Assign(low_weight, number(1.0)),
-            Assign(side, number(-1.0)),
-        )
+        trials, side, change = count("trials"), real("side"), flag("change")
+        width, longer = real("width"), real("longer")
+        low_weight, high_weight = real("low_weight"), real("high_weight")
+        moved_high, moved_low = self._moved(high, side, low_weight, high_weight)
         tested = (
             Call(CROSSED, (self.signs, self.measured), (change,)),
             If(change, moved_high, moved_low),
@@ -292,7 +262,7 @@ class Observation:
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
                 (
-                    *guess,
+                    *self._guess(high, ahead, trials, width, low_weight, high_weight),
                     *self.state_at(state, self.middle * self.length),
                     If(STATUS.equals(code(OK)), self.measure(self.time_at(self.middle), self.inner)),
                     If(STATUS.equals(code(OK)), tested),
@@ -308,6 +278,50 @@ class Observation:
             "the interval, reached and ahead the state and the values there."
         )
         return Function(LOCATE, about, parameters, body, Kind.STATUS)
+
+    def _guess(
+        self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
+    ) -> tuple[Statement, ...]:
+        """Return the statements that choose the next time inside the interval."""
+        i, estimate = count("i"), real("estimate")
+        # The secant through both values gives a time for each function with a change of sign.
+        a, b = self.values[i] * low_weight, ahead[i] * high_weight
+        candidate = (
+            Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
+            If(estimate < self.middle, (Assign(self.middle, estimate),)),
+        )
+        halved = either((trials % 3).equals(2), negated(is_finite(self.middle)))
+        return (
+            Assign(self.middle, high),
+            For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
+            If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
+            # An accurate guess is moved by one width, so that the next guess closes the interval.
+            If(self.middle > high - width, (Assign(self.middle, high - width),)),
+            If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
+        )
+
+    def _moved(
+        self, high: Term, side: Term, low_weight: Term, high_weight: Term
+    ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
+        """Return the statements that move the upper end of the interval to the middle, and those that move
+        the lower end."""
+        # If the same end moves twice, the weight of the other end is halved (Illinois).
+        moved_high: tuple[Statement, ...] = (
+            Assign(high, self.middle),
+            Assign(self.ahead, self.measured),
+            Assign(self.reached, self.inner),
+            Assign(low_weight, select(side > 0.0, 0.5 * low_weight, number(1.0))),
+            Assign(high_weight, number(1.0)),
+            Assign(side, number(1.0)),
+        )
+        moved_low: tuple[Statement, ...] = (
+            Assign(self.low, self.middle),
+            Assign(self.values, self.measured),
+            Assign(high_weight, select(side < 0.0, 0.5 * high_weight, number(1.0))),
+            Assign(low_weight, number(1.0)),
+            Assign(side, number(-1.0)),
+        )
+        return moved_high, moved_low
 
     def time_at(self, fraction: Term) -> Term:
         """Return the time at a fraction of the step; the end of the step has no rounding error."""

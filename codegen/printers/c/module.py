@@ -100,9 +100,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "adaptive": interface.adaptive,
         "batch": interface.batch,
         "vectorised": LANES in unit.parts,
-        "build": " ".join(
-            ("-std=c11", *(VECTOR_FLAGS if interface.batch else ("-O2",)), "-ffp-contract=off")
-        ),
+        "optimised": " ".join(VECTOR_FLAGS) if interface.batch else "-O2",
         "variations": interface.variations,
         "integrated": interface.integrated,
         "controlled": interface.controlled,
