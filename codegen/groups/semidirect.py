@@ -164,6 +164,13 @@ class Semidirect(
         tail = _difference(moved, tuple(half * c for c in turned))
         return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
 
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return (x y x, x.(y.u))."""
+        (a, u), b = self._split(x), self._split(y)[0]
+        inner = self.point_velocity(d, y, u, translated=False)
+        tail = self.point_velocity(d, x, inner, translated=False)
+        return self.linear.require(CayleyMap).sandwich(d, a, b) + tail
+
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return (g exp x, a + rho(g) phi(x) u)."""
         (q, a), (y, u) = self._element(g), self._split(x)

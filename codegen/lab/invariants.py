@@ -15,7 +15,7 @@ from codegen.ir.values import Kind
 from codegen.lab.number_functions import of_scalars
 from codegen.lab.number_types import Evaluate, Vector
 from codegen.lab.straight_line_field import straight_line
-from codegen.scene.problem import Problem
+from codegen.scene.problem import TIME, Problem
 
 FUNCTIONS = of_scalars(math)
 
@@ -33,15 +33,16 @@ def functions(scene: Problem) -> dict[str, Evaluate]:
 
 
 def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
-    """Return each conserved quantity as expressions in the symbols of the state.
+    """Return each conserved quantity as expressions in the symbols of the state and the time.
 
     The expressions under the key :data:`MANIFOLD` vanish on the manifold. This key is absent if the manifold
     is a vector space.
     """
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
+    time = domain.space.sym(TIME)
     roots: dict[str, tuple[Expr, ...]] = {
-        name: (scene.invariant(domain, name, state),) for name in scene.invariants
+        name: (scene.invariant(domain, name, state, time),) for name in scene.invariants
     }
     laws = _laws(scene, domain, state)
     if laws:

@@ -19,17 +19,20 @@ from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
 from codegen.scene.canonical_equations import force
+from codegen.scene.linear_extension import extended_linear
 from codegen.scene.problem import TIME, Problem, StateField
 
 
 def extended(problem: Problem) -> Problem:
-    """Return the extended problem; raise SceneError for a field, and for a Hamiltonian that does not depend
-    on time.
+    """Return the extended problem; raise SceneError for a field that is not linear, and for a Hamiltonian
+    that does not depend on time.
 
-    The new coordinates are called tau and u; underscores are appended to a name that is taken. The summand u
+    A linear problem is extended by :mod:`codegen.scene.linear_extension`. For a Hamiltonian problem the new coordinates are called tau and u; underscores are appended to a name that is taken. The summand u
     is added to the first part that does not depend on time. If all parts depend on time, u becomes a new
     part.
     """
+    if problem.linear and not problem.paired and not problem.carries_momentum:
+        return extended_linear(problem, _fresh("u", {*problem.symbols, *problem.parameters}))
     hamiltonian = _timed(problem)
     space = hamiltonian.space
     domain = ExprDomain(space)
@@ -76,7 +79,7 @@ def extended(problem: Problem) -> Problem:
 def _timed(problem: Problem) -> Expr:
     """Return the Hamiltonian; raise SceneError if the problem has no Hamiltonian that depends on time."""
     if problem.hamiltonian is None or not problem.paired:
-        raise SceneError(f"{problem.name} has no momentum u", expected="a Hamiltonian scene")
+        raise SceneError(f"{problem.name} has no momentum u", expected="a Hamiltonian scene, or a linear scene y' = A(t).y")
     if not _reads(problem.hamiltonian, TIME):
         raise SceneError(
             f"the Hamiltonian of {problem.name} does not depend on time",

@@ -67,6 +67,8 @@ class Problem:
     contains the coordinates in which a step of Taylor's method computes. ``coordinates`` is the map with
     which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential map. ``matrices``
     is the field if it is given by formulas of whole matrices; for large matrices ``roots`` is then empty.
+    If ``carries_momentum`` is true, the problem is linear in (q, p), and the last coordinate is the momentum
+    of the time (:mod:`codegen.scene.linear_extension`).
     ``derived``
     stores the problems that families derive from this problem, by the kind of the family. A search uses each
     of them for hundreds of methods.
@@ -93,6 +95,7 @@ class Problem:
     evolution: Evolution | None = None
     coordinates: CoordinateMap | None = None
     matrices: MatrixField | None = None
+    carries_momentum: bool = False
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
@@ -114,7 +117,10 @@ class Problem:
     def linear(self) -> bool:
         """True if the field does not depend on the state: y' = A(t).y, a linear problem in time."""
         state = set(self.symbols)
-        return not any(n.op == "sym" and n.payload in state for n in walk(self.roots))
+        # A tangent field on matrices with orthonormal columns depends on the matrix.
+        return self.matrices is None and not any(
+            n.op == "sym" and n.payload in state for n in walk(self.roots)
+        )
 
     @property
     def is_hamiltonian(self) -> bool:
@@ -263,7 +269,8 @@ class Problem:
         values = {name: domain.number(number) for name, number in self.parameters.items()}
         return tuple(evaluate(roots, domain, values))
 
-    def invariant(self, domain: Domain, name: str, state: Sequence[S]) -> S:
-        """Return the value of a declared invariant; ``energy`` is the Hamiltonian if there is one."""
-        value: S = evaluate([self.invariants[name]], domain, self.values(domain, state))[0]
+    def invariant(self, domain: Domain, name: str, state: Sequence[S], t: S | None = None) -> S:
+        """Return the value of a declared invariant at a state and a time; ``energy`` is the Hamiltonian if
+        there is one."""
+        value: S = evaluate([self.invariants[name]], domain, self.values(domain, state, t))[0]
         return value

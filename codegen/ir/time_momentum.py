@@ -1,0 +1,62 @@
+"""The operation of step programs that advances the momentum u of the time for a linear step y -> M(t) y."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from codegen.ir.domain import Domain, ExprDomain, Values
+from codegen.ir.expr import Expr, evaluate
+from codegen.ir.interpret import interpret
+from codegen.ir.number import Number
+from codegen.ir.operations import Operation, P, R
+from codegen.ir.operations import Problem as AnyProblem
+from codegen.ir.program import Program
+from codegen.ir.tangent import tangents
+
+if TYPE_CHECKING:
+    from codegen.scene.problem import Problem
+
+
+@dataclass(frozen=True)
+class TimeMomentum(Operation):
+    """The point (Y, u + Y^T J Y'/2), where Y' is the derivative of the step with respect to t for fixed y, h.
+
+    The arguments are the points (y, u) and (Y, u) before and after the step, and the time t. ``step`` is the
+    program that computes the second from the first; its inputs are y and t. In expressions the second
+    argument is differentiated directly. In all other domains ``step`` is evaluated in expressions, and the
+    derivative of these expressions is then evaluated in the domain.
+    """
+
+    step: Program
+    takes, gives = P + P + R, P
+    name = "time_momentum"
+    noun = "momentum{s} of the time"
+
+    def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
+        """Return the results for arguments of a domain."""
+        start, end, t = args
+        if isinstance(domain, ExprDomain):
+            return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
+        increment = self._evaluated(problem, domain, start, t)  # type: ignore[arg-type]
+        return ((*end[:-1], end[-1] + increment),)
+
+    def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
+        """Return the increment of u at numbers of a domain."""
+        formal = ExprDomain()
+        point = tuple(formal.space.sym(s) for s in problem.symbols)
+        time = formal.space.sym("t")
+        inputs = {"y": point, "t": time}
+        end = interpret(self.step, problem, formal, inputs)["y"]
+        values = problem.values(domain, start, t) | {"h": domain.h}
+        return evaluate([_increment(end[:-1], time)], domain, values)[0]
+
+
+def _increment(end: tuple[Expr, ...], t: Expr) -> Expr:
+    """Return Y^T J Y'/2 = (Q.P' - P.Q')/2, where the prime is the derivative with respect to the symbol t."""
+    space, n = t.space, len(end) // 2
+    rates = tangents(end, {str(t.payload): space.one})
+    total = space.zero
+    for k in range(n):
+        total = total + (end[k] * rates[n + k] - end[n + k] * rates[k])
+    return space.const(Number.rational(1, 2)) * total

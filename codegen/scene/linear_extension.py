@@ -1,0 +1,104 @@
+"""The extended phase space of a linear Hamiltonian problem y' = A(t).y with canonical coordinates y = (q, p).
+
+The first half of the coordinates is q, the second half p. The matrix A(t) is in sp(2n) if and only if y' is
+the canonical equation of H = (q'.p - p'.q)/2 = -y^T J A y/2 with J = (0, 1; -1, 0). The momentum u of the time
+has u' = -dH/dt, and its initial value is -H. For a step y -> M(t) y with symplectic M(t) the momentum after
+the step is U = u + y^T M^T J M' y/2, where M' is the derivative with respect to t (H. Marthinsen's thesis,
+equation (4.15)). The step is then a canonical transformation of (q, p, t, u).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+from codegen.errors import SceneError
+from codegen.groups.actions import FactorwiseAction, LeftMultiplication
+from codegen.groups.product import Product
+from codegen.groups.rn import Rn
+from codegen.ir.differentiate import gradient
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, Space, evaluate
+from codegen.ir.formulas import Formulas
+from codegen.ir.normal_form import NormalForms
+from codegen.ir.number import Number
+from codegen.scene.problem import TIME, Problem, StateField
+
+
+def extended_linear(problem: Problem, u: str) -> Problem:
+    """Return the problem with the momentum of the time as its last coordinate, which has the symbol ``u``.
+
+    The invariant ``energy`` is H + u. :class:`SceneError` is raised if (q, p)' = A(t).(q, p) is not a
+    Hamiltonian equation, and if H does not depend on the time.
+    """
+    hamiltonian = _hamiltonian(problem)
+    space = hamiltonian.space
+    (block,) = problem.state
+    start, values = problem.span[0], {s: space.sym(s) for s in problem.parameters}
+    values |= dict(zip(block.symbols, block.initial, strict=True)) | {TIME: _constant(space, start)}
+    momentum = -evaluate([hamiltonian], ExprDomain(space), values)[0]
+    (slope,) = gradient(hamiltonian, (TIME,))
+    return replace(
+        problem,
+        title=f"{problem.title}, extended by u",
+        group=Product(problem.group, Rn(1)),
+        action=FactorwiseAction(problem.action, LeftMultiplication()),
+        state=(StateField("y", block.kind, (*block.symbols, u), (*block.initial, momentum)),),
+        roots=(*problem.roots, -slope),
+        invariants={"energy": hamiltonian + space.sym(u), **problem.invariants},
+        signals={},
+        open_roots=(),
+        carries_momentum=True,
+    )
+
+
+def without_momentum_rate(problem: Problem) -> Problem:
+    """Return an extended linear problem in which u is constant: its field contains the time alone.
+
+    The methods for linear problems compute u from the derivative of the whole step.
+    """
+    zero = problem.roots[-1].space.zero
+    return replace(problem, roots=(*problem.roots[:-1], zero))
+
+
+def _hamiltonian(problem: Problem) -> Expr:
+    """Return H = (q'.p - p'.q)/2; raise SceneError if its canonical equation is not the equation of the
+    problem, or if H does not depend on the time."""
+    found = f"the linear problem {problem.name} has no momentum u"
+    if not problem.roots:
+        problem.require_formulas()
+    (block,) = problem.state
+    symbols, space = block.symbols, problem.roots[0].space
+    if len(symbols) % 2:
+        raise SceneError(
+            f"{found}, because it has {len(symbols)} coordinates", expected="coordinates (q, p), q first"
+        )
+    point = tuple(space.sym(s) for s in symbols)
+    rates = problem.action.velocity(
+        Formulas(ExprDomain(space)), problem.group, tuple(problem.roots), point
+    )
+    n = len(symbols) // 2
+    total = space.zero
+    for x, y in zip((*rates[:n], *(-r for r in rates[n:])), (*point[n:], *point[:n]), strict=True):
+        total = total + x * y
+    hamiltonian = _constant(space, Fraction(1, 2)) * total
+    slopes = gradient(hamiltonian, symbols)
+    normal = NormalForms(space)
+    # Hamilton's equations q' = dH/dp and p' = -dH/dq hold exactly if and only if the matrix is in sp(2n).
+    canonical = (*slopes[n:], *(-s for s in slopes[:n]))
+    if not all(normal(a - b).is_zero for a, b in zip(rates, canonical, strict=True)):
+        raise SceneError(
+            f"{found}, because A(t) is not in sp({2 * n}) for the coordinates (q, p)",
+            expected="A(t) with J A symmetric, where J = (0, 1; -1, 0)",
+        )
+    if normal(gradient(hamiltonian, (TIME,))[0]).is_zero:
+        raise SceneError(
+            f"the Hamiltonian of {problem.name} does not depend on time",
+            expected="a Hamiltonian that depends on t",
+            hint="remove +u from the name: u would be constant",
+        )
+    return hamiltonian
+
+
+def _constant(space: Space, x: Fraction) -> Expr:
+    return space.const(Number.rational(x.numerator, x.denominator))
