@@ -44,6 +44,7 @@ class CertifiedOrder:
         """Return the order and its certificate for a header."""
         how = {
             "construction": "a step is the Taylor polynomial of the solution whose degree is this order",
+            "stated": "the scene states this order",
             "exact": "the residuals of all order conditions up to this order are zero in exact arithmetic",
             "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
             "differ from the decimals of the tableau by at most one unit in the last digit",

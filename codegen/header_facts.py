@@ -42,7 +42,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     return Recipe(
         title=f"{scene.title}: one step by {method.label}",
         facts=(
-            ("method", f"family {method.family_label}" + f", tableau {method.name}" * bool(method.name)),
+            ("method", method.described),
             ("source", method.source),
             *coordinates_of(compiled),
             ("order", order.text()),

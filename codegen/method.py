@@ -26,6 +26,9 @@ from orderconds.tableau.library import available
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+STEP = "step"
+"""The word before the colon in the label of a step that the scene states."""
+
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
 """The form of a method's label without a tableau: the name of a family, and a number in parentheses if the
 family needs one."""
@@ -39,13 +42,15 @@ class Method:
     a tableau.
 
     ``coefficients`` is None for a family without tableau; ``cutoff`` is then the number in its label.
-    ``adaptive`` adds the result of the embedded method to each step, for an error estimate.
+    ``adaptive`` adds the result of the embedded method to each step, for an error estimate. ``step`` is the
+    name of a step that the scene states as a function of matrices; such a method has no tableau.
     """
 
     family: str
     coefficients: Tableau | None
     cutoff: int | None = None
     adaptive: bool = False
+    step: str = ""
 
     @property
     def kind(self) -> type[Family]:
@@ -62,12 +67,21 @@ class Method:
     @property
     def label(self) -> str:
         """Family and tableau: ``rkmk(2):rk4``."""
+        if self.step:
+            return f"{STEP}:{self.step}"
         return f"{self.family_label}:{self.name}" if self.name else self.family_label
 
     @property
+    def described(self) -> str:
+        """Family and tableau in words, for the header of emitted code."""
+        if self.step:
+            return f"the step {self.step}, which the scene states"
+        return f"family {self.family_label}" + f", tableau {self.name}" * bool(self.name)
+
+    @property
     def name(self) -> str:
-        """The name of the tableau; '' for a method without tableau."""
-        return "" if self.coefficients is None else self.coefficients.name
+        """The name of the tableau or of the stated step; '' for a family without tableau."""
+        return self.step if self.coefficients is None else self.coefficients.name
 
     @property
     def source(self) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import keyword
 import re
 
-from codegen.method import Method
+from codegen.method import STEP, Method
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
@@ -20,7 +20,7 @@ def default_prefix(scene: Problem, method: Method) -> str:
 
     A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
     """
-    family = method.family + ("" if method.cutoff is None else str(method.cutoff))
+    family = STEP if method.step else method.family + ("" if method.cutoff is None else str(method.cutoff))
     tableau = method.name
     named = bool(tableau) and tableau.startswith(method.family)
     parts = [scene.name, *([] if named else [family]), tableau]

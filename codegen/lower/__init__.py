@@ -18,7 +18,7 @@ from codegen.lower.registry import names as names
 from codegen.lower.registry import register as register
 from codegen.lower.registry import unregister as unregister
 from codegen.lower.substeps import substeps
-from codegen.method import Method, family_in, method_of
+from codegen.method import STEP, Method, family_in, method_of
 from codegen.scene.problem import Problem
 from orderconds.tableau import Tableau
 
@@ -51,6 +51,9 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
 
     If the argument names a family that does not accept the scene, the :class:`MethodError` gives the reason.
     """
+    stated = _stated_step(scene, given)
+    if stated is not None:
+        return stated
     named = family if isinstance(given, Tableau) or family else family_in(given)
     known = named.partition("(")[0]
     if known in names():
@@ -63,6 +66,24 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
             if claimed in names():
                 _check(scene, lowering(claimed))
         raise
+
+
+def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None:
+    """Return the method that ``step:NAME`` denotes on a scene; None for any other text.
+
+    :class:`MethodError` is raised if the scene does not state this step.
+    """
+    word, colon, name = given.strip().partition(":") if isinstance(given, str) else ("", "", "")
+    if word != STEP or not colon:
+        return None
+    if name not in scene.steps:
+        raise MethodError(
+            f"the step {name!r}",
+            where=scene.name,
+            expected=f"one of {', '.join(scene.steps)}" if scene.steps else "a scene that states steps",
+            hint="state the step in the argument steps of LinearScene",
+        )
+    return Method("magnus", None, step=name)
 
 
 def _check(scene: Problem, own: Lowering) -> None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
-from codegen.ir.program import Program
+from codegen.ir.program import Assign, Program
+from codegen.ir.stated_step import StatedStep
 from codegen.ir.time_momentum import TimeMomentum
 from codegen.ir.values import Kind, Var
 from codegen.ir.verify import verify
@@ -19,6 +21,9 @@ from codegen.scene.linear_extension import without_momentum_rate
 from codegen.scene.problem import Problem
 from orderconds.families import family_class
 from orderconds.tableau.products import Magnus
+
+if TYPE_CHECKING:
+    from orderconds.checking import FamilyOrder
 
 
 class LinearLowering(FieldLowering):
@@ -50,6 +55,8 @@ class LinearLowering(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
+        if method.step:
+            return self._stated(problem, method)
         family = family_class(self.family)
         tableau = method.tableau.read_as(family.formats)
         if not isinstance(tableau, Magnus):
@@ -67,14 +74,43 @@ class LinearLowering(FieldLowering):
         for number, combination in enumerate(tableau.exponents, start=1):
             point = self.move(stages, values.exponent(f"x{number}", combination), point)
         inputs = stages.inputs + (() if stages.time is None else (stages.time,))
-        body = stages.builder.take()
-        step = verify(Program(method.label, inputs, body, (("y", point),)))
-        if not problem.carries_momentum or stages.time is None:
-            return step
-        moved = stages.builder.add(TimeMomentum(step), "y1", y, point, stages.time)
-        return verify(replace(step, body=(*body, *stages.builder.take()), outputs=(("y", moved),)))
+        step = verify(Program(method.label, inputs, stages.builder.take(), (("y", point),)))
+        return _with_momentum(problem, step)
+
+    def _stated(self, problem: Problem, method: Method) -> Program:
+        """Return the program of a step that the scene states as a function of matrices."""
+        if problem.carries_momentum and not problem.steps[method.step].canonical:
+            raise MethodError(
+                f"the momentum u of {method.label}: its matrix need not be symplectic",
+                where=problem.name,
+                expected="a step whose matrix is in the group, such as exp of an element of the algebra",
+            )
+        y, t, end = Var("y", Kind.POINT), Var("t", Kind.REAL), Var("y1", Kind.POINT)
+        body = (Assign((end,), StatedStep(method.step), (y, t)),)
+        return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
+
+    def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
+        """Return the order; of a stated step, the order that the scene states."""
+        if not method.step:
+            return super().order(method, scene)
+        from orderconds.checking import FamilyOrder
+
+        if scene is None:
+            raise MethodError(f"the order of {method.label} without a scene", expected="a scene")
+        return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True on an abelian group, where a step is a translation that does not depend on the
         state."""
         return bool(scene.group.abelian)
+
+
+def _with_momentum(problem: Problem, step: Program) -> Program:
+    """Return a step that also advances the momentum of the time, if the problem has it."""
+    time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
+    if not problem.carries_momentum or time is None:
+        return step
+    ((_, point),) = step.outputs
+    moved = Var("y_with_u", Kind.POINT)
+    last = Assign((moved,), TimeMomentum(step), (step.inputs[0], point, time))
+    return verify(replace(step, body=(*step.body, last), outputs=(("y", moved),)))

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
-from codegen.groups.actions import Action
+from codegen.groups.actions import Action, Columns, Linear
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import MatrixElements
 from codegen.groups.linear_algebra import Vector, units
 from codegen.ir.domain import FloatDomain
 from codegen.scene.arguments import check_group
 from codegen.scene.field_scene import FieldScene
+from codegen.scene.matrix_step import MatrixFormula, MatrixStep
 from codegen.scene.problem import Problem
 
 if TYPE_CHECKING:
@@ -29,6 +31,7 @@ def LinearScene(
     y: Sequence[sympy.Symbol] | None = None,
     velocity: Sequence[sympy.Expr] | None = None,
     invariants: Mapping[str, sympy.Expr] | None = None,
+    steps: Mapping[str, tuple[MatrixFormula, int]] | None = None,
     name: str = "scene",
     title: str = "",
 ) -> Problem:
@@ -39,7 +42,8 @@ def LinearScene(
     coordinate symbols for ``velocity`` and ``invariants``, by default ``y0``, ``y1`` and so on. All other
     arguments are those of :func:`codegen.scene.FieldScene`: every field scene whose field does not depend on
     the state is a linear problem in time. For y' = y A(t) the action is ``RightMultiplication()``, and the
-    sign of A is changed. :class:`SceneError` is raised for a matrix outside of the algebra, for an A that
+    sign of A is changed. ``steps`` maps names to steps y1 = M y0: pairs of a formula of M
+    (:mod:`codegen.scene.matrix_step`) and its order. The method ``step:NAME`` is such a step. :class:`SceneError` is raised for a matrix outside of the algebra, for an A that
     depends on the state, and in the cases in which ``FieldScene`` raises it.
 
     >>> from sympy import Matrix, Symbol
@@ -73,7 +77,34 @@ def LinearScene(
             expected="formulas in t and parameters",
             hint="use FieldScene",
         )
-    return scene
+    return replace(scene, steps=_steps(scene, steps or {}))
+
+
+def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
+    """Return the stated steps; raise SceneError if the scene does not act by matrices, or if exp and log of
+    its matrices have no closed form."""
+    matrices = scene.group.offers(MatrixElements)
+    for name, (formula, order) in steps.items():
+        where = f"{scene.name}, step {name}"
+        if matrices is None or not isinstance(scene.action, Columns | Linear):
+            raise SceneError(
+                f"the action {scene.action.name} of {scene.group.name}",
+                where=where,
+                expected="a group of matrices that acts by Linear() or Columns(k)",
+            )
+        long = next(formula.closed_forms(), None)
+        if matrices.order > 2 and long is not None:
+            raise SceneError(
+                f"{long.text()} of a {matrices.order} x {matrices.order} matrix outside of the algebra",
+                where=where,
+                expected="exp of an element of the algebra, or matrices with two rows",
+                hint="only matrices with two rows have closed forms of exp and log",
+            )
+        if not isinstance(order, int) or order < 1:
+            raise SceneError(f"the order {order!r}", where=where, expected="a positive integer")
+        if scene.autonomous:
+            raise SceneError("A does not depend on the time", where=where, expected="formulas in t")
+    return {name: MatrixStep(*step) for name, step in steps.items()}
 
 
 def _components(name: str, group: LieGroup, matrix: sympy.Matrix) -> list[sympy.Expr]:

@@ -16,7 +16,13 @@ from typing import TYPE_CHECKING
 from codegen.errors import SceneError
 from codegen.groups.actions import Action, LeftMultiplication
 from codegen.groups.base import LieGroup
-from codegen.groups.capabilities import BodyFrame, ClosedFormSeries, Coadjoint
+from codegen.groups.capabilities import (
+    BodyFrame,
+    ClosedFormSeries,
+    Coadjoint,
+    DirectProduct,
+    MatrixElements,
+)
 from codegen.groups.coordinate_maps import CoordinateMap
 from codegen.groups.cotangent import Cotangent
 from codegen.groups.linear_algebra import S, Vector
@@ -35,6 +41,7 @@ from codegen.scene.values import Bindings
 if TYPE_CHECKING:
     from codegen.scene.evolution import Evolution
     from codegen.scene.matrix_field import MatrixField
+    from codegen.scene.matrix_step import MatrixStep
 
 TIME = "t"
 """The symbol of the time in formulas."""
@@ -68,7 +75,8 @@ class Problem:
     which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential map. ``matrices``
     is the field if it is given by formulas of whole matrices; for large matrices ``roots`` is then empty.
     If ``carries_momentum`` is true, the problem is linear in (q, p), and the last coordinate is the momentum
-    of the time (:mod:`codegen.scene.linear_extension`).
+    of the time (:mod:`codegen.scene.linear_extension`). ``steps`` are the steps that the scene states as
+    functions of matrices (:mod:`codegen.scene.matrix_step`).
     ``derived``
     stores the problems that families derive from this problem, by the kind of the family. A search uses each
     of them for hundreds of methods.
@@ -99,6 +107,7 @@ class Problem:
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
+    steps: Mapping[str, MatrixStep] = field(default_factory=dict)
     derived: dict[str, Problem] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property
@@ -252,6 +261,24 @@ class Problem:
             values |= dict(zip(self.signals, formulas, strict=True)) | samples
         result = tuple(evaluate(roots, domain, values))
         return (result[: self.group.dim], result[self.group.dim :]) if self.paired else (result,)
+
+    def stated_step(self, domain: Domain, name: str, y: Vector[S], t: S) -> Vector[S]:
+        """Return the point after a step that the scene states as a function of matrices."""
+        from codegen.scene.matrix_step import Setting
+
+        product = self.group.offers(DirectProduct) if self.carries_momentum else None
+        group = self.group if product is None else product.factors[0]
+        roots = self.roots[: group.dim]
+
+        def generator(c: Fraction) -> Vector[S]:
+            time = t + domain.rational(*c.as_integer_ratio()) * domain.h if c else t
+            return tuple(evaluate(roots, domain, self.scalars(domain, time)))
+
+        matrices = group.require(MatrixElements)
+        matrix = self.steps[name].formula.value(Setting(matrices, domain, generator))
+        if product is None:
+            return self.action.act(domain, group, matrix, y)
+        return self.action.act(domain, self.group, (*matrix, domain.rational(0)), y)
 
     def velocity(self, domain: Domain, state: Sequence[S], t: S | None = None) -> Vector[S]:
         """Return the time derivatives of the state's coordinates: f(y).y."""

@@ -1,0 +1,34 @@
+"""The operation of step programs that applies a step that the scene states as a function of matrices."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from codegen.ir.domain import Domain, Values
+from codegen.ir.operations import Operation, P, R
+from codegen.ir.operations import Problem as AnyProblem
+
+if TYPE_CHECKING:
+    from codegen.scene.problem import Problem
+
+
+@dataclass(frozen=True)
+class StatedStep(Operation):
+    """The point M y for the matrix M of a stated step; the arguments are y and the time t."""
+
+    step: str
+    takes, gives = P + R, P
+    evaluates_scene = True
+    name = "stated_step"
+    noun = "stated step{s}"
+
+    def text(self) -> str:
+        """Return the name with the name of the step."""
+        return f"{self.name}({self.step})"
+
+    def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
+        """Return the results for arguments of a domain."""
+        y, t = args
+        scene: Problem = problem  # type: ignore[assignment]
+        return (scene.stated_step(domain, self.step, y, t),)

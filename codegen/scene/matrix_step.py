@@ -1,0 +1,428 @@
+"""Steps that a scene states as functions of matrices: y1 = M y0, where M is a formula in A(t + c h) and h.
+
+A formula consists of :func:`A`, :data:`IDENTITY`, :data:`h` and numbers, sums and products, and the functions
+:func:`bracket`, :func:`projected`, :func:`expm` and :func:`logm`. Each formula has a type: an element of the
+Lie algebra, an element of the group, or another matrix. The exponential of an element of the algebra is the
+exponential of the group. For all other matrices exp and log have closed forms, and only for two rows.
+
+>>> projection = expm(projected(logm(IDENTITY + h * A(0))))
+>>> projection.place, projection.text()
+(<Place.GROUP: 'group'>, 'exp(proj(log((1 + h A(t)))))')
+>>> expm(h * A(0) * (IDENTITY + h * A(0) * bracket(A(0), A(1)))).place
+<Place.MATRIX: 'matrix'>
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from enum import Enum
+from fractions import Fraction
+from functools import lru_cache
+from typing import Generic
+
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import MatrixElements
+from codegen.groups.linear_algebra import S, Vector, product, units
+from codegen.ir.domain import Domain, FloatDomain
+
+
+class Place(Enum):
+    """The set that contains the values of a formula."""
+
+    ALGEBRA = "algebra"
+    GROUP = "group"
+    MATRIX = "matrix"
+
+
+@dataclass(frozen=True)
+class Setting(Generic[S]):
+    """The group, the number domain and the generator c -> A(t + c h) with which a formula is evaluated."""
+
+    group: MatrixElements
+    domain: Domain
+    generator: Callable[[Fraction], Vector[S]]
+
+
+@dataclass(frozen=True)
+class Scalar:
+    """``value`` h^``power``."""
+
+    value: Fraction
+    power: int
+
+    def __rmul__(self, number: int | Fraction) -> Scalar:
+        """Return the product of a number and the scalar."""
+        return replace(self, value=number * self.value)
+
+    def __truediv__(self, number: int | Fraction) -> Scalar:
+        """Return the quotient of the scalar and a number."""
+        return replace(self, value=self.value / number)
+
+    def __pow__(self, n: int) -> Scalar:
+        """Return the power with a natural exponent."""
+        return Scalar(self.value**n, self.power * n)
+
+    def text(self) -> str:
+        """Return the text ``1/2 h^2``."""
+        power = "" if not self.power else "h" if self.power == 1 else f"h^{self.power}"
+        number = "" if self.value == 1 and power else str(self.value)
+        return " ".join(filter(None, (number, power)))
+
+
+h = Scalar(Fraction(1), 1)
+"""The step size."""
+
+
+class MatrixFormula(ABC):
+    """A formula whose values are square matrices."""
+
+    @property
+    @abstractmethod
+    def place(self) -> Place:
+        """The set that contains the values."""
+
+    @abstractmethod
+    def value(self, at: Setting[S]) -> Vector[S]:
+        """Return the matrix, row by row."""
+
+    @abstractmethod
+    def text(self) -> str:
+        """Return the formula as text."""
+
+    def parts(self) -> tuple[MatrixFormula, ...]:
+        """Return the formulas that this formula contains directly."""
+        return ()
+
+    def closed_forms(self) -> Iterator[MatrixFormula]:
+        """Yield the exponentials and logarithms that have closed forms only for matrices with two rows."""
+        for part in self.parts():
+            yield from part.closed_forms()
+
+    def __add__(self, other: MatrixFormula) -> MatrixFormula:
+        """Return the sum."""
+        return Sum(self, other)
+
+    def __sub__(self, other: MatrixFormula) -> MatrixFormula:
+        """Return the difference."""
+        return Sum(self, Multiple(Scalar(Fraction(-1), 0), other))
+
+    def __mul__(self, other: MatrixFormula) -> MatrixFormula:
+        """Return the product of matrices."""
+        return Product(self, other)
+
+    def __rmul__(self, factor: Scalar | int | Fraction) -> MatrixFormula:
+        """Return the product of a scalar and the matrix."""
+        return Multiple(factor if isinstance(factor, Scalar) else Scalar(Fraction(factor), 0), self)
+
+
+@dataclass(frozen=True)
+class Generator(MatrixFormula):
+    """A(t + c h)."""
+
+    c: Fraction
+
+    @property
+    def place(self) -> Place:
+        """The set that contains the values."""
+        return Place.ALGEBRA
+
+    def value(self, at: Setting[S]) -> Vector[S]:
+        """Return the matrix, row by row."""
+        return at.group.hat(at.domain, at.generator(self.c))
+
+    def text(self) -> str:
+        """Return the formula as text."""
+        return "A(t)" if not self.c else f"A(t + {Scalar(self.c, 1).text()})"
+
+
+@dataclass(frozen=True)
+class Unit(MatrixFormula):
+    """The unit matrix."""
+
+    @property
+    def place(self) -> Place:
+        """The set that contains the values."""
+        return Place.GROUP
+
+    def value(self, at: Setting[S]) -> Vector[S]:
+        """Return the matrix, row by row."""
+        n = at.group.order
+        return tuple(at.domain.rational(int(i == j)) for i in range(n) for j in range(n))
+
+    def text(self) -> str:
+        """Return the formula as text."""
+        return "1"
+
+
+@dataclass(frozen=True)
+class Binary(MatrixFormula):
+    """A formula with two parts."""
+
+    left: MatrixFormula
+    right: MatrixFormula
+
+    def parts(self) -> tuple[MatrixFormula, ...]:
+        """Return both parts."""
+        return self.left, self.right
+
+    def _both(self, place: Place) -> bool:
+        return self.left.place is self.right.place is place
+
+
+class Sum(Binary):
+    """The sum of two matrices."""
+
+    @property
+    def place(self) -> Place:
+        """The algebra for two elements of the algebra."""
+        return Place.ALGEBRA if self._both(Place.ALGEBRA) else Place.MATRIX
+
+    def value(self, at: Setting[S]) -> Vector[S]:
+        """Return the matrix, row by row."""
+        return tuple(x + y for x, y in zip(self.left.value(at), self.right.value(at), strict=True))
+
+    def text(self) -> str:
+        """Return the formula as text."""
+        return f"({self.left.text()} + {self.right.text()})"
+
+
+class Product(Binary):
+    """The product of two matrices."""
+
+    @property
+    def place(self) -> Place:
+        """The group for two elements of the group."""
+        return Place.GROUP if self._both(Place.GROUP) else Place.MATRIX
+
+    def value(self, at: Setting[S]) -> Vector[S]:
+        """Return the matrix, row by row."""
+        return product(at.domain, self.left.value(at), self.right.value(at), at.group.order)
+
+    def text(self) -> str:
+        """Return the formula as text."""
+        return f"{self.left.text()} {self.right.text()}"
+
+
+class Commutator(Binary):
+    """X Y - Y X."""
+
+    @property
+    def place(self) -> Place:
+        """The algebra for two elements of the algebra."""
+        return Place.ALGEBRA if self._both(Place.ALGEBRA) else Place.MATRIX
+
+    def value(self, at: Setting[S]) -> Vector[S]:
+        """Return the matrix, row by row."""
+        x, y, d, n = self.left.value(at), self.right.value(at), at.domain, at.group.order
+        return tuple(a - b for a, b in zip(product(d, x, y, n), product(d, y, x, n), strict=True))
+
+    def text(self) -> str:
+        """Return the formula as text."""
+        return f"[{self.left.text()}, {self.right.text()}]"
+
+
+@dataclass(frozen=True)
+class Unary(MatrixFormula):
+    """A formula with one part."""
+
+    of: MatrixFormula
+
+    def parts(self) -> tuple[MatrixFormula, ...]:
+        """Return the part."""
+        return (self.of,)
+
+
+@dataclass(frozen=True)
+class Multiple(MatrixFormula):
+    """The product of a scalar and a matrix."""
+
+    factor: Scalar
+    of: MatrixFormula
+
+    @property
+    def place(self) -> Place:
+        """The algebra for an element of the algebra."""
+        return Place.ALGEBRA if self.of.place is Place.ALGEBRA else Place.MATRIX
+
+    def parts(self) -> tuple[MatrixFormula, ...]:
+        """Return the matrix."""
+        return (self.of,)
+
+    def value(self, at: Setting[S]) -> Vector[S]:
+        """Return the matrix, row by row."""
+        factor = at.domain.rational(*self.factor.value.as_integer_ratio())
+        for _ in range(self.factor.power):
+            factor = factor * at.domain.h
+        return tuple(factor * x for x in self.of.value(at))
+
+    def text(self) -> str:
+        """Return the formula as text."""
+        return f"{self.factor.text()} {self.of.text()}"
+
+
+class Projected(Unary):
+    """The orthogonal projection of a matrix onto the algebra, for the scalar product tr(X^T Y).
+
+    For sp(2n) it is (X + J X^T J)/2, the projection of equation (4.18).
+    """
+
+    @property
+    def place(self) -> Place:
+        """The set that contains the values."""
+        return Place.ALGEBRA
+
+    def value(self, at: Setting[S]) -> Vector[S]:
+        """Return the matrix, row by row."""
+        d, entries = at.domain, self.of.value(at)
+        result = []
+        for row in projection_matrix(at.group):
+            total = d.rational(0)
+            for c, x in zip(row, entries, strict=True):
+                if c:
+                    total = total + d.rational(*c.as_integer_ratio()) * x
+            result.append(total)
+        return tuple(result)
+
+    def text(self) -> str:
+        """Return the formula as text."""
+        return f"proj({self.of.text()})"
+
+
+class Exponential(Unary):
+    """The exponential of a matrix."""
+
+    @property
+    def place(self) -> Place:
+        """The group for an element of the algebra."""
+        return Place.GROUP if self.of.place is Place.ALGEBRA else Place.MATRIX
+
+    def closed_forms(self) -> Iterator[MatrixFormula]:
+        """Yield this formula if its argument is not in the algebra."""
+        if self.of.place is not Place.ALGEBRA:
+            yield self
+        yield from super().closed_forms()
+
+    def value(self, at: Setting[S]) -> Vector[S]:
+        """Return the matrix, row by row."""
+        x = self.of.value(at)
+        if self.of.place is Place.ALGEBRA:
+            return at.group.exp(at.domain, at.group.vee(at.domain, x))
+        return _exponential(at.domain, x)
+
+    def text(self) -> str:
+        """Return the formula as text."""
+        return f"exp({self.of.text()})"
+
+
+class Logarithm(Unary):
+    """The principal logarithm of a matrix."""
+
+    @property
+    def place(self) -> Place:
+        """The set that contains the values."""
+        return Place.MATRIX
+
+    def closed_forms(self) -> Iterator[MatrixFormula]:
+        """Yield this formula."""
+        yield self
+        yield from super().closed_forms()
+
+    def value(self, at: Setting[S]) -> Vector[S]:
+        """Return the matrix, row by row."""
+        return _logarithm(at.domain, self.of.value(at))
+
+    def text(self) -> str:
+        """Return the formula as text."""
+        return f"log({self.of.text()})"
+
+
+IDENTITY = Unit()
+"""The unit matrix."""
+
+
+def A(c: int | Fraction = 0) -> MatrixFormula:
+    """Return the matrix A(t + c h)."""
+    return Generator(Fraction(c))
+
+
+def bracket(x: MatrixFormula, y: MatrixFormula) -> MatrixFormula:
+    """Return [x, y] = x y - y x."""
+    return Commutator(x, y)
+
+
+def projected(x: MatrixFormula) -> MatrixFormula:
+    """Return the orthogonal projection of x onto the Lie algebra."""
+    return Projected(x)
+
+
+def expm(x: MatrixFormula) -> MatrixFormula:
+    """Return the exponential of x."""
+    return Exponential(x)
+
+
+def logm(x: MatrixFormula) -> MatrixFormula:
+    """Return the principal logarithm of x."""
+    return Logarithm(x)
+
+
+@dataclass(frozen=True)
+class MatrixStep:
+    """A stated step: y1 = M y0 with the matrix M of ``formula``; ``order`` is the order that the scene
+    states."""
+
+    formula: MatrixFormula
+    order: int
+
+    @property
+    def canonical(self) -> bool:
+        """True if the matrix is in the group for every A(t) in the algebra."""
+        return self.formula.place is Place.GROUP
+
+
+@lru_cache(maxsize=16)
+def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
+    """Return the matrix, on the entries of matrices, of the orthogonal projection onto the algebra."""
+    from sympy import Matrix, Rational
+
+    d = FloatDomain(0.0)
+    matrices = group.require(MatrixElements)
+    basis: tuple[Vector[float], ...] = units(d, group.dim)
+    columns = Matrix([[Rational(x) for x in matrices.hat(d, e)] for e in basis]).T
+    both = columns * (columns.T * columns).inv() * columns.T
+    return tuple(tuple(Fraction(int(x.p), int(x.q)) for x in both.row(i)) for i in range(both.rows))
+
+
+def _split(d: Domain, m: Vector[S]) -> tuple[S, Vector[S], S]:
+    """Return s, N and det N for a 2 x 2 matrix s + N whose part N has trace zero."""
+    half = d.rational(1, 2)
+    s, a = half * (m[0] + m[3]), half * (m[0] - m[3])
+    return s, (a, m[1], m[2], -a), -(a * a + m[1] * m[2])
+
+
+def _exponential(d: Domain, m: Vector[S]) -> Vector[S]:
+    """Return exp(s + N) = e^s (c_0(det N) + c_1(det N) N) for a 2 x 2 matrix; N^2 = -det N."""
+    s, traceless, z = _split(d, m)
+    scale = d.call("exp", s)
+    c0, c1 = scale * d.call("signed_stumpff0", z), scale * d.call("signed_stumpff1", z)
+    diagonal = c1 * traceless[0]
+    return (c0 + diagonal, c1 * m[1], c1 * m[2], c0 - diagonal)
+
+
+def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
+    """Return log(s + N) = log(det)/2 + g N for a 2 x 2 matrix, where det = s^2 + det N.
+
+    With z = det N and r = sqrt(|z|), g = atan2(r, s)/r for z > 0, g = 1/s for z = 0, and
+    g = log((s + r)/(s - r))/(2 r) for z < 0.
+    """
+    s, traceless, z = _split(d, m)
+    one, half = d.rational(1), d.rational(1, 2)
+    r = d.call("sqrt", d.call("fabs", z))
+    # All formulas of a selection are evaluated, so for z > 0 the logarithms have the argument 1.
+    above, below = (d.call("log", d.call("choose", z, one, x)) for x in (s + r, s - r))
+    angle = d.call("choose", z, d.call("atan2", r, s), half * (above - below))
+    g = d.call("choose", r, d.call("quotient", angle, r), d.call("quotient", one, s))
+    middle = half * d.call("log", m[0] * m[3] - m[1] * m[2])
+    diagonal = g * traceless[0]
+    return (middle + diagonal, g * m[1], g * m[2], middle - diagonal)
