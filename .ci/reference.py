@@ -22,7 +22,7 @@ WIDTH = 100
 
 GROUPS = {
     "Conditions and trees": ("derive", "trees", "series", "modified"),
-    "Tableaux": ("check", "solve", "refine", "construct", "convert", "table", "list", "cite"),
+    "Tableaux": ("check", "solve", "extend", "refine", "construct", "convert", "table", "list", "cite"),
     "Integrators": ("emit", "regenerate"),
     "Measurements": ("converge", "localerror", "bench", "longrun", "stability", "recommend", "report"),
 }

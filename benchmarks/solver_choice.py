@@ -23,10 +23,11 @@ from pathlib import Path
 
 from codegen import scenes
 from codegen.build import compile_files, find_compiler
-from codegen.emitter import Compiled, compile_method, emit_compiled, start_of
+from codegen.emitter import Compiled, compile_method, emit_compiled
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.run.solver_choice import AUTO, SWEEPS, Candidate
 from codegen.run.step_cost import Amounts
+from codegen.scene.momentum_frame import start_of
 from orderconds.errors import InputError
 
 HERE = Path(__file__).parent

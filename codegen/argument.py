@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-import numbers
 from collections.abc import Iterable
 from itertools import pairwise
+from numbers import Complex, Integral, Number, Real
 
 MOST = 2**63 - 1
 """The largest count that emitted C takes."""
@@ -21,7 +21,7 @@ def real(x: object, name: str) -> float:
     if type(x) is float:
         return x
     text = isinstance(x, str | bytes)
-    if not text and (isinstance(x, numbers.Real) or not isinstance(x, numbers.Complex)):
+    if not text and (isinstance(x, Real) or not isinstance(x, Complex)):
         try:
             return float(x)  # type: ignore[arg-type]
         except (TypeError, ValueError):
@@ -38,7 +38,7 @@ def count(x: object, name: str, least: int = 0) -> int:
     Traceback (most recent call last):
     TypeError: expected an integer for steps, found 2.0 of type float
     """
-    if not isinstance(x, numbers.Integral) or isinstance(x, bool):
+    if not isinstance(x, Integral) or isinstance(x, bool):
         raise TypeError(f"expected an integer for {name}, found {described(x)}")
     number = int(x)
     if not least <= number <= MOST:
@@ -46,6 +46,13 @@ def count(x: object, name: str, least: int = 0) -> int:
         given = number if abs(number) < 10**30 else "a number of more than 30 digits"
         raise ValueError(f"expected {name} of {bound}, found {given}")
     return number
+
+
+def numbers(inputs: object) -> tuple[float, ...]:
+    """Return the values of run-time inputs that are constant during a step."""
+    if isinstance(inputs, str) or not isinstance(inputs, Iterable):
+        raise TypeError(f"expected a sequence of numbers for inputs, found {described(inputs)}")
+    return tuple(real(x, "inputs") for x in inputs)
 
 
 def monotone(t: float, times: object) -> list[float]:
@@ -72,10 +79,10 @@ def described(x: object) -> str:
     >>> described(1j), described(iter(()))
     ('1j of type complex', 'an object of type tuple_iterator')
     """
-    if not isinstance(x, numbers.Number | str | bytes):
+    if not isinstance(x, Number | str | bytes):
         return f"an object of type {type(x).__name__}"
     try:
-        shown = str(x) if isinstance(x, numbers.Number) else repr(x)
+        shown = str(x) if isinstance(x, Number) else repr(x)
     except ValueError:  # an integer with thousands of digits
         shown = "a number"
     return f"{shown if len(shown) <= 60 else shown[:60] + ' ...'} of type {type(x).__name__}"

@@ -8,7 +8,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from codegen.integrator import Arrival, Begun, Integrator, Signals, Status
+from codegen.arrival import Arrival, Begun, Reached, Signals, Status
+from codegen.event import EventValues
+from codegen.integrator import Integrator
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
 from codegen.run.status import reason
@@ -66,8 +68,57 @@ class CompiledIntegrator(Integrator):
             if status == Status.BAD_STEP:
                 given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
                 why = f"expected finite numbers and no negative tolerance, found {given}"
-            raise begun.failed(status, accepted[0], final, why)
+            failed = begun.failed(status, accepted[0], final, why)
+            failed.arrival = Arrival(
+                failed.state, t[0], h[0], accepted[0], rejected[0], None, (), failed.status
+            )
+            raise failed
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
+
+    def _integrate(
+        self,
+        begun: Begun,
+        values: EventValues,
+        span: tuple[float, float, float],
+        bounds: tuple[float, ...],
+        limit: int,
+        times: Sequence[float],
+    ) -> Reached:
+        interface, size = self.interface, self.interface.size
+        real, new = interface.format.c_type, self._ffi.new
+        state, t, h = new(f"{real}[]", begun.numbers), new(f"{real} *", span[0]), new(f"{real} *", span[2])
+        rows, written = new(f"{real}[]", max(1, len(times)) * size), new("size_t *")
+        counts = [new("size_t *"), new("size_t *")] if interface.controlled else [new("size_t *")]
+        chosen = [h, *bounds] if interface.controlled else [span[2]]
+        buffers = _Buffers(self._ffi, interface, values) if interface.events else None
+        with self._observed(begun) as (sampled, counted):
+            status = getattr(self._library, f"{interface.prefix}integrate")(
+                *(state, t, span[1], *chosen, limit, *begun.values, *sampled),
+                *(list(times), len(times), rows, written),
+                *([] if buffers is None else buffers.arguments),
+                *(*counted, *counts),
+            )
+        why = ""
+        if status not in (Status.OK, Status.EVENT):
+            why = reason(Status(status).name, self._block(counted), span[2])
+        if status == Status.BAD_STEP:
+            given = "t={}, end={}, h={}".format(*span)
+            given += ", rtol={}, atol={}, least={}, greatest={}".format(*bounds) * interface.controlled
+            bounded = "a positive tolerance, and 0 <= least <= greatest"
+            expected = bounded if interface.controlled else "a step size other than 0"
+            why = f"expected finite numbers, {expected}; found {given}"
+        flat = self._ffi.unpack(rows, written[0] * size) if written[0] else []
+        return Reached(
+            status,
+            self._ffi.unpack(state, size),
+            t[0],
+            h[0],
+            [flat[i : i + size] for i in range(0, len(flat), size)],
+            [] if buffers is None else buffers.crossings(),
+            counts[0][0],
+            counts[1][0] if interface.controlled else 0,
+            why,
+        )
 
     def _call_batch(self, table: Any, moment: tuple[float, float, int], values: Any, held: Any) -> Any:
         if not self.interface.batch:
@@ -124,6 +175,41 @@ class CompiledIntegrator(Integrator):
             raise begun.failed(status, 0, begun.numbers, why)
         flat = self._ffi.unpack(matrix, size * size)
         return [flat[i : i + size] for i in range(0, size * size, size)]
+
+
+class _Buffers:
+    """The event functions of a call as a function that C can call, and the arrays for the events."""
+
+    ROOM = 1024
+
+    def __init__(self, ffi: Any, interface: Interface, values: EventValues) -> None:
+        real, size = interface.format.c_type, interface.size
+        self.ffi, self.size = ffi, size
+
+        def write(t: float, state: Any, array: Any, data: Any) -> None:
+            for k, x in enumerate(values(t, ffi.unpack(state, size))):
+                array[k] = x
+
+        self.function = ffi.callback(f"void({real}, const {real} *, {real} *, void *)", write)
+        stops = [event.stops for event in values.events]
+        self.stops = ffi.new("size_t[]", stops + [0] * (interface.events - len(stops)))
+        self.times, self.rows = ffi.new(f"{real}[]", self.ROOM), ffi.new(f"{real}[]", self.ROOM * size)
+        self.numbers, self.count = ffi.new("size_t[]", self.ROOM), ffi.new("size_t *")
+
+    @property
+    def arguments(self) -> list[Any]:
+        """The arguments of the call."""
+        buffers = [self.times, self.rows, self.numbers, self.count]
+        return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
+
+    def crossings(self) -> list[tuple[int, float, int, list[float]]]:
+        """Return the events that the call has found."""
+        n = self.size
+        events = []
+        for k in range(self.count[0]):
+            row = [self.rows[k * n + i] for i in range(n)]
+            events.append((self.numbers[k] // 2, self.times[k], 2 * (self.numbers[k] % 2) - 1, row))
+        return events
 
 
 class _Callback:

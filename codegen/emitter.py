@@ -6,33 +6,31 @@ method and options only, so the same arguments give the same bytes.
 
 from __future__ import annotations
 
-import re
-import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import PurePath
-from typing import Any
+from typing import Any, Unpack
 
 from codegen import scenes
 from codegen.artifact import Artifact, digest
-from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
+from codegen.certify import CertifiedOrder, certified_order
+from codegen.command_names import bare, quoted
 from codegen.error_estimate import order_of_estimate
 from codegen.errors import MethodError
-from codegen.ir.domain import FloatDomain
-from codegen.ir.kernel import Kernel, Loop
-from codegen.ir.precision import DOUBLE, Precision
+from codegen.header_facts import recipe_of
+from codegen.ir.kernel import Kernel
+from codegen.ir.precision import DOUBLE
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
-from codegen.ir.smoothness import features
 from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
+from codegen.kernel.compensation import compensated as add_carries
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
 from codegen.lower import lower, lower_composed, lowering, method_for, problem_for
 from codegen.method import Method
-from codegen.passes import Optimiser, PassReport, optimise, summaries
+from codegen.passes import Optimiser, PassReport, optimise
 from codegen.prefix import default_prefix, prefix_of
 from codegen.printers import DEFAULT
 from codegen.printers import names as target_names
@@ -40,23 +38,14 @@ from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
-from codegen.run.trial import PARTS
+from codegen.run_options import RunOptions, RunRequest, observed_run, refuse_with_carries
 from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
-from codegen.scene.momentum_frame import with_frame
-from codegen.scene.problem import TIME, Problem
+from codegen.scene.momentum_frame import start_of, with_frame
+from codegen.scene.problem import Problem
 from codegen.scene.run_time import with_inputs, with_runtime
-from orderconds import __version__
 from orderconds.argument import named_as_arguments, text, texts
 from orderconds.errors import InputError
 from orderconds.tableau import Tableau
-
-SINGLE_IS = "single: constants are rounded once, implicit stages converge to single precision"
-
-NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
-"""A remark in the header of emitted code, for a scene whose field is not smooth."""
-
-COUNTED = "; the numbers of sweeps above are for double precision"
-"""A remark in the header if the solvers were compared in double precision."""
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
@@ -92,6 +81,8 @@ class Compiled(Optimised):
     solvers: tuple[Choice, ...] = ()
     asked: str = AUTO
     form: ClassicalForm | None = None
+    compensated: bool = False
+    """True if the state contains a carry for each coordinate."""
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
@@ -115,6 +106,7 @@ def compile_method(
     jacobian: bool = False,
     form: str = PRINTED,
     family: str = "",
+    **run: Unpack[RunOptions],
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -124,15 +116,14 @@ def compile_method(
     solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
     embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
-    (:func:`codegen.method.method_of`). Errors: SceneError, MethodError, UnknownName, TableauError.
+    (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
+    times, ``events`` is the number of its event functions, and ``dense`` uses the continuous extension of the
+    tableau at output times. ``compensate`` extends the state by the carries of compensated summation
+    (:mod:`codegen.kernel.compensation`). Errors: SceneError, MethodError, UnknownName,
+    TableauError.
     """
-    scene = scenes.problem_of(scene)
-    parameters = texts(parameters, "parameters", "alpha=1/2")
-    inputs = texts(inputs, "inputs", "u")
-    if parameters:
-        scene = with_runtime(scene, tuple(parameters))
-    if inputs:
-        scene = with_inputs(scene, tuple(inputs))
+    request = RunRequest(**run)
+    scene = _with_arguments(scenes.problem_of(scene), parameters, inputs)
     chosen = find_form(scene, form) if form != PRINTED else None
     scene = with_frame(scene if chosen is None else chosen.problem, frame)
     method = method_for(scene, method, family)
@@ -140,7 +131,7 @@ def compile_method(
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
     if scene.matrices is not None and not lowering(method.family).in_coordinates:
-        return _with_arrays(scene, method, jacobian)
+        return _with_arrays(scene, method, jacobian, request.any)
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates, degree = [], lowering(method.family).degree(method)
@@ -153,9 +144,7 @@ def compile_method(
     if known_solver(solver) and best.kernel.loops:
         kernel, choices = solved(best.program, problem, start_of(scene), solver, best.kernel)
         best = replace(best, kernel=kernel, solvers=choices, asked=solver)
-    if jacobian:
-        vary = to_kernel(best.program, problem, variations=Variations.of(problem))
-        best = replace(best, kernel=replace(best.kernel, vary=vary))
+    best = _with_run(best, degree, jacobian, request)
     if degree and method.adaptive:
         return replace(best, kernel=with_step_control(best.kernel, problem, degree))
     estimate = best.kernel.estimate
@@ -164,22 +153,56 @@ def compile_method(
     return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
 
 
+def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[str]) -> Problem:
+    """Return a scene whose parameters and signals are arguments at run time."""
+    parameters = texts(parameters, "parameters", "alpha=1/2")
+    inputs = texts(inputs, "inputs", "u")
+    scene = with_runtime(scene, tuple(parameters)) if parameters else scene
+    return with_inputs(scene, tuple(inputs)) if inputs else scene
+
+
+def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunRequest) -> Compiled:
+    """Return a compiled method with carries, the derivative of a step and a run to an end time, as
+    requested."""
+    method = compiled.method
+    if request.compensate:
+        others = {"jacobian": jacobian, "adaptive": method.adaptive, "dense": request.dense}
+        refuse_with_carries(method, others)
+        compiled = compensated(compiled)
+    if jacobian:
+        problem = compiled.problem
+        vary = to_kernel(compiled.program, problem, variations=Variations.of(problem))
+        compiled = replace(compiled, kernel=replace(compiled.kernel, vary=vary))
+    if request.observed:
+        observed = observed_run(method, compiled.scene, degree, request.events, request.dense)
+        compiled = replace(compiled, kernel=replace(compiled.kernel, observed=observed))
+    return compiled
+
+
+def compensated(compiled: Compiled) -> Compiled:
+    """Return a compiled method with carries; raise MethodError if the step adds no increment to the state."""
+    kernel = add_carries(compiled.kernel, compiled.program, compiled.problem)
+    return replace(compiled, kernel=kernel, compensated=True)
+
+
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module also has a function that steps many independent systems."""
     return replace(compiled, kernel=replace(compiled.kernel, batch=True))
 
 
-def _with_arrays(scene: Problem, method: Method, jacobian: bool) -> Compiled:
+def _with_arrays(scene: Problem, method: Method, jacobian: bool, run: bool) -> Compiled:
     """Return a method on a scene whose field is given by formulas of matrices."""
-    refused = "step control" if method.adaptive else "the derivative of a step" if jacobian else ""
+    refused = "the derivative of a step" if jacobian else ""
+    refused = refused or "a run to an end time, or compensated summation," * run
     if refused:
-        raise MethodError(
-            f"{refused} for a scene with large matrices",
-            where=scene.name,
-            expected="steps of constant size, without derivatives",
-        )
+        what = f"{refused} for a scene with large matrices"
+        raise MethodError(what, where=scene.name, expected="a scene with formulas in coordinates")
     own = array_method(scene, method)
-    return Compiled(scene, method, scene, own.lowered, own.program, own.trace, own.kernel)
+    kernel = own.kernel
+    if kernel.estimate is not None:
+        order = order_of_estimate(method, scene)
+        kernel = replace(kernel, estimate=replace(kernel.estimate, order=order))
+    return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
 
 
 def work(kernel: Kernel) -> int:
@@ -208,6 +231,7 @@ def emit(
     form: str = PRINTED,
     family: str = "",
     batch: bool = False,
+    **run: Unpack[RunOptions],
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -219,9 +243,12 @@ def emit(
     with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks:
     ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
     classical form of the scene, by default the equations as printed. ``batch`` adds a C function that steps
-    many independent systems (:meth:`codegen.integrator.Integrator.run_batch`). Errors: the errors of
-    :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
-    name in C.
+    many independent systems (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a
+    given end time with output at given times and, if adaptive, bounds on step sizes. ``events`` is the number
+    of event functions of this run; ``dense`` uses the continuous extension of the tableau at output times.
+    ``compensate`` extends the state by the carries of compensated summation, which are zero initially.
+    Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and InputError for a
+    prefix that is not a valid name in C.
     """
     known_target(target)
     known_precision(precision)
@@ -239,6 +266,7 @@ def emit(
             solver=solver,
             form=form,
             family=text(family, "family", "a family, such as rkmk(2)"),
+            **run,
         )
         compiled = with_batch(compiled) if batch else compiled
     named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
@@ -300,54 +328,17 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += ["--adaptive"] if compiled.method.adaptive else []
     options += ["--batch"] if compiled.kernel.batch else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
+    observed = compiled.kernel.observed
+    options += ["--integrate"] if observed is not None and not observed.events else []
+    options += ["--dense"] if observed is not None and observed.extension is not None else []
+    options += [f"--events {observed.events}"] if observed is not None and observed.events else []
+    options += ["--compensate"] if compiled.compensated else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
     # If a parameter with a given value remains a run-time argument, the value is the argument's default.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
-
-
-def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: Precision) -> Recipe:
-    """Return the content of the header of a module."""
-    scene, method = compiled.scene, compiled.method
-    first, last = scene.span
-    single = target is not DOUBLE
-    # A method without a tableau has no coefficients that could be rounded.
-    tableau = method.coefficients is not None
-    digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
-    return Recipe(
-        title=f"{scene.title}: one step by {method.label}",
-        facts=(
-            ("method", method.described),
-            ("source", method.source),
-            *coordinates_of(compiled),
-            ("order", order.text()),
-            *digits,
-            *scene_facts(compiled),
-            *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
-            *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
-            *(("solved by", choice.text()) for choice in compiled.solvers),
-            *((("precision", SINGLE_IS + COUNTED * bool(compiled.solvers)),) if single else ()),
-            *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
-        ),
-        initial=start_of(scene),
-        h=float((last - first) / PARTS),
-        steps=PARTS,
-        defaults={p: float(scene.parameters[p]) for p in scene.runtime},
-        left_out=left_out(compiled),
-        command=command,
-        version=__version__,
-    )
-
-
-def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
-    """Return the sentence about the coordinate map of the scene, if the method uses the map."""
-    used = compiled.scene.coordinates if lowering(compiled.method.family).reads_coordinates else None
-    if used is None:
-        return ()
-    unread = f"; the cut-off {compiled.method.cutoff} is not read, because nothing is truncated"
-    return (("coordinates", used.text + unread * (compiled.method.cutoff is not None)),)
 
 
 def emit_kernel(
@@ -386,88 +377,3 @@ def emit_kernel(
         "version": recipe.version,
     }
     return Artifact(files, manifest)
-
-
-def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the lines of the header about the scene, and about the form of its equations."""
-    form = compiled.form
-    chosen = features(compiled.scene.roots)
-    smooth = (("smooth", f"no: {chosen}; {NOT_SMOOTH}"),) if chosen else ()
-    if form is None:
-        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"), *smooth)
-    return (
-        *smooth,
-        ("scene", f"{form.scene.title}, group {form.scene.group.name}"),
-        ("form", f"{form.name}; {form.state}"),
-        *((("to scene", form.conversion),) if form.conversion else ()),
-    )
-
-
-def steps_of(kernel: Kernel) -> str:
-    """Describe the step control of a run."""
-    if kernel.expansion is not None:
-        last = kernel.expansion.degree
-        return f"constant, or chosen from the Taylor coefficients {last - 1} and {last} of each step"
-    assert kernel.estimate is not None
-    return (
-        f"constant, or chosen by a proportional-integral controller with an error estimate "
-        f"of order O(h^{kernel.estimate.order}) by the embedded method"
-    )
-
-
-def substeps_of(kernel: Kernel) -> str:
-    """Describe the substeps of a step."""
-    each = ", ".join(f"{float(step.fraction):.6g}" for step in kernel.substeps)
-    return f"{len(kernel.substeps)} calls of one function, with step sizes {each} times h"
-
-
-def start_of(scene: Problem) -> tuple[float, ...]:
-    """Return the initial state in the format of emitted code."""
-    domain = FloatDomain(0.0)
-    state = tuple(float(x) for x in scene.initial(domain))
-    if scene.body_group is None:
-        return state
-    q, mu = state[: scene.body_group.size], state[scene.body_group.size :]
-    return (*q, *scene.body_group.Adt(domain, q, mu))
-
-
-def left_out(compiled: Compiled) -> tuple[str, ...]:
-    """Return a line for each simplification that this scene and method allow."""
-    kernel, scene = compiled.kernel, compiled.scene
-    lines = [*summaries(compiled.trace)]
-    folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
-    if folded:
-        lines.append(f"arguments for parameters, which are constants: {', '.join(folded)}")
-    closed = [name for name in scene.signals if name not in scene.inputs]
-    if closed:
-        lines.append(f"run-time inputs: {', '.join(closed)} computed by formula")
-    if TIME not in kernel.used_scalars():
-        lines.append("the time: the scene does not depend on it")
-    if not any(isinstance(s, Loop) for s in kernel.body):
-        lines.append("equation solving: every stage is explicit")
-    return tuple(lines)
-
-
-def flows_of(problem: Problem) -> str:
-    """Describe the exact flows that a splitting composes."""
-    return "; ".join(f"{name}, {flow.text()}" for name, flow in problem.flows.items())
-
-
-def bare(name: str) -> str:
-    """Return a name without folders, because emitted text must not contain a path of the machine.
-
-    >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
-    ('vcg:mine.toml', 'top.py')
-    """
-    name, bracket, values = name.partition("[")
-    family, colon, rest = name.rpartition(":") if re.match(r"[a-z_]+(\(\d+\))?:", name) else ("", "", name)
-    return f"{family}{colon}{PurePath(rest).name}{bracket}{values}"
-
-
-def quoted(word: str) -> str:
-    """Quote a word if a shell would otherwise interpret characters in it.
-
-    >>> quoted("rkmk(2):rk4"), quoted("linear_oscillator+u")
-    ("'rkmk(2):rk4'", 'linear_oscillator+u')
-    """
-    return shlex.quote(word)

@@ -7,106 +7,29 @@ array with one state in each row (:mod:`codegen.state_form`). Results have the f
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from enum import IntEnum
+from abc import abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 from codegen import lanes
-from codegen.argument import count, described, monotone, real
+from codegen.argument import count, described, monotone, numbers, real
+from codegen.arrival import Arrival as Arrival
+from codegen.arrival import Begun, joined
+from codegen.arrival import Signals as Signals
+from codegen.arrival import Statistics as Statistics
+from codegen.arrival import Status as Status
+from codegen.arrival import StepFailed as StepFailed
 from codegen.artifact import Artifact
-from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.lanes import BatchRun
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
-from codegen.state_form import Batch, Fields, State, StateForm, batch_of, read
-
-Signals = Callable[[float], Sequence[float]]
-"""A function from the time to the run-time inputs."""
+from codegen.run_to_end import RunToEnd
+from codegen.state_form import Fields, State, batch_of, read
 
 
-SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
-"""The solvers of implicit blocks, the most robust first."""
-
-
-class Status(IntEnum):
-    """The result of a step; emitted code returns these numbers."""
-
-    OK = 0
-    NOT_CONVERGED = 1
-    NOT_FINITE = 2
-    BAD_STEP = 3
-    LIMIT = 4
-    TOO_FAR = 5
-    SINGULAR = 6
-    TOO_SHORT = 7
-
-
-class StepFailed(ArithmeticError):
-    """The error of a failed step: its status, the number of steps completed before it, and the state after
-    these steps."""
-
-    def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
-        super().__init__(f"step {step + 1}: {reason}")
-        self.status, self.step, self.state, self.reason = status, step, state, reason
-
-
-@dataclass(frozen=True)
-class Arrival:
-    """The result of an adaptive run: the last state and its time, the proposed size of the next step, and the
-    numbers of accepted and rejected steps."""
-
-    state: State
-    t: float
-    h: float
-    accepted: int
-    rejected: int
-    states: State = None
-    """The states at the times ``t_eval``; None without such times."""
-
-
-@dataclass
-class Statistics:
-    """Counts of a run: ``sweeps`` of each block in all steps, and ``most``, the largest number of sweeps of a
-    block in one step. ``failed`` is the index of the block that failed, counted from 1, or 0 if no block
-    failed.
-
-    ``matrices`` is the number of Newton matrices that were computed.
-    """
-
-    sweeps: list[int] = field(default_factory=list)
-    most: int = 0
-    failed: int = 0
-    matrices: int = 0
-
-
-@dataclass(frozen=True)
-class Begun:
-    """The checked arguments of a call: the form of the state, the numbers of the state, the parameter values,
-    the inputs and the statistics."""
-
-    form: StateForm
-    numbers: list[float]
-    values: list[float]
-    inputs: Signals | None = None
-    statistics: Statistics | None = None
-    solvers: tuple[str, ...] = ()
-
-    def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
-        """Return the error of a failed step; its state has the type of the caller's state.
-
-        If an implicit block did not converge, the message names the other solvers.
-        """
-        if status == Status.NOT_CONVERGED:
-            others = [s for s in SOLVERS if s not in self.solvers]
-            options = f", or emit with the solver {' or '.join(others)}" if others else ""
-            reason += f"; take shorter steps{options}"
-        return StepFailed(Status(status), step, self.form.restore(state), reason)
-
-
-class Integrator(ABC):
+class Integrator(RunToEnd):
     """A loaded module: ``interface`` lists its arguments, ``defaults`` the scene's parameter values."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
@@ -164,7 +87,7 @@ class Integrator(ABC):
 
         ``inputs`` are the run-time inputs, in the interface's order; they are constant during the step.
         """
-        held = None if inputs is None else _numbers(inputs)
+        held = None if inputs is None else numbers(inputs)
         function = None if held is None else lambda t: held
         return self.run(state, h, 1, t, statistics, function, **parameters)
 
@@ -283,7 +206,7 @@ class Integrator(ABC):
                 self.adaptive(x, t, end, h, inputs=inputs, t_eval=t_eval, **options, **parameters)  # type: ignore[arg-type]
                 for x in batch.states
             ]
-            return _joined(arrivals, batch)
+            return joined(arrivals, batch)
         tolerances = (real(rtol, "rtol"), real(atol, "atol"))
         begun = self._begin(state, parameters, inputs, statistics)
         if times is None:
@@ -393,9 +316,9 @@ class Integrator(ABC):
             raise TypeError("this module has no derivative of its step; emit it with jacobian=True")
         if bool(self.interface.inputs) != (inputs is not None):
             raise TypeError(f"expected values for {', '.join(self.interface.inputs) or 'no inputs'}")
-        held = None if inputs is None else list(_numbers(inputs))
-        form, numbers = read(state, self.interface.size, self.fields)
-        begun = Begun(form, numbers, self._values(parameters), solvers=self.interface.solvers)
+        held = None if inputs is None else list(numbers(inputs))
+        form, values = read(state, self.interface.size, self.fields)
+        begun = Begun(form, values, self._values(parameters), solvers=self.interface.solvers)
         return form.matrix(self._derive(begun, real(t, "t"), real(h, "h"), held))
 
     def _begin(
@@ -414,10 +337,10 @@ class Integrator(ABC):
             raise TypeError(f"expected a function of the time for inputs, found {described(inputs)}")
         if statistics is not None and not isinstance(statistics, Statistics):
             raise TypeError(f"expected Statistics for statistics, found {described(statistics)}")
-        form, numbers = read(state, self.interface.size, self.fields)
+        form, values = read(state, self.interface.size, self.fields)
         return Begun(
             form,
-            numbers,
+            values,
             self._values(parameters),
             inputs,
             statistics,
@@ -461,13 +384,6 @@ class Integrator(ABC):
         """Run with step control; ``span`` is (t, end, h)."""
 
 
-def _numbers(inputs: object) -> tuple[float, ...]:
-    """Return the values of run-time inputs that are constant during a step."""
-    if isinstance(inputs, str) or not isinstance(inputs, Iterable):
-        raise TypeError(f"expected a sequence of numbers for inputs, found {described(inputs)}")
-    return tuple(real(x, "inputs") for x in inputs)
-
-
 def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
     """Return the name and the values of each run-time input of a batch."""
     import numpy as np
@@ -480,14 +396,6 @@ def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, 
             f"expected inputs of shape ({len(names)},) or ({number}, {len(names)}), found {table.shape}"
         )
     return [(name, table[..., k]) for k, name in enumerate(names)]
-
-
-def _joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
-    """Return the result of adaptive runs from all states of a batch."""
-    last = arrivals[-1]
-    states = None if last.states is None else batch.joined([x.states for x in arrivals])
-    accepted, rejected = sum(x.accepted for x in arrivals), sum(x.rejected for x in arrivals)
-    return Arrival(batch.joined([x.state for x in arrivals]), last.t, last.h, accepted, rejected, states)
 
 
 def _loaded(

@@ -7,7 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from codegen.integrator import Arrival, Begun, Integrator
+from codegen.arrival import Arrival, Begun, Reached
+from codegen.event import EventValues
+from codegen.integrator import Integrator
 from codegen.printers.interface import Interface
 
 
@@ -40,6 +42,39 @@ class InterpretedIntegrator(Integrator):
                 *self.module.run_adaptive(begun.numbers, t, end, *sampled, h, **keywords, **counted)
             )
 
+    def _integrate(
+        self,
+        begun: Begun,
+        values: EventValues,
+        span: tuple[float, float, float],
+        bounds: tuple[float, ...],
+        limit: int,
+        times: Sequence[float],
+    ) -> Reached:
+        interface, (t, end, h) = self.interface, span
+        sampled = [] if begun.inputs is None else [begun.inputs]
+        keywords: dict[str, Any] = dict(zip(interface.parameters, begun.values, strict=True))
+        keywords |= {"limit": limit, "times": times}
+        if interface.controlled:
+            keywords |= dict(zip(("rtol", "atol", "least", "greatest"), bounds, strict=True))
+        if interface.events:
+            keywords |= {"event": values, "stops": [event.stops for event in values.events]}
+        counts = self.module.Statistics() if interface.blocks else None
+        if counts is not None:
+            keywords["statistics"] = counts
+        why = ""
+        try:
+            done = self.module.integrate(begun.numbers, t, end, *sampled, h, **keywords)
+        except self.module.StepFailed as failure:
+            done, why = failure.arrival, failure.reason
+        finally:
+            self._count(counts, begun.statistics)
+        events = [(k, time, direction, state) for time, k, direction, state in done.events]
+        return Reached(
+            *(done.status, done.state, done.t, done.h, done.rows, events),
+            *(done.accepted, done.rejected, why),
+        )
+
     def _derive(self, begun: Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
         time, inputs = [t] if self.interface.time else [], [] if held is None else [held]
         try:
@@ -55,6 +90,11 @@ class InterpretedIntegrator(Integrator):
         try:
             yield {} if counts is None else {"statistics": counts}
         except self.module.StepFailed as failure:
-            raise begun.failed(failure.status, failure.step, failure.state, failure.reason) from None
+            failed = begun.failed(failure.status, failure.step, failure.state, failure.reason)
+            if hasattr(failure, "t"):
+                # The number of rejected steps is not stored in the error.
+                state, status = failed.state, failed.status
+                failed.arrival = Arrival(state, failure.t, failure.h, failure.step, 0, None, (), status)
+            raise failed from None
         finally:
             self._count(counts, begun.statistics)

@@ -147,8 +147,11 @@ class Method:
             return None
         lower = self.tableau.lower()
         if not self.kind.fixed_stages:
+            # Symplectic and variational methods conserve their modified energy for steps of equal size only.
             raise MethodError(
-                f"an estimate of the error for {self.label}",
+                f"no error estimate for {self.label}: its stages depend on the weights, so an embedded row "
+                "cannot use them; with steps of varying size the method would also lose what it preserves "
+                "over long times",
                 expected=f"a method of {', '.join(with_estimate())}",
             )
         if self.kind.minimal_brackets and self.cutoff is None:

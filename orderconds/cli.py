@@ -48,6 +48,7 @@ BUILT_IN = {
         "Convert a tableau from and to JSON, CSV, NumPy, SymPy, LaTeX and C arrays.",
     ),
     "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
+    "extend": ("orderconds.commands.extend", "Find a continuous extension of a Runge-Kutta method."),
     "list": ("orderconds.commands.list", "List families, tableaux, groups and scenes."),
     "modified": ("orderconds.commands.modified", "Print the modified equation of a method."),
     "refine": (

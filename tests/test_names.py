@@ -41,8 +41,7 @@ EXCEPTIONS = {
         "orderconds/words/lie_series.py",
         "SERIES",
     ): "the registry of Lie series, one named as a family",
-    ("codegen/groups/__init__.py", "LISTED"): "the registry of groups",
-    ("codegen/groups/__init__.py", ""): "the module of each group, for lazy imports",
+    ("codegen/groups/__init__.py", "LISTED"): "the registry of groups and their modules",
     ("codegen/scenes/__init__.py", "GALLERY"): "the registry of scenes",
     (
         "codegen/lab/default_methods.py",

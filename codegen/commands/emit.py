@@ -12,7 +12,12 @@ from orderconds.commands.names import completing
 from orderconds.commands.place import FOLDER
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from typing import Unpack
+
+    from codegen.artifact import Artifact
     from codegen.emitter import Compiled
+    from codegen.run_options import RunOptions
 
 
 @click.command(name="emit", short_help="Write a specialised integrator for a scene.")
@@ -58,6 +63,28 @@ if TYPE_CHECKING:
     help="Also emit a function with step-size control; the embedded row of the tableau estimates the error.",
 )
 @click.option(
+    "--integrate",
+    is_flag=True,
+    help="Also emit a run to a given end time: output at given times, bounds on steps, resuming.",
+)
+@click.option(
+    "--dense",
+    is_flag=True,
+    help="Compute output inside steps by the continuous extension of the tableau; implies --integrate.",
+)
+@click.option(
+    "--events",
+    type=click.IntRange(0),
+    default=0,
+    metavar="N",
+    help="Number of event functions whose zeros the run of --integrate finds; implies --integrate.",
+)
+@click.option(
+    "--compensate",
+    is_flag=True,
+    help="Use compensated summation: the state also contains the rounding error of each coordinate.",
+)
+@click.option(
     "--precision", default="double", help="Floating-point precision: double (the default) or single."
 )
 @click.option(
@@ -88,6 +115,7 @@ def command(
     solver: str,
     explain: bool,
     as_json: bool,
+    **run: Unpack[RunOptions],
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
@@ -103,34 +131,48 @@ def command(
         orderconds emit dipole -m vcg:midpoint -t c -t python -o out
         orderconds emit driven_spin -m ambient:dop853 --adaptive --parameter nu -o out
     """
-    from codegen.emitter import bare, compile_method, emit_compiled, with_batch
+    from codegen.command_names import bare
+    from codegen.emitter import compile_method, emit_compiled, with_batch
     from codegen.printers import DEFAULT
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing; name the folder to write to, or give --explain or --json")
     _require_known(targets, precision)
+    options = {"solver": solver, "form": form}
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
+        scene, method, parameters, inputs, frame, adaptive, jacobian=jacobian, **options, **run
     )
     compiled = with_batch(compiled) if batch else compiled
     _warn(compiled, scene, method)
     if chosen := family_note(compiled, method):
         click.echo(f"note: {chosen}", err=True)
     named = {"scene": bare(scene), "method": bare(method)}
-    records: list[dict[str, object]] = []
     if explain and not as_json:
         click.echo(explanation(compiled))
-    for name in targets or (DEFAULT,):
-        artifact = emit_compiled(compiled, name, prefix, named, precision=precision)
+    artifacts = [
+        emit_compiled(compiled, name, prefix, named, precision=precision) for name in targets or (DEFAULT,)
+    ]
+    _write(artifacts, output, bool(chosen), as_json, explained(compiled) if explain and as_json else {})
+    return 0
+
+
+def _write(
+    artifacts: Sequence[Artifact],
+    output: str | None,
+    family_chosen: bool,
+    as_json: bool,
+    more: Mapping[str, object],
+) -> None:
+    """Write the files of modules, and print their paths, or one JSON record for each module."""
+    records: list[dict[str, object]] = []
+    for artifact in artifacts:
         paths = [str(path) for path in artifact.write(output)] if output is not None else []
-        records.append({**artifact.manifest, "family_chosen": bool(chosen), "paths": paths})
+        records.append({**artifact.manifest, "family_chosen": family_chosen, "paths": paths, **more})
         if not as_json:
             for path in paths:
                 click.echo(path)
     if as_json:
-        more = explained(compiled) if explain else {}
-        screen.print_json([record | more for record in records])
-    return 0
+        screen.print_json(records)
 
 
 def _require_known(targets: tuple[str, ...], precision: str) -> None:
@@ -190,7 +232,7 @@ def explanation(compiled: Compiled) -> str:
     """Return a text with the program before the first compiler pass, the program after each pass, the
     operation counts and the simplifications.
     """
-    from codegen.emitter import left_out
+    from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations
 
     parts = [f"# lowered: {counted(compiled.lowered.counts())}\n{compiled.lowered.text()}"]

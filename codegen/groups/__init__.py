@@ -10,26 +10,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeVar
 
 from codegen.errors import SceneError
+from codegen.groups import actions
+from codegen.groups.actions import *  # noqa: F403
 from codegen.groups.registry import Registry
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
-    from codegen.groups.actions import (
-        Action,
-        AdjointAction,
-        AffineAction,
-        CoadjointAction,
-        Columns,
-        Conjugation,
-        DiagonalAction,
-        FactorwiseAction,
-        LeftMultiplication,
-        Linear,
-        Motion,
-        RightMultiplication,
-        Rotation,
-        Stiefel,
-    )
+    from codegen.groups.actions import Action
     from codegen.groups.affine import Affine
     from codegen.groups.base import LieGroup
     from codegen.groups.cotangent import Cotangent
@@ -66,30 +53,16 @@ __all__ = [
     "SO3",
     "SU",
     "SU2",
-    "Action",
-    "AdjointAction",
     "Affine",
-    "AffineAction",
-    "CoadjointAction",
-    "Columns",
-    "Conjugation",
     "Cotangent",
-    "DiagonalAction",
-    "FactorwiseAction",
     "Galilean",
     "Heisenberg",
-    "LeftMultiplication",
     "LieGroup",
-    "Linear",
     "MatrixGroup",
-    "Motion",
     "Product",
-    "RightMultiplication",
     "Rn",
-    "Rotation",
     "Semidirect",
     "Sp",
-    "Stiefel",
     "Unitary",
     "Unitriangular",
     "get",
@@ -98,75 +71,38 @@ __all__ = [
     "unregister",
 ]
 
-LISTED = (
-    "Affine",
-    "Cotangent",
-    "Galilean",
-    "GL",
-    "Heisenberg",
-    "MatrixGroup",
-    "Product",
-    "Rn",
-    "S3",
-    "SE2",
-    "SE23",
-    "SE3",
-    "Semidirect",
-    "SL",
-    "SL2",
-    "SO",
-    "SO2",
-    "SO3",
-    "Sp",
-    "SU",
-    "SU2",
-    "Unitary",
-    "Unitriangular",
-)
+__all__ += actions.__all__
 
-lazy(
-    __name__,
-    actions=(
-        "Action",
-        "AdjointAction",
-        "AffineAction",
-        "CoadjointAction",
-        "Columns",
-        "Conjugation",
-        "FactorwiseAction",
-        "DiagonalAction",
-        "LeftMultiplication",
-        "Linear",
-        "Motion",
-        "RightMultiplication",
-        "Rotation",
-        "Stiefel",
-    ),
-    affine=("Affine",),
-    base=("LieGroup",),
-    cotangent=("Cotangent",),
-    galilean=("Galilean",),
-    gl=("GL",),
-    matrix=("MatrixGroup",),
-    product=("Product",),
-    rn=("Rn",),
-    s3=("S3",),
-    se2=("SE2",),
-    se23=("SE23",),
-    se3=("SE3",),
-    semidirect=("Semidirect",),
-    sl2=("SL2",),
-    so2=("SO2",),
-    so3=("SO3",),
-    su2=("SU2",),
-    sl=("SL",),
-    so=("SO",),
-    sp=("Sp",),
-    unitary=("SU", "Unitary"),
-    unitriangular=("Heisenberg", "Unitriangular"),
-)
+LISTED: dict[str, tuple[str, ...]] = {
+    "affine": ("Affine",),
+    "cotangent": ("Cotangent",),
+    "galilean": ("Galilean",),
+    "gl": ("GL",),
+    "matrix": ("MatrixGroup",),
+    "product": ("Product",),
+    "rn": ("Rn",),
+    "s3": ("S3",),
+    "se2": ("SE2",),
+    "se23": ("SE23",),
+    "se3": ("SE3",),
+    "semidirect": ("Semidirect",),
+    "sl": ("SL",),
+    "sl2": ("SL2",),
+    "so": ("SO",),
+    "so2": ("SO2",),
+    "so3": ("SO3",),
+    "sp": ("Sp",),
+    "su2": ("SU2",),
+    "unitary": ("SU", "Unitary"),
+    "unitriangular": ("Heisenberg", "Unitriangular"),
+}
+"""The names of the group classes of each module. A line of this table registers a group."""
 
-GROUPS: Registry[LieGroup] = Registry("group", __name__, LISTED)
+lazy(__name__, base=("LieGroup",), **LISTED)
+
+GROUPS: Registry[LieGroup] = Registry(
+    "group", __name__, sorted((name for names in LISTED.values() for name in names), key=str.lower)
+)
 
 Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 
@@ -203,7 +139,7 @@ def unregister(cls: type[LieGroup] | type[Action]) -> None:
 
 
 def listing() -> list[dict[str, str]]:
-    """Return name and first docstring line of every group, for ``orderconds list groups``."""
+    """Return name and first docstring paragraph of every group, for ``orderconds list groups``."""
     return GROUPS.listing()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codegen.groups.construction import check_size
 from codegen.groups.linear_algebra import S, Vector
 from codegen.groups.matrix import MatrixGroup
 from codegen.groups.unit_matrices import elementary
@@ -16,6 +17,7 @@ class Affine(MatrixGroup):
     """
 
     def __init__(self, n: int) -> None:
+        check_size("Affine", n, 1)
         basis = [elementary(n + 1, (i, j)) for i in range(n) for j in range(n + 1)]
         super().__init__(f"Aff({n})", basis)
 

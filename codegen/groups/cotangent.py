@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from codegen.groups.base import C, LieGroup
 from codegen.groups.capabilities import Coadjoint, CotangentBundle, Inverse, Projection
+from codegen.groups.construction import check_factor
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
@@ -20,6 +21,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     """
 
     def __init__(self, base: LieGroup) -> None:
+        check_factor("a cotangent bundle", base)
         self.base = base.require(Coadjoint)
         # Parentheses distinguish T*(G x H) from T*G x H.
         self.name = f"T*({base.name})" if " x " in base.name else f"T*{base.name}"

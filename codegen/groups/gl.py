@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codegen.groups.construction import check_size
 from codegen.groups.matrix import MatrixGroup
 from codegen.groups.unit_matrices import elementary
 
@@ -10,4 +11,5 @@ class GL(MatrixGroup):
     """Invertible n x n matrices; the algebra has the elementary matrices E_ij as its basis, row by row."""
 
     def __init__(self, n: int) -> None:
+        check_size("GL", n, 1)
         super().__init__(f"GL({n})", [elementary(n, (i, j)) for i in range(n) for j in range(n)])

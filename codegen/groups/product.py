@@ -18,6 +18,7 @@ from codegen.groups.capabilities import (
     Projection,
     RightTrivialisation,
 )
+from codegen.groups.construction import check_factor
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
@@ -38,6 +39,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def __init__(self, *factors: LieGroup) -> None:
         if not factors:
             raise SceneError("a product without factors", expected="one group at least")
+        for factor in factors:
+            check_factor("a product", factor)
         self.factors = factors
         self.name = " x ".join(f.name for f in factors)
         self.dim, self.size = sum(f.dim for f in factors), sum(f.size for f in factors)

@@ -58,5 +58,10 @@ class Registry(Generic[T]):
         return cls
 
     def listing(self) -> list[dict[str, str]]:
-        """Return name and first docstring line of every class."""
-        return [{"name": n, "about": (self.get(n).__doc__ or "").partition("\n")[0]} for n in self.names]
+        """Return name and first paragraph of the docstring of every class."""
+        return [{"name": n, "about": _first_paragraph(self.get(n).__doc__ or "")} for n in self.names]
+
+
+def _first_paragraph(text: str) -> str:
+    """Return the first paragraph of a docstring as one line."""
+    return " ".join(text.strip().partition("\n\n")[0].split())

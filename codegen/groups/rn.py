@@ -12,6 +12,7 @@ from codegen.groups.capabilities import (
     Projection,
     RightTrivialisation,
 )
+from codegen.groups.construction import check_size
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
@@ -25,6 +26,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
     """
 
     def __init__(self, n: int) -> None:
+        check_size("Rn", n, 1)
         self.dim = self.size = n
         self.name = f"R^{n}"
 

@@ -6,8 +6,10 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING
 
+from codegen.errors import SceneError
 from codegen.groups.base import C, LieGroup
 from codegen.groups.capabilities import (
+    BodyFrame,
     CayleyMap,
     ClosedFormSeries,
     Coadjoint,
@@ -20,6 +22,7 @@ from codegen.groups.capabilities import (
     RightTrivialisation,
     Term,
 )
+from codegen.groups.construction import check_factor
 from codegen.groups.cubic_ad import DEXP
 from codegen.groups.linear_algebra import S, Vector
 from codegen.groups.representations import Pair, Representation
@@ -33,7 +36,7 @@ if TYPE_CHECKING:
 
 class Semidirect(
     ClosedFormSeries,
-    LeftTranslation,
+    BodyFrame,
     RightTrivialisation,
     Projection,
     PointMotions,
@@ -54,6 +57,12 @@ class Semidirect(
     covering_formula = "the image of q in the linear factor; the vectors are those of q"
 
     def __init__(self, linear: LieGroup, representation: Representation, name: str = "") -> None:
+        check_factor("a semidirect product", linear)
+        if not isinstance(representation, Representation):
+            raise SceneError(
+                f"the representation {representation!r} of {linear.name}",
+                expected="an object of codegen.groups.representations, such as MatrixColumns()",
+            )
         linear.require(representation.needs)
         self.linear, self.representation = linear.require(Coadjoint), representation
         self.width = representation.dim(linear)
@@ -154,6 +163,20 @@ class Semidirect(
         turned = self.point_velocity(d, x, moved, translated=False)
         tail = _difference(moved, tuple(half * c for c in turned))
         return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
+
+    def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return (x y x, x.(y.u))."""
+        (a, u), b = self._split(x), self._split(y)[0]
+        inner = self.point_velocity(d, y, u, translated=False)
+        tail = self.point_velocity(d, x, inner, translated=False)
+        return self.linear.require(CayleyMap).sandwich(d, a, b) + tail
+
+    def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return (g exp x, a + rho(g) phi(x) u)."""
+        (q, a), (y, u) = self._element(g), self._split(x)
+        moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
+        ahead = self._each(lambda v: self.representation.act(d, self.linear, q, v), moved)
+        return self.linear.require(BodyFrame).mulexp(d, q, y) + _sum(a, ahead)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return ([x, y], x.v - y.u)."""

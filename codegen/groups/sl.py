@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codegen.groups.construction import check_size
 from codegen.groups.linear_algebra import S, Vector, determinant
 from codegen.groups.matrix import MatrixGroup
 from codegen.groups.unit_matrices import difference, elementary
@@ -16,6 +17,7 @@ class SL(MatrixGroup):
     """
 
     def __init__(self, n: int) -> None:
+        check_size("SL", n, 2)
         basis = [elementary(n, (i, j)) for i in range(n) for j in range(n) if i != j]
         diagonal = [difference(n, (i, i), (i + 1, i + 1)) for i in range(n - 1)]
         super().__init__(f"SL({n})", [*basis, *diagonal])

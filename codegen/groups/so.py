@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codegen.groups.construction import check_size
 from codegen.groups.linear_algebra import S, Vector, determinant
 from codegen.groups.matrix import RotationGroup
 from codegen.groups.unit_matrices import difference
@@ -14,6 +15,7 @@ class SO(RotationGroup):
     """
 
     def __init__(self, n: int) -> None:
+        check_size("SO", n, 2)
         pairs = [(i, j) for i in range(n) for j in range(i + 1, n)]
         super().__init__(f"SO({n})", [difference(n, (j, i), (i, j)) for i, j in pairs])
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from codegen.errors import SceneError
+from codegen.groups.construction import check_size
 from codegen.groups.matrix import IsometryGroup
 from codegen.groups.unit_matrices import difference, elementary
 
@@ -15,8 +16,9 @@ class Sp(IsometryGroup):
     """
 
     def __init__(self, rows: int) -> None:
+        check_size("Sp", rows, 2)
         n = rows // 2
-        if rows < 2 or rows % 2:
+        if rows % 2:
             raise SceneError(f"Sp({rows})", expected="an even number of rows, as in Sp(4)")
         self.form = tuple((i + n, 1) if i < n else (i - n, -1) for i in range(rows))
         every = [(i, j) for i in range(n) for j in range(n)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from codegen.groups.construction import check_size
 from codegen.groups.linear_algebra import S, Vector
 from codegen.groups.matrix import RotationGroup
 from codegen.ir.domain import Domain
@@ -18,6 +19,7 @@ class Unitary(RotationGroup):
     """
 
     def __init__(self, n: int) -> None:
+        check_size("Unitary", n, 1)
         self._generate(f"U({n})", n, [{(j, j): 1} for j in range(n)])
 
     def _generate(self, name: str, n: int, diagonal: Sequence[dict[tuple[int, int], int]]) -> None:
@@ -47,6 +49,7 @@ class SU(Unitary):
     """
 
     def __init__(self, n: int) -> None:
+        check_size("SU", n, 2)
         self._generate(f"SU({n})", n, [{(j, j): 1, (j + 1, j + 1): -1} for j in range(n - 1)])
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codegen.groups.construction import check_size
 from codegen.groups.linear_algebra import S, Vector
 from codegen.groups.matrix import MatrixGroup
 from codegen.groups.unit_matrices import Place, elementary
@@ -15,6 +16,7 @@ class Unitriangular(MatrixGroup):
     """
 
     def __init__(self, n: int) -> None:
+        check_size("Unitriangular", n, 2)
         self.places: list[Place] = [(i, j) for i in range(n) for j in range(i + 1, n)]
         super().__init__(f"UT({n})", [elementary(n, place) for place in self.places])
 
@@ -35,6 +37,7 @@ class Heisenberg(Unitriangular):
     """
 
     def __init__(self, n: int) -> None:
+        check_size("Heisenberg", n, 1)
         last = n + 1
         row, column = [(0, k) for k in range(1, last)], [(k, last) for k in range(1, last)]
         self.places = [*row, *column, (0, last)]

@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, replace
 
-from codegen.ir.domain import Domain, Scalar
-from codegen.ir.expr import Expr, evaluate
+from codegen.ir.domain import Domain, ExprDomain, Scalar
+from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
 
 ROW, COLUMN = "row.index", "column.index"
@@ -110,12 +110,17 @@ class ConstantMatrix:
 def _valued(
     domain: Domain, symbols: Mapping[str, Scalar], places: Sequence[tuple[int, int]], entry: Entry
 ) -> Iterator[tuple[int, int, Scalar]]:
-    for k, (i, j) in enumerate(places):
-        if isinstance(entry, tuple):
-            yield i, j, domain.number(entry[k])
-            continue
-        indices = {ROW: domain.rational(i), COLUMN: domain.rational(j)}
-        yield i, j, evaluate([entry], domain, {**symbols, **indices})[0]
+    if isinstance(entry, tuple):
+        yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
+        return
+    formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
+    kept = {s: entry.space.sym(s) for s in read}
+    for i, j in places:
+        # The indices are replaced first. A selection such as the least index is then known, and its formula
+        # is smooth.
+        indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
+        formula = evaluate([entry], formulas, {**kept, **indices})
+        yield i, j, evaluate(formula, domain, symbols)[0]
 
 
 @dataclass(frozen=True)

@@ -58,7 +58,7 @@ class Move:
         """The number of additions and multiplications if phi has :data:`TERMS` terms."""
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        products = m**3 + m * m + m * k * rows + (TERMS + 1) * m * m * k
+        products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 
 
@@ -67,15 +67,21 @@ StepStatement = ArrayStatement | AddUnit | Move
 
 @dataclass(frozen=True)
 class ArrayStep:
-    """The statements of one step: they compute the matrix ``result`` from the matrix ``argument``."""
+    """The statements of one step: they compute the matrix ``result`` from the matrix ``argument``.
+
+    ``estimate`` are further statements, which compute the difference ``error`` between the result and an
+    embedded solution.
+    """
 
     argument: Matrix
     body: tuple[StepStatement, ...]
     result: Matrix
+    estimate: tuple[ArrayStatement, ...] = ()
+    error: Matrix | None = None
 
     def expressions(self) -> Iterator[Expr]:
         """Yield the scalars of the statements."""
-        for statement in self.body:
+        for statement in (*self.body, *self.estimate):
             if isinstance(statement, Combination):
                 yield from (term.coefficient for term in statement.terms)
             elif isinstance(statement, Apply):
@@ -88,7 +94,7 @@ class ArrayStep:
     def operations(self) -> dict[str, int]:
         """Return the number of additions and multiplications, with :data:`TERMS` terms of phi."""
         total = {"add": 0, "mul": 0}
-        for statement in self.body:
+        for statement in (*self.body, *self.estimate):
             match statement:
                 case AddUnit(target=target):
                     own = {"add": target.rows}

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
-from typing import cast
+from typing import SupportsFloat, cast
 
 from codegen.ir.domain import Differenced, Domain, NotConverged, Scalar, Value
 from codegen.ir.operations import Adjoint, Problem
@@ -181,7 +181,7 @@ def _iterate(
             return
         for unknown, image in zip(block.unknowns, block.images, strict=True):
             env[unknown] = env[image]
-    raise NotConverged(f"{block.label} did not converge in {limit} sweeps; the last change was {size}")
+    raise NotConverged(_unsettled(block, limit, size))
 
 
 def _differenced(domain: Domain) -> Differenced:
@@ -249,7 +249,14 @@ def _correct(
             if sharp:
                 return now
             sharp = True  # one further correction removes rounding errors that remain after slow convergence
-    raise NotConverged(f"{block.label} did not converge in {limit} sweeps; the last change was {size}")
+    raise NotConverged(_unsettled(block, limit, size))
+
+
+def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
+    """Return the reason why an implicit block did not converge; ``change`` is the last change."""
+    # A ball is written like a double, because its fifty digits say nothing to the user.
+    last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)
+    return f"{block.label} did not converge in {limit} sweeps; the last change was {last}"
 
 
 def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:

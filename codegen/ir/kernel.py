@@ -243,7 +243,8 @@ class Sample:
 class Estimate:
     """An error estimate: the new state minus an embedded solution of lower order, component by component.
 
-    After one step from the same state, both solutions differ from the exact flow by O(h^order).
+    After one step from the same state, both solutions differ from the exact flow by O(h^order). There are no
+    ``errors`` if the kernel computes with whole matrices.
     """
 
     errors: tuple[Expr, ...]
@@ -277,6 +278,30 @@ class Expansion:
 
 
 @dataclass(frozen=True)
+class Continuous:
+    """A continuous extension of order ``order``: the solution at the time t + theta h is exp(sigma(theta)).y.
+
+    The outputs of ``coefficients`` are the coefficients of theta, ..., theta^``degree`` of sigma, one after
+    the other. ``moved`` computes exp(x).y from a state y that is followed by the coordinates x.
+    """
+
+    coefficients: Kernel
+    moved: Kernel
+    degree: int
+    order: int
+
+
+@dataclass(frozen=True)
+class Observed:
+    """The request for a run to a given end time, with output at given times, and with zeros of ``events``
+    event functions of the caller. States at output times are computed by the ``extension``, or without one by
+    shorter steps."""
+
+    events: int = 0
+    extension: Continuous | None = None
+
+
+@dataclass(frozen=True)
 class Function:
     """A function that a kernel calls in several places: it evaluates ``body`` and returns ``outputs``, both
     from ``inputs`` alone.
@@ -304,7 +329,7 @@ class Kernel:
     momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted code can have a
     run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or
     makes the step ``arrays``. With ``batch``, emitted code also has a function that steps many independent
-    systems.
+    systems, and with ``observed`` a run to a given end time.
     """
 
     name: str
@@ -323,6 +348,7 @@ class Kernel:
     expansion: Expansion | None = None
     arrays: ArrayStep | None = None
     batch: bool = False
+    observed: Observed | None = None
 
     @property
     def adaptive(self) -> bool:

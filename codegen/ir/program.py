@@ -95,6 +95,11 @@ EMBEDDED = "embedded"
 estimated."""
 
 
+POWERS = "power"
+"""The outputs of a program for a continuous extension are POWERS1, POWERS2, ...: the coefficients of theta,
+theta^2, ... of the coordinates of the solution."""
+
+
 SPACE, BODY = "space", "body"
 """The possible frames of the momentum that the statements of a program read and return."""
 

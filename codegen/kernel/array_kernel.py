@@ -23,10 +23,10 @@ from codegen.ir.array_program import (
 from codegen.ir.array_step import AddUnit, ArrayStep, Move, StepStatement
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, evaluate
+from codegen.ir.kernel import Estimate, Kernel
 from codegen.ir.kernel import Field as StateBlock
-from codegen.ir.kernel import Kernel
 from codegen.ir.operations import Act, ActExp, Advance, Bracket, Exp, InverseDexp, Linear, Zero
-from codegen.ir.program import Assign, Program
+from codegen.ir.program import EMBEDDED, Assign, Program
 from codegen.ir.scene_operations import Field
 from codegen.ir.values import Kind, Var
 from codegen.lower import lower
@@ -36,8 +36,8 @@ from codegen.scene.field_scene import FieldScene
 from codegen.scene.matrix_field import MatrixField
 from codegen.scene.problem import TIME, Problem
 
-STATE, NEW, BASIS, GRAM = "state", "new state", "basis", "gram"
-"""The names of arrays: the state, the new state, the basis B and its Gram matrix."""
+STATE, NEW, BASIS, GRAM, ERROR = "state", "new state", "basis", "gram", "error"
+"""The names of arrays: the state, the new state, the basis B, its Gram matrix, and the error estimate."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
@@ -87,8 +87,7 @@ def _model(timed: bool) -> Problem:
 def array_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of an explicit program on a scene whose field is given by formulas of matrices.
 
-    MethodError is raised for implicit stages, an embedded solution, and operations without a formula for
-    generators of low rank.
+    MethodError is raised for implicit stages and for operations without a formula for generators of low rank.
     """
     assert scene.matrices is not None
     step = _Builder(program, scene, scene.matrices).step()
@@ -96,7 +95,8 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     n, k = scene.matrices.rows, scene.matrices.columns
     about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
     state = (StateBlock(block.name, block.symbols, about),)
-    return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), arrays=step)
+    estimate = None if step.error is None else Estimate((), 0)
+    return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), estimate=estimate, arrays=step)
 
 
 @dataclass
@@ -136,12 +136,21 @@ class _Builder:
                 raise refused(self.scene, f"the equations of {statement.label}", "an explicit method")
             self.run(statement)
         outputs = dict(self.program.outputs)
-        if len(outputs) > 1:
-            raise refused(self.scene, "an error estimate", "a method without step control")
+        embedded = outputs.pop(EMBEDDED, None)
         (end,) = outputs.values()
-        result = Matrix(NEW, self.matrices.rows, self.k)
-        self.displaced(result, self.points[end])
-        return ArrayStep(self.argument, tuple(self.body), result)
+        n, new = self.matrices.rows, self.points[end]
+        result = Matrix(NEW, n, self.k)
+        self.displaced(result, new)
+        body = tuple(self.body)
+        lower = None if embedded is None else self.points[embedded]
+        if new is None or lower is None:
+            return ArrayStep(self.argument, body, result)
+        # The estimate is the difference of the displacements times the basis, so no digits are lost.
+        rows = max(new.rows, lower.rows)
+        difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
+        terms = (Term(self.one, new), Term(-self.one, lower))
+        product = Multiplication(error, self.basis.part(0, 0, n, rows), difference)
+        return ArrayStep(self.argument, body, result, (Combination(difference, terms), product), error)
 
     def run(self, assign: Assign) -> None:
         """Append the statements of an assignment."""

@@ -12,7 +12,7 @@ from pathlib import Path
 from codegen import scenes
 from codegen.artifact import write_text, writing
 from codegen.build import find_compiler
-from codegen.emitter import bare, quoted
+from codegen.command_names import bare, quoted
 from codegen.lab.default_methods import REPORT_SCENES
 from codegen.lab.measurement_cache import FOLDER, MeasurementCache
 from codegen.lab.page.documents import OVERVIEW, page_name, render, render_overview

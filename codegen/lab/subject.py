@@ -10,7 +10,8 @@ from typing import Generic, TypeVar
 
 from codegen.artifact import Artifact
 from codegen.certify import certified_order
-from codegen.emitter import Compiled, bare, compile_method, emit_compiled, quoted
+from codegen.command_names import bare, quoted
+from codegen.emitter import Compiled, compile_method, emit_compiled
 from codegen.errors import SceneError
 from codegen.lab.default_methods import report_methods
 from codegen.lab.measurement_cache import MeasurementCache

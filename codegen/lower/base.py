@@ -51,6 +51,7 @@ class Lowering(ABC):
 
     A subclass sets :attr:`family` and implements :meth:`problem` and :meth:`lower`. It usually derives from
     :class:`codegen.lower.field.FieldLowering` (vector fields),
+    :class:`codegen.lower.linear.LinearLowering` (y' = A(t).y),
     :class:`codegen.lower.variational.VariationalLowering` (Hamiltonians on T*G) or
     :class:`codegen.lower.flow_words.FlowLowering` (Hamiltonians in parts), which implement :meth:`problem`.
     All other members have defaults.
@@ -129,6 +130,14 @@ class Lowering(ABC):
         :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low.
         """
         return 0
+
+    def extension(self, problem: Problem, method: Method) -> Program | None:
+        """Return a program whose outputs are the coefficients of theta, theta^2, ... of the coordinates of
+        the solution inside a step; None if the method has no continuous extension.
+
+        The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is this polynomial.
+        """
+        return None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the family whose order conditions apply to the program; the conditions may depend on the

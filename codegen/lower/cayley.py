@@ -1,7 +1,7 @@
-"""Cayley methods for y' = A(t).y on quadratic groups: y1 = cay(Omega).y0, cay(x) = (1 - x/2)^-1 (1 + x/2).
+"""Cayley methods for y' = A(t).y: y1 = cay(Omega).y0 with cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega contains brackets of the values h A(t + c_i h), and products such as x*y*x, which are in the algebra of
-a quadratic group (:mod:`orderconds.families.cayley`).
+Omega contains brackets of the values h A(t + c_i h), and products such as x*y*x. The algebra of the group
+must contain these products (:mod:`orderconds.families.cayley`).
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ class CayleyLowering(LinearLowering):
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:
             return linear
-        expected = "a quadratic group, such as SO(n), Sp(2n), SL(2) or U(n), whose algebra contains x^3"
+        expected = (
+            "a group whose algebra contains x^3 for each element x, such as SO(n), SE(3), Sp(2n) or U(n)"
+        )
         return Objection(f", whose group is {group.name}", expected)
 
     def move(self, stages: Stages, x: Var, y: Var) -> Var:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from codegen.ir.program import Program
 from codegen.lower.base import Objection
 from codegen.lower.field import FieldLowering
-from codegen.lower.rkmk import with_cutoff
+from codegen.lower.rkmk import extension_with_cutoff, with_cutoff
 from codegen.method import Method
 from codegen.scene.problem import Problem
 
@@ -25,6 +25,10 @@ class RungeKuttaLowering(FieldLowering):
             return None
         hint = "use rkmk, cg or cf; or use ambient, whose steps leave the manifold"
         return Objection(f", whose group is {group.name}", "R^n", hint)
+
+    def extension(self, problem: Problem, method: Method) -> Program | None:
+        """Return the program of the continuous extension of an explicit tableau."""
+        return extension_with_cutoff(problem, method, 0)
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""

@@ -17,7 +17,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from codegen.ir.operations import ElementAt, Exp, InverseDifferential, Operation
-from codegen.ir.program import EMBEDDED, Builder, Program
+from codegen.ir.program import EMBEDDED, POWERS, Builder, Program
 from codegen.ir.values import Kind, Var
 from codegen.lower import minimal_brackets
 from codegen.lower.field import FieldLowering
@@ -25,6 +25,7 @@ from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
+from orderconds.tableau.extension import Extension
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder
@@ -47,6 +48,11 @@ class MuntheKaas(FieldLowering):
         if method.cutoff is None:
             return minimal_brackets.lower(problem, method)
         return with_cutoff(problem, method, method.cutoff)
+
+    def extension(self, problem: Problem, method: Method) -> Program | None:
+        """Return the program of the continuous extension of an explicit tableau with a cut-off."""
+        exact = problem.coordinates is None and method.cutoff is not None
+        return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the order conditions; without a cut-off they are computed from the series of the compiled
@@ -92,6 +98,19 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     return _program(problem, method, Exp(), inverse)
 
 
+def extension_with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program | None:
+    """Return the program of the continuous extension of an explicit method, or None."""
+    extension, zero = method.tableau.extension, method.ring.is_zero
+    A = method.runge_kutta().A
+    if extension is None or any(zero(x) is not True for i, row in enumerate(A) for x in row[i:]):
+        return None
+
+    def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
+        return build.dexpinv(target, u, k, cutoff)
+
+    return _program(problem, method, Exp(), inverse, extension)
+
+
 def in_coordinates(problem: Problem, method: Method) -> Program:
     """Return the program of an RKMK method in the coordinates of the scene."""
 
@@ -106,9 +125,10 @@ def _program(
     method: Method,
     element: Operation,
     inverse: Callable[[Builder, str, Var, Var], Var],
+    extension: Extension | None = None,
 ) -> Program:
     """Return the program with ``element`` for the map to the group; ``inverse`` appends its inverse
-    differential."""
+    differential. With ``extension`` the outputs are the coefficients of its powers."""
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -130,6 +150,11 @@ def _program(
         u = stages.combination("u", Kind.ALG, weights, v)
         return build.act("y1", build.add(element, "g", u), y)
 
+    def powers() -> dict[str, Var]:
+        assert extension is not None
+        rows = {f"{POWERS}{p}": extension.power(p) for p in range(1, extension.degree + 1)}
+        return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
+
     def update() -> dict[str, Var]:
         # The embedded solution combines the v_i of the method with other weights, so it costs one exponential
         # and no evaluation of the field.
@@ -137,4 +162,5 @@ def _program(
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more
 
-    return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)
+    ends = update if extension is None else powers
+    return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, ends)

@@ -15,6 +15,9 @@ from codegen.ir.precision import DOUBLE, Precision, precision
 LISTS = ("parameters", "blocks", "inputs", "solvers")
 """The fields of :class:`Interface` that are tuples; in JSON they are lists."""
 
+RUN = ("integrated", "controlled", "events", "dense")
+"""The fields that describe the run to a given end time."""
+
 
 @dataclass(frozen=True)
 class Interface:
@@ -26,7 +29,9 @@ class Interface:
     of all numbers (:mod:`codegen.ir.precision`); ``inputs`` are the run-time functions of time, in order;
     ``adaptive`` is true if there is a run with step control; ``solvers`` are the methods that solve the
     blocks. ``variations`` is the size of the Jacobian, 0 without one. ``batch`` is true if there is a
-    function for many independent systems.
+    function for many independent systems. ``integrated`` is true if there is a run to a given end time,
+    ``controlled`` if step control chooses the steps of this run. ``events`` is the number of its event
+    functions. ``dense`` is the order of its continuous extension, 0 without one.
     """
 
     prefix: str
@@ -40,6 +45,10 @@ class Interface:
     variations: int = 0
     solvers: tuple[str, ...] = ()
     batch: bool = False
+    integrated: bool = False
+    controlled: bool = False
+    events: int = 0
+    dense: int = 0
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
@@ -61,6 +70,10 @@ class Interface:
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
             batch=kernel.batch,
+            integrated=kernel.observed is not None,
+            controlled=kernel.observed is not None and kernel.estimate is not None,
+            events=0 if kernel.observed is None else kernel.observed.events,
+            dense=_order_of_extension(kernel),
         )
 
     @property
@@ -81,10 +94,18 @@ class Interface:
     def as_json(self) -> dict[str, Any]:
         """Return plain data for the manifest; :meth:`from_json` reads it back."""
         # Tuples become lists, so that the data equal the data read from a JSON file.
-        return asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
+        data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
+        # Manifests of modules without this run do not mention it.
+        return data if self.integrated else {k: x for k, x in data.items() if k not in RUN}
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
         """Return the interface that :meth:`as_json` wrote."""
         # Lists become tuples, because JSON has no tuples. A list that is missing in a manifest is empty.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))
+
+
+def _order_of_extension(kernel: Kernel) -> int:
+    """Return the order of the continuous extension of a kernel, 0 without one."""
+    extension = None if kernel.observed is None else kernel.observed.extension
+    return 0 if extension is None else extension.order

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from codegen.ir.expr import walk
-from codegen.run.language import Call, Unit, statements, terms
+from codegen.run.language import LANGUAGE, Call, Unit, statements, terms
 
 
 def functions_of(unit: Unit) -> tuple[str, ...]:
@@ -15,6 +15,6 @@ def functions_of(unit: Unit) -> tuple[str, ...]:
                 # Calls inside expressions are not statements, so both are searched.
                 names |= {n.payload for n in walk([term.value]) if n.op == "call"}
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
-        names |= {name for name in calls if name not in unit.parts and name != "sample"}
+        names |= {name for name in calls if name not in unit.parts and name not in LANGUAGE}
     # The names are sorted, so that emitted text does not depend on the order of a set.
     return tuple(sorted(names))

@@ -1,7 +1,7 @@
 """Assignments of whole matrices (:mod:`codegen.ir.array_program`) as loops.
 
-The length of the text does not depend on the numbers of rows and columns. Sums are formed for four columns at
-once, because four sums that do not depend on each other keep a processor busy.
+The length of the text does not grow with the numbers of rows and columns. Sums are formed for two rows and
+four columns at once, because eight sums that do not depend on each other keep a processor busy.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ GROUP = 4
 """The number of columns whose sums are formed at once."""
 
 _ROW, _COLUMN, _TERM = count("i"), count("j"), count("k")
+_FIRST, _SECOND = count("first_row"), count("second_row")
 _ENTRY = real("entry")
 """The entry of a constant matrix."""
 
@@ -80,16 +81,24 @@ class ArrayLoops:
         def other(k: Term, column: Index) -> Term:
             return self.entry(p.right, column, k) if p.right_transposed else self.entry(p.right, k, column)
 
-        def group(first: Term | None, columns: int) -> Iterator[Statement]:
-            places = [_shifted(first, c) for c in range(columns)]
-            yield from self.sums(p.target, _ROW, places, p.inner, factor, other, added=p.added)
+        def lines(*rows: Index) -> tuple[Statement, ...]:
+            def group(first: Term | None, columns: int) -> Iterator[Statement]:
+                places = [_shifted(first, c) for c in range(columns)]
+                yield from self.sums(p.target, rows, places, p.inner, factor, other, added=p.added)
 
-        yield For(_ROW, whole(p.target.rows), tuple(_in_groups(p.target.columns, group)))
+            return tuple(_in_groups(p.target.columns, group))
+
+        pairs, rest = divmod(p.target.rows, 2)
+        if pairs:
+            first = (Assign(_FIRST, 2 * _ROW), Assign(_SECOND, _FIRST + 1))
+            yield For(_ROW, whole(pairs), (*first, *lines(_FIRST, _SECOND)))
+        if rest:
+            yield from lines(2 * pairs)
 
     def sums(
         self,
         target: Matrix,
-        row: Index,
+        rows: Sequence[Index],
         columns: Sequence[Index],
         inner: int,
         factor: Callable[[Index, Term], Term],
@@ -98,18 +107,20 @@ class ArrayLoops:
         added: bool = False,
         before: Sequence[Statement] = (),
     ) -> Iterator[Statement]:
-        """Yield the statements that compute some entries of one row as sums of products."""
-        totals = [real(f"total_{c}") for c in range(len(columns))]
-        left = real("factor")
-        for total, column in zip(totals, columns, strict=True):
+        """Yield the statements that compute some entries of one or two rows as sums of products."""
+        totals: list[tuple[Term, Index, Index]] = []
+        terms = [*before]
+        for r, row in enumerate(rows):
+            left = real(f"factor_{r}")
+            terms.append(Assign(left, factor(row, _TERM)))
+            for c, column in enumerate(columns):
+                total = real(f"total_{r}_{c}")
+                totals.append((total, row, column))
+                terms.append(Assign(total, total + left * other(_TERM, column)))
+        for total, row, column in totals:
             yield Assign(total, self.entry(target, row, column) if added else number(0.0))
-        terms = [*before, Assign(left, factor(row, _TERM))]
-        terms += [
-            Assign(total, total + left * other(_TERM, column))
-            for total, column in zip(totals, columns, strict=True)
-        ]
         yield For(_TERM, whole(inner), tuple(terms))
-        for total, column in zip(totals, columns, strict=True):
+        for total, row, column in totals:
             yield Assign(self.entry(target, row, column), total)
 
     def combination(self, c: Combination) -> Iterator[Statement]:
@@ -174,14 +185,13 @@ class ArrayLoops:
         if not c.diagonals:
             yield from self.applied_full(a)
             return
-        covered = _covers(c)
-        if not covered:
+        if not _covers(c):
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
             i, j = _along(diagonal, _ROW)
             before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
             row, column = (j, i) if a.transposed else (i, j)
-            columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0 or not covered))
+            columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
             body = (*before, Assign(_ENTRY, entry), *columns)
             yield For(_ROW, whole(c.length(diagonal)), body)
 
@@ -204,7 +214,7 @@ class ArrayLoops:
 
         def group(first: Term | None, columns: int) -> Iterator[Statement]:
             yield from self.sums(
-                *(a.target, _ROW, [_shifted(first, n) for n in range(columns)], a.matrix.rows),
+                *(a.target, [_ROW], [_shifted(first, n) for n in range(columns)], a.matrix.rows),
                 lambda row, k: entry,
                 lambda k, column: self.entry(a.matrix, k, column),
                 before=before,

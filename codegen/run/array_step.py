@@ -39,6 +39,7 @@ from codegen.run.terms import (
     call,
     code,
     count,
+    given,
     is_finite,
     negated,
     number,
@@ -80,9 +81,13 @@ def _name(move: Move) -> str:
 def _advance(plan: Plan, step: ArrayStep) -> Function:
     """Return the function that makes one step."""
     state = plan.state()
-    loops = ArrayLoops({step.argument.name: state})
+    given_arrays = {step.argument.name: state}
+    if step.error is not None:
+        given_arrays[step.error.name] = plan.error
+    loops = ArrayLoops(given_arrays)
     result = loops.array(step.result)
     parameters = (state, *plan.moment(), *plan.parameters)
+    parameters += () if step.error is None else (plan.error,)
     body: list[Statement] = [
         If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
         *_declared(step, loops),
@@ -94,24 +99,33 @@ def _advance(plan: Plan, step: ArrayStep) -> Function:
             body += loops.statements(statement)
     body += [
         If(negated(all_finite(result)), (Return(code(NOT_FINITE)),)),
+        *_estimated(plan, step, loops),
         Assign(state, result),
         Return(code(OK)),
     ]
     return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS, often=True)
 
 
+def _estimated(plan: Plan, step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
+    """Return the statement that computes the error estimate, if the caller passes an array for it."""
+    if step.error is None:
+        return []
+    body = [s for statement in step.estimate for s in loops.statements(statement)]
+    return [If(given(plan.error), tuple(body))]
+
+
 def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     """Return the declarations of all arrays, each with its size."""
     sizes: dict[str, int] = {}
-    for statement in step.body:
+    for statement in (*step.body, *step.estimate):
         target = statement.target
         # The statements contain parts of the basis and of the Gram matrix: the last entry of the largest
         # part determines the size.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
-    for name, size in sizes.items():
-        loops.arrays.setdefault(name, own(name, size))
-    return [Array(loops.arrays[name]) for name in sizes]
+    local = [name for name in sizes if name not in loops.arrays]
+    loops.arrays.update({name: own(name, sizes[name]) for name in local})
+    return [Array(loops.arrays[name]) for name in local]
 
 
 def _call(move: Move, loops: ArrayLoops) -> Call:
@@ -158,12 +172,15 @@ class _Exponential:
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
-        product = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW]
-        sums = For(_COLUMN, whole(m), (Assign(square, square - product),))
+        product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
+        diagonal = matrix[(m + 1) * _ROW]
+        # Each product occurs twice in the trace. The sums of different rows do not depend on each other.
+        below = For(_COLUMN, _ROW, (Assign(total, total + product),))
+        added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
         # -trace((G S)^2) is the square of the Frobenius norm of B S B^T. The eigenvalues of a skew matrix are
         # pairs with equal absolute values, so half of the square bounds the square of the spectral norm.
-        yield For(_ROW, whole(m), (sums,))
+        yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))

@@ -58,13 +58,14 @@ def step_arguments(plan: Plan) -> tuple[Term, ...]:
     return (*plan.parameters, *plan.remembering(plan.memories), *counted, *error)
 
 
-def searched(plan: Plan, state: Term, t: Term = TIME) -> list[Statement]:
+def searched(plan: Plan, state: Term, t: Term = TIME, h: Term = STEP) -> list[Statement]:
     """Return the statement that replaces the status NOT_FINITE by the cause; no statement if the unit does
     not have the function.
 
-    ``state`` is the state before the failed step, which begins at the time ``t``.
+    ``state`` is the state before the failed step, which begins at the time ``t`` and
+    has the size ``h``.
     """
     if not is_searched(plan):
         return []
-    call = Call(CAUSE, (state, *plan.moment(t), *plan.parameters), (STATUS,))
+    call = Call(CAUSE, (state, *plan.moment(t, h), *plan.parameters), (STATUS,))
     return [If(STATUS.equals(code(NOT_FINITE)), (call,))]

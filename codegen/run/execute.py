@@ -30,6 +30,7 @@ from codegen.ir.expr import Expr, power
 from codegen.ir.vector_calls import vector_function
 from codegen.run.identifiers import Identifiers, identify
 from codegen.run.language import (
+    LANGUAGE,
     RAISES_STATUS,
     Array,
     Assign,
@@ -298,17 +299,16 @@ class _Compiler:
         given = [self.term(a) for a in arguments]
         stores = [self.store(r) for r in results if not r.shape]
         machine = self.machine
-        if function == "sample":
-            inputs, time = given
+        if function in LANGUAGE:
+            callback, *passed_on = given
             array = self.identifiers.of(results[0])
 
             def sample(env: Environment) -> bool:
-                env[array] = list(inputs(env)(time(env)))
+                env[array] = list(callback(env)(*(value(env) for value in passed_on)))
                 return False
 
             return sample
-        # The function is found by name when the closure is built, so that calls during a run compare no
-        # names.
+        # The function is found when the closure is built, so that calls during a run compare no names.
         library = _library(function, machine.domain)
 
         def run(env: Environment) -> bool:

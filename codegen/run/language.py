@@ -105,6 +105,9 @@ class Note:
     text: str
 
 
+LANGUAGE = frozenset({"sample", "measure"})
+"""Calls of functions that the caller of the unit supplies: run-time inputs, and event functions."""
+
 Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 

@@ -16,7 +16,10 @@ def numbers_held(unit: Unit) -> int:
     """Return the number of scalars in all private functions, plus the largest number in a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
-    public = [held[f.name] for f in unit.functions if f.public]
+    # A public function that a private function calls is counted like a private function.
+    private = [f for f in unit.functions if not f.public]
+    called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
+    public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
     # All private functions may be inlined into one stack frame, so their scalars are added. Only one public
     # function runs at a time, so the largest number is taken.
     return sum(held.values()) - sum(public) + max(public)

@@ -6,7 +6,11 @@ from dataclasses import dataclass
 
 from codegen.run.language import RAISES_STATUS, Unit, terms
 from codegen.run.terms import (
+    BAD_EVENT,
     BAD_STEP,
+    BAD_TIMES,
+    EVENT,
+    LEAST_STEP,
     LIMIT,
     NOT_CONVERGED,
     NOT_FINITE,
@@ -26,6 +30,10 @@ MEANINGS = {
     TOO_FAR: "the step turns or moves too far for finite numbers; a shorter step is finite",
     SINGULAR: "the matrix of an implicit block is singular",
     TOO_SHORT: "the end was not reached: the step became too small to change t",
+    EVENT: "the run ended at an event, or its buffer of events is full",
+    BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
+    LEAST_STEP: "the end was not reached: a step of the least size was rejected",
+    BAD_EVENT: "the value of an event function is an infinity or a NaN",
 }
 """The comment on each status code in the header of emitted code."""
 
@@ -37,6 +45,9 @@ REASONS = {
     TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
     SINGULAR: "the matrix of {block} is singular",
     TOO_SHORT: "the end is not reached: the step became too small to change t",
+    BAD_TIMES: "the output times are not finite, not in order, or not between t and end",
+    LEAST_STEP: "the end is not reached: a step of the least size was rejected",
+    BAD_EVENT: "the value of an event function is not finite",
 }
 """The reason for each failure, with the label of the implicit block and the step size, for both targets."""
 

@@ -68,7 +68,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     error estimate."""
     if plan.kernel.estimate is None:
         return ()
-    return weighted(plan), between(), _Controlled(plan).function()
+    return weighted(plan), between(), Controlled(plan).function()
 
 
 def weighted(plan: Plan) -> Function:
@@ -112,7 +112,7 @@ def between() -> Function:
     return Function("between", about, (least, x, most), (Return(bounded),), Kind.REAL)
 
 
-class _Controlled:
+class Controlled:
     """Builds the run with step control; the attributes are variables of the run."""
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
@@ -136,10 +136,14 @@ class _Controlled:
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         passed = (*plan.parameters, *plan.sampled(), *plan.counted)
         parameters = (plan.state(), *chosen, *passed, self.accepted, self.rejected)
+        return Function("run_adaptive", "", parameters, self.body(), Kind.STATUS, public=True)
+
+    def body(self) -> tuple[Statement, ...]:
+        """Return the statements of the run."""
         # Integration backwards in time is allowed, so the test has a case for each direction. For a NaN both
         # tests are false.
         moving = either(self.now < self.end, self.now > self.end)
-        body: tuple[Statement, ...] = (
+        return (
             *self.begin(),
             While(both(STATUS.equals(code(OK)), moving), self.step()),
             # Time and step size are stored after a failure, too: the caller then knows the last good time and
@@ -150,7 +154,6 @@ class _Controlled:
             If(given(self.rejected), (Assign(self.rejected[0], self.rejected_steps),)),
             Return(STATUS),
         )
-        return Function("run_adaptive", "", parameters, body, Kind.STATUS, public=True)
 
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""

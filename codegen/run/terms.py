@@ -20,7 +20,11 @@ from codegen.ir.expr import Expr
 
 OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT = "OK", "NOT_CONVERGED", "NOT_FINITE", "BAD_STEP", "LIMIT"
 TOO_FAR, SINGULAR, TOO_SHORT = "TOO_FAR", "SINGULAR", "TOO_SHORT"
-STATUSES = (OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT, TOO_FAR, SINGULAR, TOO_SHORT)
+EVENT, BAD_TIMES, LEAST_STEP, BAD_EVENT = "EVENT", "BAD_TIMES", "LEAST_STEP", "BAD_EVENT"
+STATUSES = (
+    *(OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT, TOO_FAR, SINGULAR, TOO_SHORT),
+    *(EVENT, BAD_TIMES, LEAST_STEP, BAD_EVENT),
+)
 """The status codes; the number of a code is its index in this tuple."""
 
 
@@ -36,6 +40,7 @@ class Kind(Enum):
     STATUS = "status"
     RECORD = "record"
     SIGNAL = "signal"
+    EVENTS = "events"
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,6 +195,10 @@ def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
 def signal(name: str) -> Term:
     """Return the name of a function of time that returns the run-time inputs."""
     return Term("name", (), Kind.SIGNAL, name)
+
+
+EVENT_FUNCTIONS = Term("name", (), Kind.EVENTS, "event")
+"""The function of time and state that returns the values of all event functions."""
 
 
 STATUS = Term("name", (), Kind.STATUS, "status")

@@ -50,7 +50,7 @@ class Trials:
     ) -> None:
         # Error estimates and derivatives do not change the number of sweeps, but would make the trial
         # longer.
-        plain = replace(kernel, estimate=None, vary=None)
+        plain = replace(kernel, estimate=None, vary=None, observed=None)
         # Trials always compute in doubles, because the choice of a solver should not depend on the format of
         # the module.
         self.plan = Plan(plain, DOUBLE, tries=None if continuation else 1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.run import batch, deferred_flows, jacobian, step_control, taylor_control
+from codegen.run import batch, deferred_flows, integration, jacobian, step_control, taylor_control
 from codegen.run.arithmetic import outlined
 from codegen.run.array_step import array_functions, array_tables
 from codegen.run.cause import cause, is_searched, step_arguments
@@ -26,6 +26,7 @@ def unit_of(plan: Plan) -> Unit:
     else:
         functions += _steps(plan)
     functions += (*step_control.functions(plan), *taylor_control.functions(plan), *jacobian.functions(plan))
+    functions += integration.functions(plan)
     functions += batch.functions(plan)
     # t and h are always included, so that no other name gets the identifiers t and h.
     scalars = ("t", "h", *(p.text for p in plan.parameters))

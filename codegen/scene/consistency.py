@@ -10,6 +10,8 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
+from codegen.groups.capabilities import Inverse
+from codegen.groups.linear_algebra import Vector
 from codegen.ir.differentiate import gradient
 from codegen.ir.expr import Expr
 from codegen.scene.orbit import Orbit, orbit_of
@@ -81,6 +83,24 @@ def check_start(orbit: Orbit) -> None:
                 else f"a point on which {orbit.group.name} acts by {orbit.action.name}",
                 hint=ROUNDED if abs(defect) < ROUNDING else "",
             )
+    _check_invertible(orbit, start)
+
+
+def _check_invertible(orbit: Orbit, start: Vector[mpmath.mpf]) -> None:
+    """Raise :class:`SceneError` if the initial state should be an element of the group, and has no
+    inverse."""
+    group = orbit.group.offers(Inverse) if orbit.action.on_itself else None
+    if group is None:
+        return
+    try:
+        group.inverse(orbit.domain, start)
+    except ZeroDivisionError as error:
+        raise SceneError(
+            "the initial state has no inverse",
+            where=orbit.name,
+            expected=f"an element of {orbit.group.name}",
+            hint="give an invertible matrix",
+        ) from error
 
 
 def check_action(orbit: Orbit) -> None:

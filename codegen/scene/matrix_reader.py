@@ -1,8 +1,8 @@
 """Formulas of matrices (:mod:`codegen.scene.matrix_formula`) as array programs.
 
-Transposes are moved to the factors of products. The order of each product is the cheapest one that forms no
-matrix with n^2 entries. Equal products are computed once. Matrices with more columns than rows are stored as
-their transposes, so each stored matrix has n rows or is small.
+Transposes are moved to the factors of products. Each product is computed in its cheapest order, which forms
+no matrix with n^2 entries. Equal products are computed once. Matrices with more columns than rows are stored
+as their transposes, so each stored matrix has n rows or is small.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayPr
     """Return the program that computes a formula in the unknown ``x``.
 
     :class:`SceneError` is raised for another unknown, for wrong sizes, for entries that cannot be read, and
-    for a formula that needs a matrix with n^2 entries.
+    for a summand without X.
     """
     if not isinstance(formula, MatrixFormula) or (formula.rows, formula.columns) != (x.rows, x.columns):
         size = f"{formula.rows} x {formula.columns}" if isinstance(formula, MatrixFormula) else repr(formula)
@@ -162,11 +162,12 @@ class _Compiler:
                 return self.reader.space.one, (self.factor(formula, transposed),)
 
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
-        """Yield a product as summands; sums that contain a constant matrix are multiplied out."""
+        """Yield a product as summands; sums with a constant matrix or with n^2 entries are multiplied out."""
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
             alone = [inner for _, inner in parts if len(inner) == 1 and inner[0].constant is not None]
-            if isinstance(factor.formula, Sum) and alone:
+            large = min(factor.rows, factor.columns) > self.x.columns
+            if isinstance(factor.formula, Sum) and (alone or large):
                 for own, inner in parts:
                     yield from self.distributed(c * own, (*factors[:k], *inner, *factors[k + 1 :]))
                 return
@@ -197,14 +198,9 @@ class _Compiler:
     def _product(self, factors: tuple[_Factor, ...]) -> _Stored:
         if len(factors) == 1:
             return self.single(factors[0])
-        cost, k = _cheapest(factors, self.x.columns)
+        cost, k = _cheapest(factors)
         if cost == inf:
-            raise SceneError(
-                f"a product that has {factors[0].rows} x {factors[-1].columns} entries, or is constant",
-                where=self.reader.name,
-                expected=f"products with X of at most {self.x.columns} columns or rows",
-                hint="multiply constant matrices outside the formula",
-            )
+            raise self.constant_product()
         left, right = factors[:k], factors[k:]
         for side, others, from_right in ((left, right, False), (right, left, True)):
             if len(side) == 1 and side[0].constant is not None:
@@ -214,15 +210,19 @@ class _Compiler:
     def single(self, factor: _Factor) -> _Stored:
         """Return the unknown or a sum as a matrix."""
         if factor.constant is not None:
-            raise SceneError(
-                "a constant matrix that is not multiplied by X",
-                where=self.reader.name,
-                expected="a formula in which each product contains X",
-            )
+            raise self.constant_product()
         if isinstance(factor.formula, Unknown):
             return _Stored(self.argument, factor.transposed)
         summands = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
         return self.total(summands, factor.rows, factor.columns)
+
+    def constant_product(self) -> SceneError:
+        """Return the error for a constant matrix or a product of constant matrices."""
+        return SceneError(
+            "a constant matrix that is not multiplied by X",
+            where=self.reader.name,
+            expected="a formula in which each product contains X",
+        )
 
     def applied(self, factor: _Factor, other: _Stored, from_right: bool) -> _Stored:
         """Return the product of a constant matrix and another matrix."""
@@ -270,7 +270,7 @@ def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
     return [*before[:-1], replace(before[-1], target=last.target)]
 
 
-def _cheapest(factors: tuple[_Factor, ...], widest: int) -> tuple[float, int]:
+def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
     """Return the least number of products of a chain, and the place where the last product is formed."""
     n = len(factors)
     best: dict[tuple[int, int], tuple[float, int]] = {(i, i + 1): (0.0, i) for i in range(n)}
@@ -278,7 +278,7 @@ def _cheapest(factors: tuple[_Factor, ...], widest: int) -> tuple[float, int]:
         for i in range(n - length + 1):
             j = i + length
             splits = [
-                (best[i, k][0] + best[k, j][0] + _cost(factors[i:k], factors[k:j], widest), k)
+                (best[i, k][0] + best[k, j][0] + _cost(factors[i:k], factors[k:j]), k)
                 for k in range(i + 1, j)
             ]
             best[i, j] = min(splits)
@@ -286,11 +286,11 @@ def _cheapest(factors: tuple[_Factor, ...], widest: int) -> tuple[float, int]:
     return cost, k
 
 
-def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...], widest: int) -> float:
-    """Return the number of products of two matrices; infinity if the product must not be formed."""
+def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...]) -> float:
+    """Return the number of products of two matrices; infinity if both are constant."""
     rows, inner, columns = left[0].rows, right[0].rows, right[-1].columns
     first, second = (side[0].constant if len(side) == 1 else None for side in (left, right))
-    if min(rows, columns) > widest or (first is not None and second is not None):
+    if first is not None and second is not None:
         return inf
     if first is not None:
         return _filled(first) * columns

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from codegen.errors import SceneError
 from codegen.groups.capabilities import Coadjoint
+from codegen.ir.domain import FloatDomain
 from codegen.ir.program import BODY, SPACE
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
@@ -32,3 +33,13 @@ def with_frame(problem: Problem, frame: str) -> Problem:
             hint="remove the option --frame",
         )
     return replace(problem, body_group=problem.group.require(Coadjoint) if frame == BODY else None)
+
+
+def start_of(scene: Problem) -> tuple[float, ...]:
+    """Return the initial state in the format of emitted code."""
+    domain = FloatDomain(0.0)
+    state = tuple(float(x) for x in scene.initial(domain))
+    if scene.body_group is None:
+        return state
+    q, mu = state[: scene.body_group.size], state[scene.body_group.size :]
+    return (*q, *scene.body_group.Adt(domain, q, mu))

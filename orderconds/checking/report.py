@@ -39,6 +39,32 @@ class EmbeddedOrder(Struct, frozen=True):
         return {"claimed": self.claimed, "orders": self.orders, "certificates": self.certificates}
 
 
+class ExtensionOrder(Struct, frozen=True):
+    """The claimed and the computed order of a continuous extension in the family ``rk``.
+
+    ``continuous`` states whether b_i(1) = b_i: the values at the ends of neighbouring steps agree. ``smooth``
+    states whether their derivatives agree, too. None means that this is not decided. ``failing`` are the
+    failing conditions of the next order; the coefficient of a power of theta fails.
+    """
+
+    claimed: int
+    order: int
+    certificate: str
+    continuous: bool | None
+    smooth: bool | None
+    failing: tuple[Failure, ...] = ()
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of a continuous extension."""
+        return {
+            "claimed": self.claimed,
+            "order": self.order,
+            "certificate": self.certificate,
+            "continuous": self.continuous,
+            "smooth": self.smooth,
+        }
+
+
 @dataclass(frozen=True, repr=False)
 class Report:
     """The result of ``check`` for one tableau; ``broken_claims`` are property claims that do not hold."""
@@ -54,6 +80,7 @@ class Report:
     proof: Certificate | None = None
     work: dict[str, Work] = field(default_factory=dict)
     embedded: EmbeddedOrder | None = None
+    dense: ExtensionOrder | None = None
     properties_claimed: bool = False
     hint: str = ""
     """A suggestion for the author of the tableau file, or an empty text."""
@@ -110,6 +137,8 @@ class Report:
         }
         if self.embedded is not None:
             record["embedded"] = self.embedded.as_json()
+        if self.dense is not None:
+            record["dense"] = self.dense.as_json()
         if self.proof is not None:
             record["proof"] = self.proof.as_json()
         if self.undecided:

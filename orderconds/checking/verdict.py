@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 from orderconds import families
 from orderconds.argument import CONDITION_ORDER, TOLERANCE, described, integer, real
+from orderconds.checking.continuous import extension_order
 from orderconds.checking.limits import Limits, Meter
 from orderconds.checking.order import DOUBLE, FamilyOrder, family_order, first_failing
-from orderconds.checking.report import EmbeddedOrder, Report
+from orderconds.checking.report import EmbeddedOrder, ExtensionOrder, Report
 from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.tableau import Tableau
@@ -60,20 +61,19 @@ def check(
     2
     """
     order, tolerance = _bounds(order, tolerance, limits)
-    if not isinstance(tableau, Tableau):
-        tableau = read(tableau)
+    tableau = tableau if isinstance(tableau, Tableau) else read(tableau)
     given, tableau = tableau, with_tolerance(tableau, tolerance)
     wanted = [*_wanted(tableau, family)]
     proof, broken = _proof(tableau)
-    enclosed = proof.tableau if proof else tableau
-    facts = proof.facts if proof else ()
+    enclosed, facts = (proof.tableau, proof.facts) if proof else (tableau, ())
     embedded = _embedded(enclosed, [f for f, _ in wanted])
     computed = properties(tableau)
-    broken += _broken_claims(tableau, computed, embedded) if family is None else []
+    dense = extension_order(tableau)
+    if family is None:
+        broken += (*_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
     broken += _missing_claims(enclosed, tableau) if complete else []
     orders = _named(_orders(enclosed, wanted, facts, order, Meter(limits or Limits())), tableau)
-    if certified:
-        broken += [f"{f.family}: certificate {f.certificate}" for f in orders if f.certificate in NOT_PROVED]
+    broken += [f"{f.family}: certificate {f.certificate}" for f in _not_proved(orders) if certified]
     return Report(
         name=tableau.name,
         file=tableau.path,
@@ -85,9 +85,15 @@ def check(
         proof=proof,
         work={f.label(): cost for f, _ in wanted if (cost := f.work(tableau)) is not None},
         embedded=embedded,
+        dense=dense,
         properties_claimed=bool(tableau.claims.properties),
         hint=_hint(given, orders),
     )
+
+
+def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:
+    """Return the orders that digits support but no proof."""
+    return [x for x in orders if x.certificate in NOT_PROVED]
 
 
 def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
@@ -382,6 +388,17 @@ def _broken_claims(
         order = embedded.orders[embedded.own]
         reason = f"; {embedded.failing[0]}" if order < embedded.claimed and embedded.failing else ""
         yield f"the embedded row has order {order} ({embedded.own}), claimed {embedded.claimed}{reason}"
+
+
+def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
+    """Yield a message if the continuous extension has another order than claimed, or is not continuous."""
+    if dense is None:
+        return
+    if dense.order != dense.claimed:
+        reason = f"; {dense.failing[0]}" if dense.failing else ""
+        yield f"the continuous extension has order {dense.order} (rk), claimed {dense.claimed}{reason}"
+    if dense.continuous is not True:
+        yield "the continuous extension does not end at the new state: some b_i(1) differs from b_i"
 
 
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:

@@ -19,12 +19,14 @@ from orderconds.input_file import read_bytes
 from orderconds.ring.protocol import Ring
 from orderconds.tableau.claims import Claims, OrderClaim
 from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate, rounded_and_exact
+from orderconds.tableau.extension import Extension
 from orderconds.tableau.file_format import Claim, CutoffClaim, Data, Format, Number, ProofEntry, RootEntry
 from orderconds.tableau.formats import (
     FORMATS,
     CommutatorFreeFile,
     EmbeddedEntry,
     EmbeddedProduct,
+    ExtensionEntry,
     LowStorage,
     StageEntry,
 )
@@ -46,6 +48,7 @@ _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
     "embedded": EmbeddedEntry,
+    "dense": ExtensionEntry,
     (CommutatorFreeFile, "embedded"): EmbeddedProduct,
     "stage": StageEntry,
     "update": StageEntry,
@@ -68,6 +71,7 @@ class File(Struct, frozen=True):
     proof: Proof | None
     doubles: bool = False
     """True if a coefficient was given as a binary floating-point number."""
+    extension: Extension | None = None
 
 
 def text_of(path: str | Path) -> str:
@@ -159,7 +163,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     claims, proof = _claims(entry, where), _proof(entry, source)
     constants = (c for x in (*expressions.values(), *numbers.values()) for c in rounded_and_exact(x))
     doubles = any(c.is_double for c in constants)
-    return File(data, entry, ring, method, embedded, claims, source, proof, doubles)
+    extension = entry.extension(values, ring)
+    return File(data, entry, ring, method, embedded, claims, source, proof, doubles, extension)
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:

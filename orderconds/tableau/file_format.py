@@ -15,6 +15,7 @@ from msgspec import Meta, Struct
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.extension import Extension
 from orderconds.tableau.methods import LowerOrder, Row
 from orderconds.tableau.products import Method
 
@@ -97,6 +98,11 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the method, given the value of the coefficient at every position."""
         raise TypeError(f"{type(self).__name__} is an abstract format")
+
+    def extension(self, values: Mapping[str, Element], ring: Ring) -> Extension | None:
+        """Return the continuous extension of the file, given the value of the coefficient at every position;
+        None if the file has no extension."""
+        return None
 
 
 def row_places(row: list[Coefficient], place: str) -> Places:

@@ -9,6 +9,7 @@ from msgspec import Meta, Struct, field
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.extension import Extension
 from orderconds.tableau.file_format import (
     Coefficient,
     Format,
@@ -31,6 +32,9 @@ from orderconds.tableau.methods import (
 from orderconds.tableau.product_formats import CompositionFile, MagnusFile, SplittingFile
 from orderconds.tableau.products import Method
 
+MAX_DEGREE = 40
+"""The largest degree of the polynomials of a continuous extension."""
+
 
 class EmbeddedEntry(Struct, forbid_unknown_fields=True):
     """A second row of weights, of lower order, for an error estimate."""
@@ -39,14 +43,24 @@ class EmbeddedEntry(Struct, forbid_unknown_fields=True):
     order: Annotated[int, Meta(ge=1)]
 
 
+class ExtensionEntry(Struct, forbid_unknown_fields=True):
+    """The weights of a continuous extension: row i has the coefficients of theta, theta^2, ... in b_i(theta);
+    zeros at the end of a row may be left out."""
+
+    b: list[list[Coefficient]]
+    order: Annotated[int, Meta(ge=1)]
+
+
 class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     """``family = "rk"``: A by rows (zeros at the end of a row may be left out), b, and optionally c, which
-    must equal the row sums of A."""
+    must equal the row sums of A. ``dense`` is a continuous extension (:mod:`orderconds.tableau.extension`).
+    """
 
     A: list[list[Coefficient]]
     b: list[Coefficient]
     c: list[Coefficient] = field(default_factory=list)
     embedded: EmbeddedEntry | None = None
+    dense: ExtensionEntry | None = None
 
     in_arrays: ClassVar[bool] = True
     distinctive_key: ClassVar[str] = "A"
@@ -70,15 +84,38 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             )
         if self.embedded:
             verify_length(self.embedded.b, s, f"{where}: embedded.b")
+        if self.dense:
+            self._verify_extension(self.dense, f"{where}: dense.b")
+
+    def _verify_extension(self, dense: ExtensionEntry, where: str) -> None:
+        s = len(self.b)
+        if len(dense.b) != s:
+            expected = f"{s} rows, one for each stage"
+            raise TableauError(f"{len(dense.b)} rows", where=where, expected=expected)
+        if not 1 <= max(map(len, dense.b)) <= MAX_DEGREE:
+            degree = max(map(len, dense.b))
+            expected = f"a degree from 1 to {MAX_DEGREE}"
+            raise TableauError(f"polynomials of degree {degree}", where=where, expected=expected)
 
     def coefficients(self) -> Places:
-        """Yield A by rows, then b, then the embedded weights."""
+        """Yield A by rows, then b, then the embedded weights, then the continuous extension by rows."""
         for i, row in enumerate(self.A):
             yield from row_places(row, f"A[{i + 1}]")
         yield from row_places(self.b, "b")
         yield from row_places(self.c, "c")
         if self.embedded:
             yield from row_places(self.embedded.b, "embedded.b")
+        if self.dense:
+            for i, row in enumerate(self.dense.b):
+                yield from row_places(row, f"dense.b[{i + 1}]")
+
+    def extension(self, values: Mapping[str, Element], ring: Ring) -> Extension | None:
+        """Return the continuous extension."""
+        if self.dense is None:
+            return None
+        degree = max(map(len, self.dense.b))
+        rows = (filled_row(values, f"dense.b[{i + 1}]", degree, ring) for i in range(len(self.b)))
+        return Extension(tuple(rows), self.dense.order)
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the Runge-Kutta method, and its embedded weights."""

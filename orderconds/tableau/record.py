@@ -17,6 +17,7 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.butcher import tableau_html, tableau_latex
 from orderconds.tableau.claims import Claims
 from orderconds.tableau.construction import Claimed, commutator_free, named, runge_kutta
+from orderconds.tableau.extension import Extension
 from orderconds.tableau.file import File, parsed, read, text_of
 from orderconds.tableau.file_format import Data
 from orderconds.tableau.library import find
@@ -179,6 +180,12 @@ defined under numbers (none)
         embedded row."""
         lower = self.lower()
         return None if lower is None else lower.b
+
+    @property
+    def extension(self) -> Extension | None:
+        """The continuous extension of the file; None if there is none, or if the coefficients differ from the
+        coefficients of the file."""
+        return None if self.file is None else self.file.extension
 
     def _values(self, row: Row) -> tuple[Value, ...]:
         return tuple(value_of(x, self.ring, self.doubles) for x in row)

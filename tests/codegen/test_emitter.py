@@ -7,7 +7,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from codegen.emitter import bare, emit, emit_compiled
+from codegen.command_names import bare
+from codegen.emitter import emit, emit_compiled
 from codegen.errors import MethodError, SceneError
 from codegen.integrator import Statistics
 from codegen.ir.domain import FloatDomain

@@ -14,7 +14,7 @@ import codegen.groups
 import codegen.kernel.taylor_expansion
 from codegen import scenes
 from codegen.certify import certified_order
-from codegen.emitter import compile_method, emit_compiled, start_of
+from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.groups import LeftMultiplication, Rn
 from codegen.integrator import Status, StepFailed
@@ -34,6 +34,7 @@ from codegen.run.floats import EmittedFloats
 from codegen.run.plan import Plan
 from codegen.run.unit import unit_of
 from codegen.scene import FieldScene
+from codegen.scene.momentum_frame import start_of
 from orderconds import check, derive
 from orderconds.errors import InputError
 from tests.promises import ulps

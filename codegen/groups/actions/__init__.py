@@ -33,28 +33,11 @@ __all__ = [
     "RightMultiplication",
     "Rotation",
     "Stiefel",
-    "listing",
 ]
 
-LISTED = (
-    "AdjointAction",
-    "AffineAction",
-    "CoadjointAction",
-    "Columns",
-    "Conjugation",
-    "FactorwiseAction",
-    "DiagonalAction",
-    "LeftMultiplication",
-    "Linear",
-    "Motion",
-    "RightMultiplication",
-    "Rotation",
-    "Stiefel",
-)
-
-ACTIONS: Registry[Action] = Registry("action", __name__, LISTED)
+ACTIONS: Registry[Action] = Registry("action", __name__, [n for n in __all__ if n != "Action"])
 
 
 def listing() -> list[dict[str, str]]:
-    """Return name and first docstring line of every action, for ``orderconds list actions``."""
+    """Return name and first docstring paragraph of every action, for ``orderconds list actions``."""
     return ACTIONS.listing()

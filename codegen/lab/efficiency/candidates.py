@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from codegen.certify import certified_order
-from codegen.emitter import bare, quoted
+from codegen.command_names import bare, quoted
 from codegen.errors import MethodError
 from codegen.lower import families_for, lowering
 from codegen.method import Method, parse, with_estimate

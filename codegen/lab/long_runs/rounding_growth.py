@@ -17,13 +17,12 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-from codegen.emitter import Compiled, emit_compiled
+from codegen.emitter import Compiled, compensated, emit_compiled
 from codegen.errors import MethodError
 from codegen.integrator import Integrator, StepFailed
 from codegen.ir.domain import NotConverged, PreciseDomain
 from codegen.ir.expr import Expr
 from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
-from codegen.lab.long_runs.compensated import compensated
 from codegen.lab.long_runs.drift import CONFIDENCE
 from codegen.lab.long_runs.trajectory import scale
 from codegen.lab.number_functions import of_scalars

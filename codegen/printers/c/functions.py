@@ -91,6 +91,8 @@ class FunctionPrinter:
         const = "" if parameter.text in self.writes[function.name] else "const "
         if parameter.kind is Kind.SIGNAL:
             return f"{self.prefix}input input, void *context"
+        if parameter.kind is Kind.EVENTS:
+            return f"{self.prefix}event event, void *data"
         # ``static n`` tells the compiler that n entries exist. C++, which must read headers, lacks this
         # syntax.
         promised = "" if header else "static "
@@ -184,7 +186,8 @@ class _Body:
         """Return the lines of the whole body."""
         whole = statements(self.function.body)
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
-        parameters = [p for p in self.function.parameters if p.kind is not Kind.SIGNAL]
+        callbacks = (Kind.SIGNAL, Kind.EVENTS)
+        parameters = [p for p in self.function.parameters if p.kind not in callbacks]
         # The interface determines the parameters. The cast to void avoids a warning about parameters that
         # this kernel does not use.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
@@ -331,7 +334,8 @@ class _Body:
         if changed and not kind:
             more = self.terms.text(value.args[1])
             if value.op in "+-" and more.line == "1":
-                yield f"{name}{value.op * 2};"
+                # ``*x++`` would increment the pointer.
+                yield f"({name}){value.op * 2};" if name.startswith("*") else f"{name}{value.op * 2};"
                 return
             yield from fill(f"{name} {value.op}=", more.segments, ";")
             return
@@ -383,6 +387,10 @@ class _Body:
         """Yield the lines of a call."""
         given = [self.argument(a) for a in statement.arguments]
         name, results = statement.function, statement.results
+        if name == "measure":
+            given = [*given[1:], self.terms.line(results[0]), "data"]
+            yield from fill("event(", _arguments(given), ";", separator="")
+            return
         if name == "sample":
             # A signal is printed as two arguments, function and context. Sampling calls the function with the
             # context.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from codegen.errors import SceneError
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
 from codegen.ir.precision import DOUBLE
@@ -18,8 +19,9 @@ from codegen.printers.recipe import IN_MANIFEST, Recipe, entries_set, header
 from codegen.printers.state_fields import layout, times
 from codegen.run.batch import BATCH, LANES, called_by, complete, near
 from codegen.run.identifiers import identify
-from codegen.run.language import Unit, terms
+from codegen.run.language import LANGUAGE, Unit, terms
 from codegen.run.numbers import numbers_held
+from codegen.run.observation import PARTS
 from codegen.run.plan import Plan
 from codegen.run.status import statuses
 from codegen.run.sweeps import WIDE
@@ -49,6 +51,9 @@ stores pairs of floats in vector registers of 16 bytes, that is 8 bytes for each
 equations, an optimiser moves common subexpressions out of the loop, and these values need more space. The
 largest measured values with equations were 8.8 bytes in double precision and 8.0 bytes in single precision.
 """
+
+LARGEST_STACK = 6 * 2**20
+"""The largest permitted bound on the stack of a call. Most systems limit the stack to 8 MiB."""
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
 """The compilers for which tests compare the bound with the stack that calls use."""
@@ -95,10 +100,13 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "adaptive": interface.adaptive,
         "batch": interface.batch,
         "vectorised": LANES in unit.parts,
-        "build": " ".join(
-            ("-std=c11", *(VECTOR_FLAGS if interface.batch else ("-O2",)), "-ffp-contract=off")
-        ),
+        "optimised": " ".join(VECTOR_FLAGS) if interface.batch else "-O2",
         "variations": interface.variations,
+        "integrated": interface.integrated,
+        "controlled": interface.controlled,
+        "events": interface.events,
+        "compared": PARTS,
+        "dense": interface.dense,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
         # Prototypes and definitions are printed by the same functions, so they cannot differ.
@@ -160,7 +168,7 @@ def _forms(unit: Unit) -> set[str]:
     for function in unit.functions:
         form = near if function.near else complete
         names |= {
-            form(name) for name in called_by(function.body) if name not in unit.parts and name != "sample"
+            form(name) for name in called_by(function.body) if name not in unit.parts and name not in LANGUAGE
         }
     return names
 
@@ -176,7 +184,8 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
 
     At -O0 a compiler uses about the bound without the margin, because each name has its own slot. Tests
-    compare the bound with ``-fstack-usage`` and with a painted stack.
+    compare the bound with ``-fstack-usage`` and with a painted stack. :class:`SceneError` is raised if the
+    bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # The function ``invert`` has local variables (scalars, a row, a permutation), so a step that inverts a
@@ -190,6 +199,13 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     numbers = numbers_held(unit)
     # The bound is rounded up to 64 bytes, to include the alignment of vector registers.
     bound = -(-(each * numbers + frames) // 64) * 64
+    if bound > LARGEST_STACK:
+        raise SceneError(
+            f"a step that needs {bound / 2**20:.1f} MiB of the stack",
+            where=interface.module,
+            expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
+            hint="use fewer rows, a method with fewer stages, or the target python",
+        )
     margin = f", {bound - size * numbers - frames} of them as a margin" if each > size else ""
     return f"at most {bound} bytes with {MEASURED}{margin}; functions of the mathematical library add to this"
 
@@ -198,12 +214,13 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     """Return the names that the module declares at file scope; no variable may hide these names."""
     prefix, upper = interface.prefix, interface.prefix.upper()
     names = {"step", "run", "run_adaptive", "jacobian", "run_batch", "statistics", "input", "hold"}
+    names |= {"integrate", "event"} if interface.integrated else set()
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
     names |= {snippet.name for snippet in snippets(interface.format)}
-    return frozenset(
-        {f"{prefix}{name}" for name in names} | {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
-    )
+    local = {"event", "data"} if interface.events else set[str]()
+    constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
+    return frozenset({f"{prefix}{name}" for name in names} | constants | local)
 
 
 def prototypes(interface: Interface) -> str:
@@ -242,7 +259,31 @@ def prototypes(interface: Interface) -> str:
         else ""
     )
     known = ((record, bool(blocks)), (callback, bool(interface.inputs)), (adaptive, interface.adaptive))
-    return "".join(text for text, there in known if there) + run
+    passed = f"{parameters}{sampled}"
+    return "".join(text for text, there in known if there) + run + _integrate(interface, passed, statistics)
+
+
+def _integrate(interface: Interface, passed: str, statistics: str) -> str:
+    """Return the declaration of the run to a given end time; '' without this run. ``passed`` are the
+    parameters and inputs."""
+    if not interface.integrated:
+        return ""
+    prefix, real = interface.prefix, interface.format.c_type
+    event = f"typedef void (*{prefix}event)({real} t, const {real} *state, {real} *values, void *data);\n"
+    buffers = (
+        f"{prefix}event event, void *data, const size_t *stops, size_t room, {real} *event_times, "
+        f"{real} *event_rows, size_t *event_numbers, size_t *event_count, "
+    )
+    tolerances = f"{real} rtol, {real} atol, {real} least, {real} greatest, "
+    chosen = f"{real} *t, {real} end, " + (
+        f"{real} *h, {tolerances}" if interface.controlled else f"{real} h, "
+    )
+    outputs = f"const {real} *times, size_t count, {real} *rows, size_t *written, "
+    last = "size_t *accepted, size_t *rejected" if interface.controlled else "size_t *completed"
+    return (event if interface.events else "") + (
+        f"int {prefix}integrate({real} *state, {chosen}size_t limit, {passed}{outputs}"
+        f"{buffers if interface.events else ''}{statistics}{last});\n"
+    )
 
 
 def example_input(interface: Interface) -> list[str]:

@@ -135,6 +135,8 @@ class Terms(Infix):
         # The context pointer is needed, because C has no closures.
         if term.kind is Kind.SIGNAL:
             return "input, context"
+        if term.kind is Kind.EVENTS:
+            return "event, data"
         if not term.own and term.text in self.tables:
             return self.prefix + term.text
         return self.identifiers.of(term)

@@ -292,7 +292,7 @@ class _Body:
         """Yield the lines of a call."""
         given = [self.terms.line(a) for a in statement.arguments]
         results = [self.terms.line(r) for r in statement.results]
-        name = "sampled" if statement.function == "sample" else statement.function
+        name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
         # ``invert`` comes from the library of helpers, whose names have no underscore. The other functions
         # are emitted for this module, and their names start with an underscore.

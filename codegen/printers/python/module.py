@@ -14,7 +14,7 @@ from codegen.printers.needs import functions_of
 from codegen.printers.python.functions import FunctionPrinter, class_of
 from codegen.printers.python.terms import Constants
 from codegen.printers.python.text import quoted
-from codegen.printers.python.words import PUBLIC, RESERVED
+from codegen.printers.python.words import INTEGRATION, PUBLIC, RESERVED
 from codegen.printers.recipe import IN_MANIFEST, Recipe, entries_set, header
 from codegen.printers.state_fields import layout, times
 from codegen.run.identifiers import Identifiers, identify
@@ -24,6 +24,9 @@ from codegen.run.status import NOT_FINITE_BLOCK, statuses
 from codegen.run.unit import unit_of
 from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
+
+ROOM = 1024
+"""The number of events of one call; a run with more events ends early and can be continued."""
 
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
 """The default options of an adaptive run."""
@@ -56,7 +59,8 @@ class _Module:
         """The identifiers in each function."""
         underscored = {f"_{f.name}" for f in self.unit.functions}
         classes = {class_of(record) for record in self.unit.records}
-        return identify(self.unit, RESERVED | PUBLIC | underscored | classes)
+        own = INTEGRATION if self.interface.integrated else frozenset[str]()
+        return identify(self.unit, RESERVED | PUBLIC | own | underscored | classes)
 
     @cached_property
     def constants(self) -> Constants:
@@ -167,6 +171,9 @@ class _Module:
             ),
             "adaptive": self.adaptive(inputs, given, optional, counted),
             "jacobian": self.jacobian(time, inputs, given),
+            "integrate": self.integrate(inputs, given, optional, counted),
+            "events": interface.events,
+            "room": ROOM,
         }
         return environment("python").get_template("module/module.py.j2").render(variables)
 
@@ -183,6 +190,33 @@ class _Module:
             ),
             "floats": ["end", "rtol", "atol", *self.parameters],
             "arguments": ", ".join([*arguments, *counted, "accepted", "rejected"]),
+        }
+
+    def integrate(
+        self, inputs: list[str], given: list[str], optional: list[str], counted: list[str]
+    ) -> dict[str, object] | None:
+        """Return the variables of the template for a run to a given end time."""
+        interface = self.interface
+        if not interface.integrated:
+            return None
+        controlled = interface.controlled
+        tolerances = ["rtol", "atol", "least", "greatest"] if controlled else []
+        options = ["rtol=1e-6", "atol=1e-9", "least=0.0", 'greatest=float("inf")'] if controlled else []
+        events = ["event=None", "stops=()"] if interface.events else []
+        first = ["state", "t", "end", *inputs, "h=0.0" if controlled else "h"]
+        buffers = ["event", "stops", "room", "event_times", "event_rows", "event_numbers", "event_count"]
+        arguments = ["state", "now", "end", "size" if controlled else "h", *tolerances, "limit"]
+        arguments += [*self.parameters, *inputs, "times", "len(times)", "rows", "written"]
+        arguments += [*(buffers if interface.events else []), *counted]
+        arguments += ["accepted", "rejected"] if controlled else ["accepted"]
+        return {
+            "run": ", ".join(
+                [*first, *keywords([*options, "limit=100000", "times=()", *events, *given, *optional])]
+            ),
+            "floats": ["end", *tolerances, *([] if controlled else ["h"]), *self.parameters],
+            "arguments": ", ".join(arguments),
+            "controlled": controlled,
+            "dense": interface.dense,
         }
 
     def jacobian(self, time: list[str], inputs: list[str], given: list[str]) -> dict[str, object] | None:

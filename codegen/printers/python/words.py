@@ -25,3 +25,11 @@ _PUBLIC = """
 
 PUBLIC = frozenset(_PUBLIC.split())
 """Local names of the public functions, which no parameter may have."""
+
+_INTEGRATION = """
+    EVENT BAD_TIMES LEAST_STEP BAD_EVENT Arrival integrate times written event stops room event_times
+    event_rows event_numbers event_count events arrival least greatest
+"""
+
+INTEGRATION = frozenset(_INTEGRATION.split())
+"""Names of a run to a given end time, and its local names; reserved in modules with this run only."""

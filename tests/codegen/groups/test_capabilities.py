@@ -58,7 +58,7 @@ DECLARED = {
         *MORE,
     },
     LeftTranslation: {"SO(3)", "R^3", "S^3", "SO(3) x R^2", *POSES, *MORE},
-    BodyFrame: {"SO(3)"},
+    BodyFrame: {"SO(3)", "SE(3)", "SE_2(3)"},
     Covered: {"SO(3)", "SE(3)", "SE_2(3)"},
     ClosedFormSeries: {"SO(3)", "S^3", "SL(2)", "SU(2)", *POSES},
     MatrixRepresentation: {

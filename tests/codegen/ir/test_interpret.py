@@ -4,6 +4,7 @@ from fractions import Fraction
 
 import pytest
 
+from codegen.ir.ball_domain import BallDomain
 from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain, SeriesDomain
 from codegen.ir.interpret import interpret
 from codegen.lower import lower, problem_for
@@ -62,6 +63,14 @@ def test_a_block_that_does_not_settle_is_named():
     program = lower(scene, method)
     with pytest.raises(NotConverged, match=r"^stages did not converge in 30 sweeps"):
         interpret(program, scene, FloatDomain(5.0), start(scene, FloatDomain(5.0)), limit=30, newton=False)
+
+
+def test_the_last_change_of_a_ball_is_written_with_two_digits():
+    scene = field_scene("S^2")
+    program = lower(scene, Method("cg", butcher("stiff", [[1]], [1])))
+    domain = BallDomain(5.0)
+    with pytest.raises(NotConverged, match=r"the last change was \d\.\de[+-]\d\d$"):
+        interpret(program, scene, domain, start(scene, domain), limit=3, newton=False)
 
 
 def test_a_block_that_leaves_the_numbers_is_an_arithmetic_error():

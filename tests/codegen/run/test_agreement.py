@@ -6,7 +6,7 @@ import mpmath
 import pytest
 
 from codegen import scenes
-from codegen.emitter import emit_compiled, start_of
+from codegen.emitter import emit_compiled
 from codegen.integrator import Statistics
 from codegen.ir.angle_depth import chain
 from codegen.ir.domain import PreciseDomain
@@ -20,6 +20,7 @@ from codegen.run.plan import Plan
 from codegen.run.solver_choice import amount
 from codegen.run.terms import OK, STATUSES
 from codegen.run.unit import unit_of
+from codegen.scene.momentum_frame import start_of
 from tests.compilations import compiled
 from tests.promises import ulps
 

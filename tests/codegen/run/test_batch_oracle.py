@@ -2,12 +2,13 @@
 
 import pytest
 
-from codegen.emitter import compile_method, start_of, with_batch
+from codegen.emitter import compile_method, with_batch
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.precision import DOUBLE
 from codegen.run.execute import Machine
 from codegen.run.plan import Plan
 from codegen.run.unit import unit_of
+from codegen.scene.momentum_frame import start_of
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from sympy import Matrix, Rational
 
 from codegen.commands.emit import command as emit_command
 from codegen.commands.emit import explanation
-from codegen.emitter import compile_method, emit_compiled, start_of
+from codegen.emitter import compile_method, emit_compiled
 from codegen.groups import LeftMultiplication, Rn
 from codegen.integrator import StepFailed
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
@@ -21,6 +21,7 @@ from codegen.run.execute import _inverted
 from codegen.run.solver_choice import CHOICES, FEW_STEPS, LARGE, STEPS, Candidate, is_linear
 from codegen.run.step_cost import Amounts, StepCost
 from codegen.scene import FieldScene
+from codegen.scene.momentum_frame import start_of
 from orderconds.errors import UnknownName
 from tests.compilations import compiled, emitted
 

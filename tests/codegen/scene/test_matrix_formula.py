@@ -36,6 +36,7 @@ FORMULAS = {
     "sum of constants": (lambda x, a, w, b, s: (a + 2 * a.T) @ x @ (s - s.T)),
     "sum as a factor": (lambda x, a, w, b, s: (x + a @ x) @ (x.T @ x - x.T @ b @ b.T @ x)),
     "transposed sum": (lambda x, a, w, b, s: (x.T + s @ x.T @ a).T),
+    "sum with n^2 entries": (lambda x, a, w, b, s: (x @ x.T - x @ s @ x.T) @ (a + x @ x.T) @ x),
     "only the unknown": (lambda x, a, w, b, s: 3 * x - 2 * x),
 }
 
@@ -60,6 +61,11 @@ def test_every_stored_matrix_has_few_columns_and_equal_products_are_computed_onc
     assert len(compiled.body) == 4
 
 
+def test_a_sum_with_many_entries_is_multiplied_out():
+    compiled = program((X @ X.T - X @ SMALL @ X.T) @ (BAND + X @ X.T) @ X)
+    assert all(statement.target.columns <= K for statement in compiled.body)
+
+
 @pytest.mark.parametrize(
     "formula",
     [
@@ -71,6 +77,7 @@ def test_every_stored_matrix_has_few_columns_and_equal_products_are_computed_onc
         lambda: banded(N, {0: ["a"] * N}) @ X,
         lambda: sympy.Symbol("x") * X,
         lambda: X @ X,
+        lambda: BAND @ BAND @ full(N, K, 1) + X,
         lambda: X * X,
         lambda: X + np.zeros((N, K)),
         lambda: banded(N, {N: 1}),

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import combinations
 from types import SimpleNamespace
 
 import pytest
@@ -19,7 +21,7 @@ from codegen.lab.distance import distance
 from codegen.lab.efficiency import race, search
 from codegen.lab.efficiency.candidates import Recipe, candidates
 from codegen.lab.efficiency.equations import Equations
-from codegen.lab.efficiency.goal import Goal
+from codegen.lab.efficiency.goal import Goal, possible, possible_needs
 from codegen.lab.efficiency.jobs import Jobs
 from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor, run, widths_of_inputs
 from codegen.lab.efficiency.race import Racer, Result, entry
@@ -47,10 +49,15 @@ NEEDS = (
 
 
 @pytest.fixture(scope="module", autouse=True)
-def _short_samples() -> None:
+def _short_samples() -> Iterator[None]:
     """Times of these races are coarse, because no test depends on them."""
+
+    def coarse(run: Callable[[int], int], overhead: timing.Overhead, batch: float, _: int) -> list[float]:
+        return timing.span_times(run, overhead, batch / 10, 2)
+
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(race, "samples", lambda call, batch, batches: (call() and 1.0,))
+        patch.setattr(race, "span_times", coarse)
+        yield
 
 
 @pytest.fixture(scope="module", params=NEEDS, ids=lambda needs: "+".join(needs) or "none")
@@ -345,3 +352,12 @@ def test_a_search_among_very_few_tableaux_ends() -> None:
     assert all(p.entry.recipe.method.endswith("cf4") for p in result.places)
     assert result.places
     assert list(Jobs({})) == []
+
+
+@pytest.mark.parametrize("scene", ["dipole", "free_rigid_body"])
+def test_needs_are_possible_together_if_each_of_them_is_possible(scene: str) -> None:
+    problem = scenes.load(scene)
+    choices = {goal for k in range(3) for goal in combinations(("manifold", "symplectic", "fixed"), k)}
+    for recipe in candidates(problem, ("rk4", "cf4", "gauss2", "dormand_prince5")):
+        known = {needs for needs in choices if possible(recipe, needs, problem)}
+        assert possible_needs(recipe, choices, problem) == known

@@ -303,9 +303,9 @@ def test_table_2_1_is_reproduced():
 @pytest.mark.parametrize(
     "words",
     [
-        ("heavy_top", "-m", "rkmk(0):euler", "--h", "0.05", "--steps", "2000"),
-        ("free_rigid_body_s3", "-m", "rkmk:heun", "--h", "0.015625", "--steps", "8000"),
-        ("linear_oscillator+u", "-m", "rk:lobatto3c2", "--h", "0.3", "--steps", "8000"),
+        ("heavy_top", "-m", "rkmk(0):euler", "--h", "0.05", "--steps", "100000"),
+        ("free_rigid_body_s3", "-m", "rkmk:heun", "--h", "0.015625", "--steps", "64000"),
+        ("linear_oscillator+u", "-m", "rk:lobatto3c2", "--h", "0.3", "--steps", "40000"),
         ("duffing", "-m", "rkmk(0):euler", "--h", "0.02", "--steps", "10000"),
     ],
 )

@@ -8,14 +8,14 @@ from dataclasses import replace
 import pytest
 from sympy import Matrix, symbols
 
-from codegen.emitter import compile_method, emit_compiled
+from codegen.emitter import compensated, compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.expr import evaluate
 from codegen.ir.kernel import Kernel
+from codegen.kernel.compensation import CARRY, Increments, with_carries
 from codegen.lab.invariants import MANIFOLD, functions
-from codegen.lab.long_runs.compensated import CARRY, Increments, compensated, with_carries
 from codegen.lab.long_runs.rounding_growth import STARTS, TIMES, _growth, rounding_growth
 from codegen.lab.runner import Emitted
 from codegen.loader import load

@@ -297,3 +297,9 @@ def test_a_run_that_fails_is_left_out_with_its_reason(exact: Exact) -> None:
     found = measure(exact, "dipole", "vcg:triple_jump", 4, steps=(1, 20, 40, 80, 160))
     assert re.search("did not converge|not finite", found.refinement.runs[0].excluded)
     assert found.verdict == "holds", found.sentence()
+
+
+@pytest.mark.slow
+def test_the_slopes_of_a_stiff_scene_settle_with_short_steps(exact: Exact) -> None:
+    """The fast rotation needs thousands of steps before the error is proportional to h^3."""
+    assert measure(exact, "stiff_driven_spin", "cg:cg3", 3).verdict == "holds"

@@ -76,7 +76,7 @@ def found() -> SceneResults:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(order_study, "timings", lambda run, steps: tuple(Timing(n, n * 1e-7) for n in steps))
         for module in (emitted_candidate, peer_candidate):
-            patch.setattr(module, "samples", lambda call: (1e-4, 2e-4))
+            patch.setattr(module, "span_times", lambda run, _: [1e-7 * run(1), 2e-7 * run(1)])
         methods = ("cg:cg3", "cf:cf4")
         planned = subject("free_rigid_body", load("free_rigid_body"), methods, effort=SHORT)
         result = measure_scene(replace(planned, progress=told.append), selected(()))

@@ -13,31 +13,38 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from codegen.emitter import Compiled
 from codegen.errors import MethodError
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import Field, Kernel, Let, Loop, Start
+from codegen.ir.program import Program
 from codegen.kernel.translate import to_kernel
+from codegen.scene.problem import Problem
 
 CARRY = "carry_"
 
 Statement = Let | Start | Loop
 
 
-def compensated(compiled: Compiled) -> Compiled:
-    """Return the method with an extended state: the coordinates, then one carry for each coordinate.
+def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
+    """Return the kernel with an extended state: the coordinates, then one carry for each coordinate.
 
     All carries are zero initially.
 
-    Raises :class:`MethodError` if the new value of some coordinate is not the old value plus an increment.
+    Raises :class:`MethodError` if the new value of some coordinate is not the old value plus an increment,
+    and for a step by loops over arrays.
     """
-    kernel = compiled.kernel
+    if kernel.arrays is not None:
+        raise MethodError(
+            "a compensated form of a step by loops over arrays",
+            where=problem.name,
+            expected="a step with a formula for each coordinate",
+        )
     if kernel.deferred is not None:  # The step must be complete: no flow may be deferred to the next step.
-        kernel = to_kernel(compiled.program, compiled.problem)
+        kernel = to_kernel(program, problem)
     if kernel.carried is not None:
         solvers = {loop.label: loop.solver for loop in kernel.loops}
-        kernel = to_kernel(compiled.program, compiled.problem, solvers, whole=True)
-    return replace(compiled, kernel=with_carries(kernel))
+        kernel = to_kernel(program, problem, solvers, whole=True)
+    return with_carries(kernel)
 
 
 def with_carries(kernel: Kernel) -> Kernel:

@@ -1,0 +1,131 @@
+"""The results of runs: statuses, errors, arrivals, statistics, and the checked arguments of a call."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+from codegen.event import Crossing
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
+from codegen.state_form import Batch, State, StateForm
+
+Signals = Callable[[float], Sequence[float]]
+"""A function from the time to the run-time inputs."""
+
+
+SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
+"""The solvers of implicit blocks, the most robust first."""
+
+
+class Status(IntEnum):
+    """The result of a step; emitted code returns these numbers."""
+
+    OK = 0
+    NOT_CONVERGED = 1
+    NOT_FINITE = 2
+    BAD_STEP = 3
+    LIMIT = 4
+    TOO_FAR = 5
+    SINGULAR = 6
+    TOO_SHORT = 7
+    EVENT = 8
+    BAD_TIMES = 9
+    LEAST_STEP = 10
+    BAD_EVENT = 11
+
+
+class StepFailed(ArithmeticError):
+    """The error of a failed step: its status, the number of steps completed before it, and the state after
+    these steps.
+
+    After a run that chooses its steps, and after ``integrate``, ``arrival`` contains the last good state, its
+    time, and the size of the next step. The run can be continued from there.
+    """
+
+    arrival: Arrival | None = None
+
+    def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
+        super().__init__(f"step {step + 1}: {reason}")
+        self.status, self.step, self.state, self.reason = status, step, state, reason
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """The result of an adaptive run: the last state and its time, the proposed size of the next step, and the
+    numbers of accepted and rejected steps."""
+
+    state: State
+    t: float
+    h: float
+    accepted: int
+    rejected: int
+    states: State = None
+    """The states at the times ``t_eval``; None without such times."""
+    crossings: tuple[Crossing, ...] = ()
+    """The events that a run of ``integrate`` has found, in order."""
+    status: Status = Status.OK
+    """EVENT if a terminal event ended the run."""
+
+
+@dataclass(frozen=True)
+class Reached:
+    """The results of one call of the emitted run to an end time, before they have the form of the caller's
+    state. Each of the ``events`` is (index, time, direction, state)."""
+
+    status: int
+    state: Sequence[float]
+    t: float
+    h: float
+    rows: Sequence[Sequence[float]]
+    events: Sequence[tuple[int, float, int, Sequence[float]]]
+    accepted: int
+    rejected: int
+    reason: str
+
+
+@dataclass
+class Statistics:
+    """Counts of a run: ``sweeps`` of each block in all steps, and ``most``, the largest number of sweeps of a
+    block in one step. ``failed`` is the index of the block that failed, counted from 1, or 0 if no block
+    failed.
+
+    ``matrices`` is the number of Newton matrices that were computed.
+    """
+
+    sweeps: list[int] = field(default_factory=list)
+    most: int = 0
+    failed: int = 0
+    matrices: int = 0
+
+
+@dataclass(frozen=True)
+class Begun:
+    """The checked arguments of a call: the form of the state, the numbers of the state, the parameter values,
+    the inputs and the statistics."""
+
+    form: StateForm
+    numbers: list[float]
+    values: list[float]
+    inputs: Signals | None = None
+    statistics: Statistics | None = None
+    solvers: tuple[str, ...] = ()
+
+    def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
+        """Return the error of a failed step; its state has the type of the caller's state.
+
+        If an implicit block did not converge, the message names the other solvers.
+        """
+        if status == Status.NOT_CONVERGED:
+            others = [s for s in SOLVERS if s not in self.solvers]
+            options = f", or emit with the solver {' or '.join(others)}" if others else ""
+            reason += f"; take shorter steps{options}"
+        return StepFailed(Status(status), step, self.form.restore(state), reason)
+
+
+def joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
+    """Return the result of adaptive runs from all states of a batch."""
+    last = arrivals[-1]
+    states = None if last.states is None else batch.joined([x.states for x in arrivals])
+    accepted, rejected = sum(x.accepted for x in arrivals), sum(x.rejected for x in arrivals)
+    return Arrival(batch.joined([x.state for x in arrivals]), last.t, last.h, accepted, rejected, states)

@@ -1,0 +1,27 @@
+"""Names of scenes and methods in the command that regenerates a module."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import PurePath
+
+
+def bare(name: str) -> str:
+    """Return a name without folders, because emitted text must not contain a path of the machine.
+
+    >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
+    ('vcg:mine.toml', 'top.py')
+    """
+    name, bracket, values = name.partition("[")
+    family, colon, rest = name.rpartition(":") if re.match(r"[a-z_]+(\(\d+\))?:", name) else ("", "", name)
+    return f"{family}{colon}{PurePath(rest).name}{bracket}{values}"
+
+
+def quoted(word: str) -> str:
+    """Quote a word if a shell would otherwise interpret characters in it.
+
+    >>> quoted("rkmk(2):rk4"), quoted("linear_oscillator+u")
+    ("'rkmk(2):rk4'", 'linear_oscillator+u')
+    """
+    return shlex.quote(word)

@@ -1,0 +1,93 @@
+"""Events of a run: zeros of functions of time and state, with their directions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from codegen.argument import described, real
+
+EventFunction = Callable[[float, Any], float]
+"""A function of the time and the state; the state has the form of the caller's state."""
+
+RISING, FALLING = 1, -1
+"""The directions of an event: the values of its function rise or fall."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """The zeros of a function g(t, y).
+
+    ``direction`` is RISING (1), FALLING (-1) or 0 for both. A ``terminal`` event ends the run.
+    """
+
+    function: EventFunction
+    terminal: bool = False
+    direction: int = 0
+
+    @property
+    def stops(self) -> int:
+        """The argument of emitted code: 1 to end the run at rising values, 2 at falling values, 3 at both."""
+        return {RISING: 1, FALLING: 2, 0: 3}[self.direction] if self.terminal else 0
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A zero that a run has found: the index of its event, the time, the direction, and the state."""
+
+    event: int
+    t: float
+    direction: int
+    state: Any
+
+
+def events_of(given: object, most: int) -> tuple[Event, ...]:
+    """Return the events of a call; functions become events that do not end the run.
+
+    TypeError is raised for other objects, ValueError for more than ``most`` events or another direction.
+
+    >>> events_of([lambda t, y: y[0]], 1)[0].stops
+    0
+    >>> events_of([Event(len, terminal=True, direction=2)], 1)
+    Traceback (most recent call last):
+    ValueError: expected the direction 1, -1 or 0 of an event, found 2
+    """
+    if not isinstance(given, Sequence):
+        raise TypeError(f"expected a list of functions or events for events, found {described(given)}")
+    if len(given) > most:
+        raise ValueError(
+            f"expected at most {most} events, found {len(given)}; emit the module with events={len(given)}"
+        )
+    events = []
+    for x in given:
+        event = x if isinstance(x, Event) else Event(x)
+        if not callable(event.function):
+            raise TypeError(f"expected a function of time and state for an event, found {described(x)}")
+        if event.direction not in (RISING, FALLING, 0):
+            raise ValueError(f"expected the direction 1, -1 or 0 of an event, found {event.direction}")
+        events.append(event)
+    return tuple(events)
+
+
+class EventValues:
+    """The values of all event functions of a call, in the order of emitted code.
+
+    ``restore`` returns a state in the form of the caller's state. If a function raises an error, the error is
+    stored, and the values are NaNs, with which the run ends.
+    """
+
+    def __init__(self, events: Sequence[Event], size: int, restore: Callable[[Sequence[float]], Any]) -> None:
+        self.events, self.size, self.restore = events, size, restore
+        self.failure: BaseException | None = None
+
+    def __call__(self, t: float, state: Sequence[float]) -> list[float]:
+        """Return the values."""
+        try:
+            form = self.restore(list(state))
+            values = [real(event.function(t, form), "the value of an event") for event in self.events]
+        except BaseException as error:  # a Python exception must not pass through C code
+            self.failure = self.failure or error
+            values = [float("nan")] * len(self.events)
+        # Functions that the caller does not use have no zeros.
+        return values + [1.0] * (self.size - len(values))

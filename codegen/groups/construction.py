@@ -1,0 +1,29 @@
+"""Checks of the arguments from which groups are constructed."""
+
+from __future__ import annotations
+
+from codegen.errors import SceneError
+from codegen.groups.base import LieGroup
+
+
+def check_size(name: str, n: object, least: int) -> None:
+    """Raise :class:`SceneError` unless n is an integer of at least ``least``; ``name`` is the name of the
+    class.
+
+    >>> check_size("SO", "3", 2)
+    Traceback (most recent call last):
+    codegen.errors.SceneError: SO('3'): a size that is not allowed; expected an integer of at least 2
+    """
+    if not isinstance(n, int) or isinstance(n, bool) or n < least:
+        raise SceneError(
+            "a size that is not allowed", where=f"{name}({n!r})", expected=f"an integer of at least {least}"
+        )
+
+
+def check_factor(name: str, group: object) -> None:
+    """Raise :class:`SceneError` unless the argument is a group; ``name`` is the name of the construction."""
+    if not isinstance(group, LieGroup):
+        shown = group.__name__ if isinstance(group, type) else repr(group)
+        raise SceneError(
+            f"the factor {shown} of {name}", expected="an object of codegen.groups, such as SO3()"
+        )

@@ -1,0 +1,139 @@
+"""The content of the header of an emitted module: facts about the method and the scene, and omitted parts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from codegen.certify import CertifiedOrder, rounding_of_digits
+from codegen.ir.kernel import Kernel, Loop
+from codegen.ir.precision import DOUBLE, Precision
+from codegen.ir.smoothness import features
+from codegen.lower import lowering
+from codegen.passes import summaries
+from codegen.printers.recipe import Recipe
+from codegen.run.trial import PARTS
+from codegen.scene.momentum_frame import start_of
+from codegen.scene.problem import TIME, Problem
+from orderconds import __version__
+
+if TYPE_CHECKING:
+    from codegen.emitter import Compiled
+
+SINGLE_IS = "single: constants are rounded once, implicit stages converge to single precision"
+
+NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
+"""A remark in the header of emitted code, for a scene whose field is not smooth."""
+
+COMPENSATED = "compensated: the second half of the state is the rounding errors, which are zero initially"
+COUNTED = "; the numbers of sweeps above are for double precision"
+"""A remark in the header if the solvers were compared in double precision."""
+
+
+def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: Precision) -> Recipe:
+    """Return the content of the header of a module."""
+    scene, method = compiled.scene, compiled.method
+    first, last = scene.span
+    single = target is not DOUBLE
+    # A method without a tableau has no coefficients that could be rounded.
+    tableau = method.coefficients is not None
+    carries = (0.0,) * (len(scene.symbols) if compiled.compensated else 0)
+    digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
+    return Recipe(
+        title=f"{scene.title}: one step by {method.label}",
+        facts=(
+            ("method", method.described),
+            ("source", method.source),
+            *coordinates_of(compiled),
+            ("order", order.text()),
+            *digits,
+            *scene_facts(compiled),
+            *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
+            *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
+            *(("solved by", choice.text()) for choice in compiled.solvers),
+            *((("precision", SINGLE_IS + COUNTED * bool(compiled.solvers)),) if single else ()),
+            *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
+            *_output_facts(compiled.kernel),
+            *((("summation", COMPENSATED),) if compiled.compensated else ()),
+        ),
+        initial=(*start_of(scene), *carries),
+        h=float((last - first) / PARTS),
+        steps=PARTS,
+        defaults={p: float(scene.parameters[p]) for p in scene.runtime},
+        left_out=left_out(compiled),
+        command=command,
+        version=__version__,
+    )
+
+
+def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
+    """Return the line of the header about the continuous extension, if the module has one."""
+    extension = None if kernel.observed is None else kernel.observed.extension
+    if extension is None:
+        return ()
+    text = f"inside steps by the continuous extension of the tableau, of order {extension.order} and degree"
+    return (("output", f"{text} {extension.degree} in the coordinates of the exponential"),)
+
+
+def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
+    """Return the sentence about the coordinate map of the scene, if the method uses the map."""
+    used = compiled.scene.coordinates if lowering(compiled.method.family).reads_coordinates else None
+    if used is None:
+        return ()
+    unread = f"; the cut-off {compiled.method.cutoff} is not read, because nothing is truncated"
+    return (("coordinates", used.text + unread * (compiled.method.cutoff is not None)),)
+
+
+def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
+    """Return the lines of the header about the scene, and about the form of its equations."""
+    form = compiled.form
+    chosen = features(compiled.scene.roots)
+    smooth = (("smooth", f"no: {chosen}; {NOT_SMOOTH}"),) if chosen else ()
+    if form is None:
+        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"), *smooth)
+    return (
+        *smooth,
+        ("scene", f"{form.scene.title}, group {form.scene.group.name}"),
+        ("form", f"{form.name}; {form.state}"),
+        *((("to scene", form.conversion),) if form.conversion else ()),
+    )
+
+
+def steps_of(kernel: Kernel) -> str:
+    """Describe the step control of a run."""
+    if kernel.expansion is not None:
+        last = kernel.expansion.degree
+        return f"constant, or chosen from the Taylor coefficients {last - 1} and {last} of each step"
+    assert kernel.estimate is not None
+    return (
+        f"constant, or chosen by a proportional-integral controller with an error estimate "
+        f"of order O(h^{kernel.estimate.order}) by the embedded method"
+    )
+
+
+def substeps_of(kernel: Kernel) -> str:
+    """Describe the substeps of a step."""
+    each = ", ".join(f"{float(step.fraction):.6g}" for step in kernel.substeps)
+    return f"{len(kernel.substeps)} calls of one function, with step sizes {each} times h"
+
+
+def left_out(compiled: Compiled) -> tuple[str, ...]:
+    """Return a line for each simplification that this scene and method allow."""
+    kernel, scene = compiled.kernel, compiled.scene
+    lines = [*summaries(compiled.trace)]
+    folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
+    if folded:
+        lines.append(f"arguments for parameters, which are constants: {', '.join(folded)}")
+    closed = [name for name in scene.signals if name not in scene.inputs]
+    if closed:
+        lines.append(f"run-time inputs: {', '.join(closed)} computed by formula")
+    if TIME not in kernel.used_scalars():
+        lines.append("the time: the scene does not depend on it")
+    if not any(isinstance(s, Loop) for s in kernel.body):
+        lines.append("equation solving: every stage is explicit")
+    return tuple(lines)
+
+
+def flows_of(problem: Problem) -> str:
+    """Describe the exact flows that a splitting composes."""
+    return "; ".join(f"{name}, {flow.text()}" for name, flow in problem.flows.items())

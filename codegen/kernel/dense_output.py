@@ -1,0 +1,53 @@
+"""The kernels of a continuous extension: the coefficients of a step, and the state at a time inside the step.
+
+The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is a polynomial in theta with values
+in the Lie algebra. One kernel computes the coefficients of sigma from the state at the beginning of the step.
+The other kernel moves the state by exp of given coordinates.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.expr import Expr
+from codegen.ir.interpret import flatten
+from codegen.ir.kernel import Continuous, Field, Kernel, Let
+from codegen.ir.operations import ActExp
+from codegen.ir.program import Program
+from codegen.kernel.assignments import Assignments
+from codegen.kernel.shared_angles import SharedArguments
+from codegen.kernel.translate import COMBINED, to_kernel
+from codegen.passes import abelian, blocks, dead, fold_zeros, fuse, value_numbering
+from codegen.scene.problem import Problem
+
+COORDINATES = "coordinates"
+"""The name of the field of coordinates in the state of the second kernel."""
+
+
+def continuous(program: Program, problem: Problem, order: int) -> Continuous:
+    """Return the kernels of a program whose outputs are the coefficients of a continuous extension."""
+    program = fold_zeros.run(abelian.run(program, problem.group.abelian))
+    program = dead.run(blocks.run(value_numbering.run(program)))
+    # Functions are not outlined, because their names could be equal to names of functions of the step.
+    coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
+    degree = len(program.outputs)
+    return Continuous(coefficients, _moved(coefficients, problem), degree, order)
+
+
+def _moved(kernel: Kernel, problem: Problem) -> Kernel:
+    """Return the kernel that moves a point by exp of coordinates."""
+    domain = SharedArguments()
+    names = tuple(f"{COORDINATES}.{k}" for k in range(problem.group.dim))
+    x, y = (tuple(map(domain.space.sym, symbols)) for symbols in (names, problem.symbols))
+    (point,) = ActExp().evaluate(problem, domain, (x, y))
+    ends: list[Expr] = list(flatten(problem.state[0].kind, point))
+    taken = {*names, *problem.symbols, *kernel.scalars}
+
+    def name(base: str) -> str:
+        while base in taken:
+            base += "_"
+        taken.add(base)
+        return base
+
+    schedule = Assignments((), ends, {}, name)
+    body = tuple(s for s in schedule.run() if isinstance(s, Let))
+    fields = (*kernel.state, Field(COORDINATES, names, "coordinates in the Lie algebra"))
+    return Kernel(kernel.name, fields, kernel.scalars, body, schedule.outputs)

@@ -1,0 +1,79 @@
+"""Functions of a continuous extension: the coefficients of a step, and the state at a time inside the step.
+
+The coefficients cost as much as a step and are computed once for each step with output times inside it. Each
+further state inside the step costs one polynomial and one exponential.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.kernel import Continuous
+from codegen.run.arithmetic import computed, filling, loaded, sampled, stored
+from codegen.run.language import RAISES_NAN, Array, Assign, Call, For, Function, Statement
+from codegen.run.plan import Plan
+from codegen.run.terms import Term, count, real, value, whole
+
+EXTEND, MOVED, EXTENDED = "extend", "moved_by", "extended_state"
+"""The names of the functions."""
+
+
+class DenseOutput:
+    """The functions, and their calls."""
+
+    theta = real("theta")
+
+    def __init__(self, plan: Plan, extension: Continuous) -> None:
+        self.plan, self.extension = plan, extension
+        self.own = Plan(extension.coefficients, plan.format)
+        self.mover = Plan(extension.moved, plan.format)
+        self.width = self.mover.size - plan.size
+        self.powers = real("powers", extension.degree * self.width)
+        self.inner = plan.state("inner")
+
+    def functions(self) -> tuple[Function, ...]:
+        """Return the functions, callees first."""
+        about = "Move a state, which is followed by coordinates in the Lie algebra, by their exponential."
+        return self.extend(), filling(self.mover, MOVED, about, self.inner), self.extended()
+
+    def extend(self) -> Function:
+        """Return the function that computes the coefficients."""
+        own, state = self.own, self.plan.state()
+        body: list[Statement] = [
+            *sampled(own),
+            *loaded(own.symbols, state, own.arrangement.symbols()),
+            *computed(own),
+            *stored(self.powers, [value(x) for x in own.arrangement.outputs]),
+        ]
+        parameters = (state, *own.moment(), *own.parameters, *own.sampled(), self.powers)
+        about = (
+            "The continuous extension of a step: the coefficients of theta, theta^2, ... of the coordinates."
+        )
+        return Function(EXTEND, about, parameters, tuple(body), guard=RAISES_NAN)
+
+    def extended(self) -> Function:
+        """Return the function that evaluates the extension."""
+        plan, state, m = self.plan, self.plan.state(), self.width
+        pair, i, total = real("pair", self.mover.size), count("i"), real("total")
+        entries = [self.powers[i + p * m] for p in range(self.extension.degree)]
+        horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
+        body = (
+            Array(pair),
+            Assign(pair.part(0, plan.size), state),
+            For(
+                i,
+                whole(m),
+                (Assign(total, entries[-1]), *horner, Assign(pair[i + plan.size], self.theta * total)),
+            ),
+            Call(MOVED, (pair, self.inner)),
+        )
+        parameters = (state, self.powers, self.theta, self.inner)
+        about = "The state inside a step, at the fraction theta of the step."
+        return Function(EXTENDED, about, parameters, body)
+
+    def coefficients(self, state: Term, t: Term, h: Term) -> Call:
+        """Return the call that computes the coefficients of the step of size h."""
+        own = self.own
+        return Call(EXTEND, (state, *own.moment(t, h), *own.parameters, *own.sampled(), self.powers))
+
+    def state_at(self, state: Term, theta: Term) -> Call:
+        """Return the call that computes the state at a fraction of the step."""
+        return Call(EXTENDED, (state, self.powers, theta, self.inner))

@@ -1,0 +1,220 @@
+"""A run to a given end time: output at given times, events, and bounds on the size and number of steps.
+
+Steps have constant size, of which the last one may be shorter, or step control chooses them. A run that ends
+early, at its limit of steps, at an event, or after a failure, returns the last good state, its time and the
+next step size. The caller may call the function again with these values.
+"""
+
+from __future__ import annotations
+
+from codegen.run.cause import searched
+from codegen.run.language import Array, Assign, Call, Function, If, Return, Statement, While
+from codegen.run.observation import Observation
+from codegen.run.plan import Plan
+from codegen.run.step import exact_time
+from codegen.run.step_control import ATOL, RTOL, Controlled
+from codegen.run.terms import (
+    BAD_EVENT,
+    BAD_STEP,
+    LEAST_STEP,
+    LIMIT,
+    OK,
+    STATUS,
+    TOO_SHORT,
+    Kind,
+    absent,
+    both,
+    call,
+    code,
+    count,
+    either,
+    given,
+    is_finite,
+    negated,
+    real,
+    select,
+    size,
+    whole,
+)
+from codegen.run.trajectory import Rows, advanced, arguments, is_looped, own_memory
+
+INTEGRATE = "integrate"
+"""The name of the public function."""
+
+NEARLY = 1e-9
+"""If the rest of the interval is longer than a step by at most this fraction, one step covers it. Otherwise a
+quotient that is no integer because of rounding would cause a tiny step."""
+
+LEAST, GREATEST = real("least"), real("greatest")
+
+
+def functions(plan: Plan) -> tuple[Function, ...]:
+    """Return the public run and the functions that it calls; no functions if the run was not requested."""
+    if plan.kernel.observed is None:
+        return ()
+    own = _Constant(plan) if plan.kernel.estimate is None else _Adaptive(plan)
+    return *own.observation.functions(), own.integrate()
+
+
+def _checked(observation: Observation) -> tuple[Statement, ...]:
+    """Return the test that the buffer of events has enough room for the events of one time."""
+    if not observation.events:
+        return ()
+    full = both(STATUS.equals(code(OK)), observation.room < observation.events)
+    return (If(full, (Assign(STATUS, code(BAD_EVENT)),)),)
+
+
+class _Constant:
+    """Builds the run with steps of constant size; the attributes are variables of the run."""
+
+    t, h, completed = real("t", 1, cell=True), real("h"), count("completed", 1, optional=True, cell=True)
+    now, end, limit = real("now"), real("end"), count("limit")
+    start, length, following, left = real("begin"), real("size"), real("then"), real("left")
+    taken, done = real("taken"), count("steps_done")
+    stop = real("reached_time", 1)
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan, self.observation = plan, Observation(plan)
+        self.trial = plan.state("trial")
+
+    def integrate(self) -> Function:
+        """Return the function."""
+        plan, observation = self.plan, self.observation
+        state = plan.state()
+        chosen = (self.t, self.end, self.h, self.limit, *plan.parameters, *plan.sampled())
+        parameters = (state, *chosen, *observation.outputs, *observation.buffers)
+        parameters += (*plan.counted, self.completed)
+        moving = either(self.now < self.end, self.now > self.end)
+        numbers = both(*(is_finite(x) for x in (self.now, self.end, self.length)), self.length > 0.0)
+        body: tuple[Statement, ...] = (
+            Assign(STATUS, code(OK)),
+            Assign(self.done, whole(0)),
+            Assign(self.now, self.t[0]),
+            Assign(self.start, self.now),
+            Assign(self.length, size(self.h)),
+            If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
+            *_checked(observation),
+            *observation.begin(state, self.now, self.end),
+            *(own_memory(plan) if self.own_step else []),
+            Array(self.trial),
+            Array(self.stop, zero=True),
+            While(both(STATUS.equals(code(OK)), moving), self.step()),
+            Assign(self.t[0], self.now),
+            If(given(self.completed), (Assign(self.completed[0], self.done),)),
+            Return(STATUS),
+        )
+        return Function(INTEGRATE, "", parameters, body, Kind.STATUS, public=True)
+
+    @property
+    def own_step(self) -> bool:
+        """True if the run calls the function of a step itself, with a memory of earlier steps."""
+        plan = self.plan
+        # In the other cases ``run`` contains conversions or the kernel itself.
+        return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
+
+    def step(self) -> tuple[Statement, ...]:
+        """Return the statements of one step."""
+        signed = call("copysign", self.length, self.left)
+        near = size(self.left) <= (1.0 + NEARLY) * self.length
+        following = exact_time(self.start, self.done + 1, self.taken)
+        stuck = negated(either(self.following > self.now, self.following < self.now))
+        ended = select(stuck, code(TOO_SHORT), code(LIMIT))
+        return (
+            Assign(self.left, self.end - self.now),
+            Assign(self.taken, signed),
+            # Each time is computed from the initial time, so that errors do not accumulate.
+            Assign(self.following, select(near, self.end, following)),
+            Assign(self.taken, select(near, self.left, signed)),
+            If(
+                either(self.done >= self.limit, stuck),
+                (Assign(STATUS, ended),),
+                (
+                    *self.moved(),
+                    If(STATUS.equals(code(OK)), (self.observed(),)),
+                    If(self.observation.sound, self.accept()),
+                ),
+            ),
+        )
+
+    def moved(self) -> list[Statement]:
+        """Return the statements that compute the state after the step."""
+        plan, trial = self.plan, self.trial
+        copied: list[Statement] = [Assign(trial, plan.state())]
+        if self.own_step:
+            known = {"t": self.now, "h": self.taken}
+            passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
+            return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
+        time = (self.now,) if plan.time else ()
+        nothing = (absent(Rows(plan).trajectory), whole(0))
+        last = (*plan.counted, absent(count("completed", 1, optional=True, cell=True)))
+        passed = (trial, *time, self.taken, whole(1), *plan.parameters, *plan.sampled(), *nothing, *last)
+        return [*copied, Call("run", passed, (STATUS,))]
+
+    def observed(self) -> Statement:
+        """Return the call that observes the step."""
+        return self.observation.observe(self.plan.state(), self.trial, self.now, self.following, self.stop)
+
+    def accept(self) -> tuple[Statement, ...]:
+        """Return the statements after a step."""
+        return (
+            Assign(self.plan.state(), self.trial),
+            Assign(self.now, self.stop[0]),
+            Assign(self.done, self.done + 1),
+        )
+
+
+class _Adaptive(Controlled):
+    """Builds the run with step control; every accepted step is observed."""
+
+    stop = real("reached_time", 1)
+
+    def __init__(self, plan: Plan) -> None:
+        super().__init__(plan)
+        self.observation = Observation(plan)
+
+    def integrate(self) -> Function:
+        """Return the function."""
+        plan, observation = self.plan, self.observation
+        chosen = (self.t, self.end, self.h, RTOL, ATOL, LEAST, GREATEST, self.limit)
+        passed = (*plan.parameters, *plan.sampled(), *observation.outputs, *observation.buffers)
+        parameters = (plan.state(), *chosen, *passed, *plan.counted, self.accepted, self.rejected)
+        return Function(INTEGRATE, "", parameters, self.body(), Kind.STATUS, public=True)
+
+    def begin(self) -> tuple[Statement, ...]:
+        """Return the statements before the first step."""
+        observation, state = self.observation, self.plan.state()
+        ordered = both(LEAST >= 0.0, GREATEST >= LEAST, GREATEST > 0.0)
+        positive = either(RTOL > 0.0, ATOL > 0.0)
+        return (
+            *super().begin(),
+            Array(self.stop, zero=True),
+            If(negated(both(ordered, positive)), (Assign(STATUS, code(BAD_STEP)),)),
+            *_checked(observation),
+            *observation.begin(state, self.now, self.end),
+            *self.limited(),
+        )
+
+    def limited(self) -> tuple[Statement, ...]:
+        """Return the statements that limit the size of the next step."""
+        return (
+            If(self.length > GREATEST, (Assign(self.length, GREATEST),)),
+            If(self.length < LEAST, (Assign(self.length, LEAST),)),
+        )
+
+    def accept(self) -> tuple[Statement, ...]:
+        """Return the statements after a step whose error is small enough."""
+        observed = self.observation.observe(
+            self.plan.state(), self.trial, self.now, self.following, self.stop
+        )
+        accepted = (Assign(self.following, self.stop[0]), *super().accept(), *self.limited())
+        return (observed, If(self.observation.sound, accepted))
+
+    def refuse(self) -> tuple[Statement, ...]:
+        """Return the statements after a rejected step."""
+        # A step of the least size has no shorter step. The last step may be shorter than the least size.
+        short = both(LEAST > 0.0, size(self.taken) <= LEAST, STATUS.equals(code(OK)))
+        return (
+            *super().refuse(),
+            If(short, (Assign(STATUS, code(LEAST_STEP)),)),
+            If(self.length < LEAST, (Assign(self.length, LEAST),)),
+        )

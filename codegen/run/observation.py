@@ -1,0 +1,460 @@
+"""Output at given times and events, inside the steps of a run.
+
+A state inside a step is the result of one step from the beginning of this step to the given time. It is on
+the manifold, and it has the order of the method, for every family. If a continuous extension was requested,
+it computes the states at output times (:mod:`codegen.run.dense_output`). The steps of the run do not depend
+on output times.
+
+The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of
+sign between two of these times. Two zeros of one function between two of these times are not found. A value
+that is exactly zero at the beginning of a run is no event; the sign of the first other value is stored. The
+time of an event is enclosed in an interval by the Illinois variant of the secant method and by bisection,
+until the interval is about as long as the distance of two floating-point numbers. The event state is the
+state at the end of this interval, where the sign has changed. A run that continues from this state does not
+find the same event again.
+"""
+
+from __future__ import annotations
+
+from codegen.run.dense_output import DenseOutput
+from codegen.run.language import Array, Assign, Call, For, Function, If, Return, Statement, While
+from codegen.run.plan import STEP, TIME, Plan
+from codegen.run.terms import (
+    BAD_EVENT,
+    BAD_TIMES,
+    EVENT,
+    EVENT_FUNCTIONS,
+    NOT_FINITE,
+    OK,
+    STATUS,
+    Kind,
+    Term,
+    absent,
+    all_finite,
+    both,
+    code,
+    count,
+    either,
+    flag,
+    is_finite,
+    negated,
+    number,
+    real,
+    select,
+    size,
+    truth,
+    whole,
+)
+from codegen.run.trajectory import COMPLETED, Rows
+
+INSIDE, ORDERED, CROSSED, LOCATE, EVENTS, OBSERVE = (
+    *("inside", "in_order", "crossed", "locate", "find_events"),
+    "observe",
+)
+"""The names of the private functions of this module."""
+
+PARTS = 4
+"""The number of parts of a step between which signs of event functions are compared."""
+
+TRIALS = 200
+"""The largest number of trials for the time of one event. Every third trial halves the interval, so 200
+trials shorten it to rounding level."""
+
+CLOSE = 4
+"""The interval of an event is at most 2 CLOSE units of roundoff of the larger end of the step."""
+
+RISING, FALLING = 1, 2
+"""An event function ends a run if the value of ``stops`` is RISING, FALLING, or their sum for both."""
+
+
+class Observation:
+    """The arguments, variables and functions of output times and events; the arguments are those of the
+    public run."""
+
+    times, amount = real("times", 0, optional=True), count("count")
+    written = count("written", 1, cell=True)
+    now, following, end = real("now"), real("then"), real("end")
+    room, event_count = count("room"), count("event_count", 1, cell=True)
+    low, middle, target, high = real("low"), real("middle"), real("target"), real("high", 1)
+    stop = real("stop_time", 1, cell=True)
+
+    def __init__(self, plan: Plan) -> None:
+        assert plan.kernel.observed is not None
+        self.plan, self.events = plan, plan.kernel.observed.events
+        n, k = plan.size, self.events
+        self.rows = real("rows", 0, n, optional=True)
+        self.after, self.inner, self.reached = plan.state("after"), plan.state("inner"), plan.state("reached")
+        self.stops = count("stops", k)
+        self.event_times = real("event_times", 0, optional=True)
+        self.event_rows = real("event_rows", 0, n, optional=True)
+        self.numbers = count("event_numbers", 0, optional=True)
+        self.signs, self.values, self.measured = (real(x, k) for x in ("signs", "values", "measured"))
+        self.ahead = real("ahead", k)
+        extension = plan.kernel.observed.extension
+        self.dense = None if extension is None else DenseOutput(plan, extension)
+
+    @property
+    def length(self) -> Term:
+        """The size of the step."""
+        return self.following - self.now
+
+    @property
+    def sound(self) -> Term:
+        """The test that a step was observed without an error."""
+        good = STATUS.equals(code(OK))
+        return either(good, STATUS.equals(code(EVENT))) if self.events else good
+
+    @property
+    def outputs(self) -> tuple[Term, ...]:
+        """The arguments for output times."""
+        return self.times, self.amount, self.rows, self.written
+
+    @property
+    def buffers(self) -> tuple[Term, ...]:
+        """The arguments for events."""
+        if not self.events:
+            return ()
+        return (
+            *(EVENT_FUNCTIONS, self.stops, self.room),
+            *(self.event_times, self.event_rows, self.numbers, self.event_count),
+        )
+
+    @property
+    def memory(self) -> tuple[Term, ...]:
+        """The signs and values of the event functions at the last time."""
+        return (self.signs, self.values) if self.events else ()
+
+    def begin(self, state: Term, now: Term, end: Term) -> tuple[Statement, ...]:
+        """Return the statements at the beginning of a run: output times are tested, and output at the initial
+        time is written."""
+        ordered = flag("ordered")
+        place = self.written[0]
+        first = (Assign(self.rows[place], state), Assign(place, place + 1))
+        same = negated(either(self.times[place] < now, self.times[place] > now))
+        checked = both(STATUS.equals(code(OK)), negated(ordered))
+        written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
+        events: tuple[Statement, ...] = ()
+        if self.events:
+            # The arrays are cleared, because compilers cannot prove that all entries are assigned.
+            arrays = tuple(Array(x, zero=True) for x in (*self.memory, self.measured))
+            measured = (*self.measure(now, state), Assign(self.values, self.measured), *self.signed())
+            events = (Assign(self.event_count[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))
+        return (
+            Assign(place, whole(0)),
+            Call(ORDERED, (now, end, self.times, self.amount), (ordered,)),
+            If(checked, (Assign(STATUS, code(BAD_TIMES)),)),
+            written,
+            *events,
+        )
+
+    def observe(self, state: Term, trial: Term, now: Term, following: Term, stop: Term) -> Call:
+        """Return the call that observes the step from ``state`` to ``trial``. The status is EVENT if an event
+        ends the run; ``trial`` is then the state at this event, and ``stop`` the time."""
+        passed = (*self.plan.parameters, *self.plan.sampled(), *self.outputs, *self.buffers, *self.memory)
+        return Call(OBSERVE, (state, trial, now, following, *passed, stop), (STATUS,))
+
+    def functions(self) -> tuple[Function, ...]:
+        """Return the functions, callees first."""
+        located = (self.crossed(), self.locate(), self.find()) if self.events else ()
+        dense = () if self.dense is None else self.dense.functions()
+        # Without events, an extension computes all states inside steps.
+        inside = (self.inside(),) if self.events or self.dense is None else ()
+        return *inside, self.in_order(), *located, *dense, self.observed()
+
+    def inside(self) -> Function:
+        """Return the function that computes a state inside a step."""
+        plan = self.plan
+        state, inner = plan.state(), self.inner
+        time = (TIME,) if plan.time else ()
+        nothing = (absent(Rows(plan).trajectory), whole(0), *map(absent, plan.counted), absent(COMPLETED))
+        run = (inner, *time, STEP, whole(1), *plan.parameters, *plan.sampled(), *nothing)
+        body = (Assign(inner, state), Call("run", run, (STATUS,)), Return(STATUS))
+        parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled(), inner)
+        about = "The state inside a step, by one step of size h from the beginning."
+        return Function(INSIDE, about, parameters, body, Kind.STATUS)
+
+    def state_at(self, state: Term, elapsed: Term) -> tuple[Statement, ...]:
+        """Return the call of ``inside`` for a time after the beginning of the step."""
+        plan = self.plan
+        moment = plan.moment(self.now, elapsed)
+        return (Call(INSIDE, (state, *moment, *plan.parameters, *plan.sampled(), self.inner), (STATUS,)),)
+
+    def in_order(self) -> Function:
+        """Return the function that tests the output times."""
+        k, ordered, last = count("k"), flag("ordered"), real("last_time")
+        time = self.times[k]
+        forward = both(self.end >= self.now, time >= last, time <= self.end)
+        backward = both(self.end < self.now, time <= last, time >= self.end)
+        body = (
+            Assign(ordered, truth(True)),
+            Assign(last, self.now),
+            Assign(k, whole(0)),
+            While(
+                both(ordered, k < self.amount),
+                (
+                    # The comparisons are false for a NaN.
+                    Assign(ordered, both(either(forward, backward), is_finite(time))),
+                    Assign(last, time),
+                    Assign(k, k + 1),
+                ),
+            ),
+            Return(ordered),
+        )
+        about = "True if the output times are in order and between the time and the end."
+        return Function(ORDERED, about, (self.now, self.end, self.times, self.amount), body, Kind.FLAG)
+
+    def measure(self, time: Term, state: Term) -> tuple[Statement, ...]:
+        """Return the statements that evaluate the event functions."""
+        return (
+            Call("measure", (EVENT_FUNCTIONS, time, state), (self.measured,)),
+            If(negated(all_finite(self.measured)), (Assign(STATUS, code(BAD_EVENT)),)),
+        )
+
+    def signed(self) -> tuple[Statement, ...]:
+        """Return the statements that store the signs of the values; the sign of a zero is zero."""
+        i = count("i")
+        value = self.measured[i]
+        sign = select(value > 0.0, number(1.0), select(value < 0.0, number(-1.0), number(0.0)))
+        return (For(i, whole(self.events), (Assign(self.signs[i], sign),)),)
+
+    def changed(self, i: Term, values: Term) -> Term:
+        """Return the test that the sign of an event function has changed."""
+        # A sign of zero has no change: the value was exactly zero at the beginning.
+        known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
+        return both(known, self.signs[i] * values[i] <= 0.0)
+
+    def crossed(self) -> Function:
+        """Return the function that tests for a change of sign."""
+        i, any_changed = count("i"), flag("any_changed")
+        inner = (If(self.changed(i, self.measured), (Assign(any_changed, truth(True)),)),)
+        body = (
+            Assign(any_changed, truth(False)),
+            For(i, whole(self.events), inner),
+            Return(any_changed),
+        )
+        about = "True if the sign of an event function has changed."
+        return Function(CROSSED, about, (self.signs, self.measured), body, Kind.FLAG)
+
+    def locate(self) -> Function:
+        """Return the function that encloses the time of the first event in a part of a step."""
+        plan, state, high, ahead = self.plan, self.plan.state(), self.high[0], self.ahead
+        trials, side, change = count("trials"), real("side"), flag("change")
+        width, longer = real("width"), real("longer")
+        low_weight, high_weight = real("low_weight"), real("high_weight")
+        moved_high, moved_low = self._moved(high, side, low_weight, high_weight)
+        tested = (
+            Call(CROSSED, (self.signs, self.measured), (change,)),
+            If(change, moved_high, moved_low),
+        )
+        body: tuple[Statement, ...] = (
+            Array(self.inner),
+            Array(self.measured),
+            Assign(STATUS, code(OK)),
+            *(Assign(x, number(1.0)) for x in (low_weight, high_weight)),
+            Assign(side, number(0.0)),
+            Assign(trials, whole(0)),
+            Assign(
+                longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
+            ),
+            Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
+            # Near the time zero the width is bounded by the spacing of fractions of a step.
+            If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
+            While(
+                both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
+                (
+                    *self._guess(high, ahead, trials, width, low_weight, high_weight),
+                    *self.state_at(state, self.middle * self.length),
+                    If(STATUS.equals(code(OK)), self.measure(self.time_at(self.middle), self.inner)),
+                    If(STATUS.equals(code(OK)), tested),
+                    Assign(trials, trials + 1),
+                ),
+            ),
+            Return(STATUS),
+        )
+        parameters = (state, self.now, self.following, *plan.parameters, *plan.sampled(), EVENT_FUNCTIONS)
+        parameters += (self.signs, self.values, self.low, self.high, self.reached, ahead)
+        about = (
+            "Enclose the first event between the fractions low and *high of a step; *high becomes the end of "
+            "the interval, reached and ahead the state and the values there."
+        )
+        return Function(LOCATE, about, parameters, body, Kind.STATUS)
+
+    def _guess(
+        self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
+    ) -> tuple[Statement, ...]:
+        """Return the statements that choose the next time inside the interval."""
+        i, estimate = count("i"), real("estimate")
+        # The secant through both values gives a time for each function with a change of sign.
+        a, b = self.values[i] * low_weight, ahead[i] * high_weight
+        candidate = (
+            Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
+            If(estimate < self.middle, (Assign(self.middle, estimate),)),
+        )
+        halved = either((trials % 3).equals(2), negated(is_finite(self.middle)))
+        return (
+            Assign(self.middle, high),
+            For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
+            If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
+            # An accurate guess is moved by one width, so that the next guess closes the interval.
+            If(self.middle > high - width, (Assign(self.middle, high - width),)),
+            If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
+        )
+
+    def _moved(
+        self, high: Term, side: Term, low_weight: Term, high_weight: Term
+    ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
+        """Return the statements that move the upper end of the interval to the middle, and those that move
+        the lower end."""
+        # If the same end moves twice, the weight of the other end is halved (Illinois).
+        moved_high: tuple[Statement, ...] = (
+            Assign(high, self.middle),
+            Assign(self.ahead, self.measured),
+            Assign(self.reached, self.inner),
+            Assign(low_weight, select(side > 0.0, 0.5 * low_weight, number(1.0))),
+            Assign(high_weight, number(1.0)),
+            Assign(side, number(1.0)),
+        )
+        moved_low: tuple[Statement, ...] = (
+            Assign(self.low, self.middle),
+            Assign(self.values, self.measured),
+            Assign(high_weight, select(side < 0.0, 0.5 * high_weight, number(1.0))),
+            Assign(low_weight, number(1.0)),
+            Assign(side, number(-1.0)),
+        )
+        return moved_high, moved_low
+
+    def time_at(self, fraction: Term) -> Term:
+        """Return the time at a fraction of the step; the end of the step has no rounding error."""
+        inner = self.now + fraction * self.length
+        return select(fraction >= 1.0, self.following, inner)
+
+    def find(self) -> Function:
+        """Return the function that finds all events of a step, in order."""
+        plan, state, high, change = self.plan, self.plan.state(), self.high[0], flag("change")
+        located = (state, self.now, self.following, *plan.parameters, *plan.sampled(), EVENT_FUNCTIONS)
+        located += (self.signs, self.values, self.low, self.high, self.inner, self.measured)
+        good = STATUS.equals(code(OK))
+        body: tuple[Statement, ...] = (
+            *(Array(x, zero=True) for x in (self.inner, self.measured, self.high)),
+            Assign(STATUS, code(OK)),
+            Assign(self.stop[0], self.following),
+            Assign(self.low, number(0.0)),
+            Assign(self.target, number(1.0 / PARTS)),
+            While(
+                both(good, self.low < 1.0),
+                (
+                    If(
+                        self.target < 1.0,
+                        self.state_at(state, self.target * self.length),
+                        (Assign(self.inner, self.after),),
+                    ),
+                    If(good, self.measure(self.time_at(self.target), self.inner)),
+                    Assign(change, truth(False)),
+                    Assign(high, self.target),
+                    If(good, (Call(CROSSED, (self.signs, self.measured), (change,)),)),
+                    If(change, (Call(LOCATE, located, (STATUS,)),)),
+                    If(both(good, change), self.recorded()),
+                    If(either(good, STATUS.equals(code(EVENT))), self.passed()),
+                ),
+            ),
+            Return(STATUS),
+        )
+        parameters = (state, self.after, self.now, self.following, *plan.parameters, *plan.sampled())
+        parameters += (*self.buffers, *self.memory, self.stop)
+        about = "Find the events of a step; at an event that ends the run, after becomes the state there."
+        return Function(EVENTS, about, parameters, body, Kind.STATUS)
+
+    def recorded(self) -> tuple[Statement, ...]:
+        """Return the statements that store the event at ``high`` for each function with a change of sign."""
+        i, rising, place = count("i"), count("rising"), self.event_count[0]
+        ends = select(rising > 0, self.stops[i] % 2, self.stops[i] // 2)
+        stored = (
+            Assign(rising, select(self.signs[i] < 0.0, whole(1), whole(0))),
+            Assign(self.event_times[place], self.time_at(self.high[0])),
+            Assign(self.event_rows[place], self.inner),
+            Assign(self.numbers[place], 2 * i + rising),
+            Assign(place, place + 1),
+            If(ends > 0, (Assign(STATUS, code(EVENT)),)),
+        )
+        stopped = (Assign(self.stop[0], self.time_at(self.high[0])), Assign(self.after, self.inner))
+        return (
+            For(i, whole(self.events), (If(self.changed(i, self.measured), stored),)),
+            # The next event may be an event of all functions at the same time.
+            If(place + self.events > self.room, (Assign(STATUS, code(EVENT)),)),
+            If(STATUS.equals(code(EVENT)), stopped),
+        )
+
+    def passed(self) -> tuple[Statement, ...]:
+        """Return the statements that continue after ``high``."""
+        return (
+            Assign(self.low, self.high[0]),
+            Assign(self.values, self.measured),
+            *self.signed(),
+            If(self.low >= self.target, (Assign(self.target, self.target + 1.0 / PARTS),)),
+        )
+
+    known = flag("known")
+
+    def begin_extension(self) -> tuple[Statement, ...]:
+        """Return the statements before the states inside a step are computed."""
+        if self.dense is None:
+            return ()
+        # The array is cleared, because compilers cannot prove that it is filled before it is read.
+        return Array(self.dense.powers, zero=True), Assign(self.known, truth(False))
+
+    def inner_state(self, state: Term, time: Term) -> tuple[Statement, ...]:
+        """Return the statements that compute the state at an output time inside a step."""
+        if self.dense is None:
+            return self.state_at(state, time - self.now)
+        first = (self.dense.coefficients(state, self.now, self.length), Assign(self.known, truth(True)))
+        return (
+            If(negated(self.known), first),
+            self.dense.state_at(state, (time - self.now) / self.length),
+            If(negated(all_finite(self.inner)), (Assign(STATUS, code(NOT_FINITE)),)),
+        )
+
+    def observed(self) -> Function:
+        """Return the function that observes one step: events first, then the output times before the first
+        event that ends the run."""
+        plan, state, place = self.plan, self.plan.state(), self.written[0]
+        outcome, due, stop = Term("name", (), Kind.STATUS, "outcome"), flag("due"), self.stop[0]
+        time = self.times[place]
+        passed = (state, self.after, self.now, self.following, *plan.parameters, *plan.sampled())
+        search: tuple[Statement, ...] = (Assign(stop, self.following),)
+        if self.events:
+            search = (Call(EVENTS, (*passed, *self.buffers, *self.memory, self.stop), (STATUS,)),)
+        beyond = select(self.following > self.now, time > stop, time < stop)
+        inside = select(self.following > self.now, time < stop, time > stop)
+        good = STATUS.equals(code(OK))
+        row = (
+            If(
+                inside,
+                (
+                    *self.inner_state(state, time),
+                    If(good, (Assign(self.rows[place], self.inner),)),
+                ),
+                (Assign(self.rows[place], self.after),),
+            ),
+            If(good, (Assign(place, place + 1),)),
+        )
+        outputs = (
+            Assign(outcome, STATUS),
+            Assign(STATUS, code(OK)),
+            Assign(due, truth(True)),
+            While(
+                both(good, due, place < self.amount),
+                (Assign(due, negated(beyond)), If(due, row)),
+            ),
+            If(good, (Assign(STATUS, outcome),)),
+        )
+        body: tuple[Statement, ...] = (
+            Array(self.inner),
+            *self.begin_extension(),
+            Assign(STATUS, code(OK)),
+            *search,
+            If(self.sound, outputs),
+            Return(STATUS),
+        )
+        parameters = (*passed, *self.outputs, *self.buffers, *self.memory, self.stop)
+        about = "Observe a step: find its events, and write the states at output times inside it."
+        return Function(OBSERVE, about, parameters, body, Kind.STATUS)

@@ -1,0 +1,97 @@
+"""Options of emitted runs: a run to a given end time, a continuous extension, compensated summation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TypedDict
+
+from codegen.argument import count
+from codegen.certify import certified_order
+from codegen.errors import MethodError
+from codegen.ir.kernel import Continuous, Observed
+from codegen.kernel.dense_output import continuous
+from codegen.lower import lowering, problem_for
+from codegen.method import Method
+from codegen.scene.problem import Problem
+from orderconds.errors import InputError
+
+MOST_EVENTS = 64
+"""The largest number of event functions."""
+
+
+def extension_of(method: Method, scene: Problem) -> Continuous:
+    """Return the kernels of the continuous extension of a method.
+
+    The order is the computed order of the extension in the family ``rk``, and at most the order of the
+    method: the coordinates of the solution satisfy a differential equation in the Lie algebra, which is a
+    vector space. :class:`MethodError` is raised for a method without an extension.
+    """
+    from orderconds.checking.continuous import extension_order
+
+    problem = problem_for(scene, method)
+    program = None if method.coefficients is None else lowering(method.family).extension(problem, method)
+    computed = None if program is None else extension_order(method.tableau)
+    if program is None or computed is None or not computed.order or computed.continuous is not True:
+        raise MethodError(
+            f"no continuous extension for {method.label}",
+            where=scene.name,
+            expected="rk or rkmk(r) with an explicit tableau that has the key dense",
+            hint="orderconds extend TABLEAU finds one; or use --integrate, which makes shorter steps instead",
+        )
+    order = min(computed.order, certified_order(method, scene).order)
+    return continuous(program, problem, order)
+
+
+class RunOptions(TypedDict, total=False):
+    """The options of :func:`codegen.emit` for the run to an end time and for compensated summation."""
+
+    integrate: bool
+    events: int
+    dense: bool
+    compensate: bool
+
+
+@dataclass(frozen=True)
+class RunRequest:
+    """The values of :class:`RunOptions`, with their defaults."""
+
+    integrate: bool = False
+    events: int = 0
+    dense: bool = False
+    compensate: bool = False
+
+    @property
+    def observed(self) -> bool:
+        """True if the module contains a run to an end time."""
+        return self.integrate or self.events > 0 or self.dense
+
+    @property
+    def any(self) -> bool:
+        """True if an option differs from its default."""
+        return self.observed or self.compensate
+
+
+def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
+    """Raise :class:`MethodError` for options that compensated summation does not support."""
+    for option, requested in options.items():
+        if requested:
+            raise MethodError(
+                f"compensated summation with --{option} for {method.label}",
+                expected="steps of constant size, without a Jacobian and without a continuous extension",
+                hint=f"leave out --{option} or --compensate",
+            )
+
+
+def observed_run(method: Method, scene: Problem, degree: int, events: int, dense: bool) -> Observed:
+    """Return the request for a run to a given end time. ``degree`` is the degree of the Taylor polynomial of
+    a step, 0 without one."""
+    if count(events, "events") > MOST_EVENTS:
+        raise InputError(f"{events} event functions", where="events", expected=f"at most {MOST_EVENTS}")
+    if degree and method.adaptive:
+        raise MethodError(
+            f"a run to a given end time for {method.label} with step control",
+            expected="an adaptive method with an embedded row, or steps of constant size",
+            hint="leave out --adaptive or --integrate",
+        )
+    return Observed(events, extension_of(method, scene) if dense else None)

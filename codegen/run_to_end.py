@@ -1,0 +1,126 @@
+"""The run of a loaded module to a given end time: output at given times, events, bounds on steps."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from codegen.argument import count, monotone, real
+from codegen.arrival import Arrival, Begun, Reached, Signals, Statistics, Status
+from codegen.event import Crossing, Event, EventFunction, EventValues, events_of
+from codegen.printers.interface import Interface
+from codegen.state_form import State
+
+
+class RunToEnd(ABC):
+    """The run of an integrator to a given end time."""
+
+    interface: Interface
+
+    def integrate(
+        self,
+        state: State,
+        t: float = 0.0,
+        end: float | None = None,
+        h: float = 0.0,
+        *,
+        rtol: float = 1e-6,
+        atol: float = 1e-9,
+        least: float = 0.0,
+        greatest: float = math.inf,
+        limit: int = 100_000,
+        events: Sequence[Event | EventFunction] = (),
+        statistics: Statistics | None = None,
+        inputs: Signals | None = None,
+        t_eval: Sequence[float] | None = None,
+        **parameters: float,
+    ) -> Arrival:
+        """Integrate from t to end, with output at the times ``t_eval``, and find zeros of ``events``.
+
+        A module that was emitted as adaptive chooses its steps, of sizes between ``least`` and ``greatest``;
+        ``h`` is the size of the first step. Other modules make steps of size ``h``, of which the last one may
+        be shorter, and ignore the tolerances and bounds. Output times and events do not change the steps,
+        except that a terminal event ends the run. ``end`` is by default the last output time.
+
+        TypeError is raised for a module without this run (``emit(..., integrate=True)``), ValueError for
+        times that are not in order or not between t and end. StepFailed is raised if a step fails, or if
+        ``limit`` steps do not reach the end; its ``arrival`` has all results before the failure.
+        """
+        if not self.interface.integrated:
+            raise TypeError("this module has no run to an end time; emit it with integrate=True")
+        t, h, limit = real(t, "t"), real(h, "h"), count(limit, "limit")
+        times = monotone(t, () if t_eval is None else t_eval)
+        end = real(end if end is not None or not times else times[-1], "end")
+        if times and (end - times[-1]) * (times[-1] - t) < 0:
+            raise ValueError(f"expected an end that is not before the last time in t_eval, found {end}")
+        bounds = tuple(
+            real(x, n) for x, n in ((rtol, "rtol"), (atol, "atol"), (least, "least"), (greatest, "greatest"))
+        )
+        begun = self._begin(state, parameters, inputs, statistics)
+        functions = events_of(events, self.interface.events)
+        arrival = self._continued(begun, functions, (t, end, h), bounds, limit, times)
+        return arrival if t_eval is not None else replace(arrival, states=None)
+
+    def _continued(
+        self,
+        begun: Begun,
+        events: Sequence[Event],
+        span: tuple[float, float, float],
+        bounds: tuple[float, ...],
+        limit: int,
+        times: Sequence[float],
+    ) -> Arrival:
+        """Integrate, and continue after each call whose buffer of events is full."""
+        t, end, h = span
+        restore = begun.form.restore
+        rows: list[Sequence[float]] = []
+        crossings: list[Crossing] = []
+        accepted = rejected = 0
+        values = EventValues(events, self.interface.events, restore)
+        while True:
+            run = self._integrate(
+                begun, values, (t, end, h), bounds, limit - accepted - rejected, times[len(rows) :]
+            )
+            accepted, rejected = accepted + run.accepted, rejected + run.rejected
+            rows += run.rows
+            for k, time, direction, state in run.events:
+                if events[k].direction in (0, direction):
+                    crossings.append(Crossing(k, time, direction, restore(state)))
+            state = restore(run.state)
+            states = restore(rows)
+            arrival = Arrival(state, run.t, run.h, accepted, rejected, states, tuple(crossings))
+            if values.failure is not None:
+                raise values.failure
+            if run.status not in (Status.OK, Status.EVENT):
+                failed = begun.failed(run.status, accepted, run.state, run.reason)
+                failed.arrival = arrival
+                raise failed
+            stopped = any(x.t == run.t and events[x.event].terminal for x in crossings)
+            if run.status == Status.OK or stopped:
+                return replace(arrival, status=Status(run.status))
+            begun, t, h = replace(begun, numbers=list(run.state)), run.t, run.h
+
+    @abstractmethod
+    def _begin(
+        self,
+        state: State,
+        parameters: Mapping[str, float],
+        inputs: Signals | None,
+        statistics: Statistics | None,
+    ) -> Begun:
+        """Return the checked arguments; raise TypeError for wrong names or inputs, ValueError for a wrong
+        state."""
+
+    @abstractmethod
+    def _integrate(
+        self,
+        begun: Begun,
+        values: EventValues,
+        span: tuple[float, float, float],
+        bounds: tuple[float, ...],
+        limit: int,
+        times: Sequence[float],
+    ) -> Reached:
+        """Run to the end; ``span`` is (t, end, h), ``bounds`` is (rtol, atol, least, greatest)."""

@@ -1,0 +1,85 @@
+"""The order of a continuous extension: for each tree, a polynomial in theta is compared with
+theta^|t| / gamma(t), coefficient by coefficient."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from orderconds import families
+from orderconds.checking.report import ExtensionOrder
+from orderconds.checking.residuals import Failure, judge
+from orderconds.conditions import OrderCondition
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau import RungeKutta, Tableau
+from orderconds.tableau.extension import Extension
+
+
+def extension_order(tableau: Tableau) -> ExtensionOrder | None:
+    """Return the order of the continuous extension of a tableau; None if the tableau has no extension.
+
+    The orders up to one above the claimed order are evaluated.
+
+    >>> order = extension_order(Tableau.load("rk4"))
+    >>> order.order, order.certificate, order.continuous
+    (3, 'exact', True)
+    """
+    extension, method, ring = tableau.extension, tableau.method, tableau.ring
+    if extension is None or not isinstance(method, RungeKutta):
+        return None
+    certificate, failing = "exact", tuple[Failure, ...]()
+    order, limit = 0, extension.order + 1
+    while order < limit:
+        verdicts, failing = _judged(method, extension, ring, order + 1)
+        if failing or "undecided" in verdicts:
+            certificate = certificate if failing else "none"
+            break
+        certificate = "decimal" if "supported" in verdicts else certificate
+        order += 1
+    continuous = _equal(ring, extension.at_end(), method.b)
+    smooth = _is_smooth(method, extension, ring) if continuous else continuous
+    return ExtensionOrder(extension.order, order, certificate, continuous, smooth, failing)
+
+
+def _judged(
+    method: RungeKutta, extension: Extension, ring: Ring, n: int
+) -> tuple[set[str], tuple[Failure, ...]]:
+    """Return the verdicts on the conditions of order n, and the conditions that fail."""
+    family = families.get("rk")
+    verdicts: set[str] = set()
+    for p in range(1, max(extension.degree, n) + 1):
+        b = extension.power(p) if p <= extension.degree else (ring.zero,) * len(method.b)
+        conditions = tuple(_coefficient(c, p, n) for c in family.conditions(n))
+        judged, failing = judge(family, RungeKutta(method.A, b), ring, conditions)
+        if failing:
+            return judged, failing
+        verdicts |= judged
+    return verdicts, ()
+
+
+def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
+    """Return the condition for the coefficient of theta^p of a tree with n nodes."""
+    rhs = condition.rhs if p == n else 0 * condition.rhs
+    return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")
+
+
+def _is_smooth(method: RungeKutta, extension: Extension, ring: Ring) -> bool | None:
+    """Return True if the derivative at the end of a step is the field at the new state, and the derivative at
+    the beginning is the field at the old state."""
+    s = len(method.b)
+    first, last = (tuple(ring.one if i == k else ring.zero for i in range(s)) for k in (0, s - 1))
+    ends = extension.combined(tuple(ring.rational(p) for p in range(1, extension.degree + 1)))
+    zero = (ring.zero,) * s
+    tests = (
+        _equal(ring, method.A[0], zero),
+        _equal(ring, method.A[-1], method.b),
+        _equal(ring, extension.power(1), first),
+        _equal(ring, ends, last),
+    )
+    return False if False in tests else None if None in tests else True
+
+
+def _equal(ring: Ring, x: Sequence[Element], y: Sequence[Element]) -> bool | None:
+    """Return True if two rows are equal, False if they differ, None if the ring cannot decide."""
+    tests = [ring.is_zero(a - b) for a, b in zip(x, y, strict=True)]
+    return False if False in tests else None if None in tests else True

@@ -1,0 +1,46 @@
+"""``orderconds extend``: find a continuous extension of a Runge-Kutta method, for output inside steps."""
+
+from __future__ import annotations
+
+import click
+
+from orderconds.commands import screen
+from orderconds.commands.place import FILE, put
+
+
+@click.command(name="extend", short_help="Find a continuous extension of a Runge-Kutta method.")
+@click.argument("tableau")
+@click.option(
+    "--order",
+    "-p",
+    type=click.IntRange(1, 12),
+    help="The order of the extension.  [default: the highest order for which there is one]",
+)
+@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
+def command(tableau: str, order: int | None, output: str | None, as_json: bool) -> int:
+    """Write TABLEAU, a file or a name of the library, with a continuous extension: weights b_i(theta) that
+    give the solution at the time t + theta h.
+
+    The order of the extension is proved: its conditions are identities of polynomials in theta.
+
+    \b
+    Examples:
+        orderconds extend rk4
+        orderconds extend mine.toml --order 3 -o mine.toml
+    """
+    from orderconds.checking import check
+    from orderconds.solve.extension import extended
+    from orderconds.tableau import Tableau, dumps
+
+    extension = extended(Tableau.load(tableau), order)
+    text = dumps(extension)
+    if output is not None:
+        put(output, text.encode())
+    if as_json:
+        dense = check(extension).dense
+        assert dense is not None
+        screen.print_json({"name": extension.name, "dense": dense.as_json(), "file": output, "tableau": text})
+    elif output is None:
+        click.echo(text, nl=False)
+    return 0

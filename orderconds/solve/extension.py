@@ -1,0 +1,173 @@
+"""Continuous extensions of Runge-Kutta methods, from linear equations over the ring of the tableau.
+
+Let Phi_i(t) be the product of the branches of the tree t at stage i. The coefficients beta_p of theta^p have
+order q if sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) for |t| = p, and 0 for all other trees of at most q nodes.
+For each p this is a linear system; of its solutions the one of least norm is taken. If the first stage is the
+field at the old state, beta_1 is chosen such that the derivative at the beginning is this field. The last
+powers are then changed within the kernel of the system, such that b_i(1) = b_i and, if the last stage is the
+field at the new state, such that the derivative at the end is this field.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from operator import add, sub
+
+from orderconds import families
+from orderconds.checking import check
+from orderconds.errors import TableauError
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau import RungeKutta, Tableau
+from orderconds.tableau.methods import Row
+from orderconds.tableau.record import from_data
+from orderconds.tableau.write import as_data
+
+Rows = list[list[Element]]
+
+
+def extended(tableau: Tableau, order: int | None = None) -> Tableau:
+    """Return a tableau with a continuous extension of an order, by default of the highest order for which
+    there is one.
+
+    Raises :class:`~orderconds.errors.TableauError` if there is no extension of this order, or for a tableau
+    that is not an exact Runge-Kutta method.
+
+    >>> extension = extended(Tableau.load("rk4")).extension
+    >>> extension.order, [str(x) for x in extension.rows[1]]
+    (3, ['0', '1', '-2/3'])
+    """
+    method, ring, where = tableau.method, tableau.ring, tableau.path or tableau.name
+    if not isinstance(method, RungeKutta):
+        raise TableauError(
+            f"a tableau of format {tableau.family}", where=where, expected="a Runge-Kutta method, format rk"
+        )
+    if any(ring.is_zero(x - x) is not True for row in (*method.A, method.b) for x in row):
+        raise TableauError("rounded coefficients", where=where, expected="exact coefficients")
+    (own,) = check(tableau, family="rk").orders
+    wanted = range(own.order, 0, -1) if order is None else [order]
+    for q in wanted:
+        rows = None if q > own.order else _extension(method, ring, q)
+        if rows is not None:
+            break
+    else:
+        raise TableauError(
+            f"no continuous extension of order {order}: the stages of {tableau.name} do not determine one",
+            where=where,
+            expected="a lower order, or a method with more stages",
+        )
+    texts = [_trimmed([ring.text(x) for x in row]) for row in zip(*rows, strict=True)]
+    data = as_data(tableau) | {"dense": {"order": q, "b": texts}}
+    result = from_data(data, tableau.path or tableau.name, tableau.path)
+    computed = check(result).dense
+    assert computed is not None
+    assert computed.order >= q
+    if computed.order == q:
+        return result
+    data["dense"]["order"] = computed.order
+    return from_data(data, tableau.path or tableau.name, tableau.path)
+
+
+def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
+    """Return the coefficients of theta, theta^2, ..., or None if there is no extension of order q."""
+    s, zero = len(method.b), (ring.zero,) * len(method.b)
+    units = [tuple(ring.one if i == k else ring.zero for i in range(s)) for k in range(s)]
+    conditions = [c for n in range(1, q + 1) for c in families.get("rk").conditions(n)]
+    family = families.get("rk")
+    columns = [family.evaluate(RungeKutta(method.A, unit), ring, conditions) for unit in units]
+    matrix = [list(row) for row in zip(*columns, strict=True)]
+    starts = _equal(ring, method.A[0], zero)
+    ends = _equal(ring, method.A[-1], method.b)
+    powers: list[Row] = []
+    for p in range(1, q + 1):
+        if p == 1 and starts:
+            powers.append(units[0])
+            continue
+        sides = [_value(ring, c.rhs if c.order == p else Fraction(0)) for c in conditions]
+        solution = _least(matrix, sides, ring)
+        if solution is None:
+            return None
+        powers.append(tuple(solution))
+    if starts and ends and q == 2:
+        powers.append(zero)
+    gap = _minus(method.b, _sum(powers, zero))
+    if starts and ends and q > 1:
+        top = len(powers)
+        slope = _sum([_times(ring.rational(p), row) for p, row in enumerate(powers, 1)], zero)
+        rest = _minus(_minus(units[-1], slope), _times(ring.rational(top - 1), gap))
+        powers[-1] = _plus(powers[-1], rest)
+        powers[-2] = _plus(powers[-2], _minus(gap, rest))
+    else:
+        powers[-1] = _plus(powers[-1], gap)
+    return powers
+
+
+def _least(matrix: Rows, sides: Sequence[Element], ring: Ring) -> list[Element] | None:
+    """Return the solution of least norm of a linear system, or None if the system has no solution."""
+    rows = _reduced([[*row, side] for row, side in zip(matrix, sides, strict=True)], ring)
+    width = len(matrix[0])
+    if any(all(ring.is_zero(x) for x in row[:width]) for row in rows):
+        return None
+    products = [[_dot(one[:width], two[:width], ring) for two in rows] for one in rows]
+    system = [[*line, row[width]] for line, row in zip(products, rows, strict=True)]
+    factors = [row[-1] for row in _reduced(system, ring)]
+    columns = zip(*(row[:width] for row in rows), strict=True)
+    return [_dot(column, factors, ring) for column in columns]
+
+
+def _reduced(rows: Rows, ring: Ring) -> Rows:
+    """Return the reduced row echelon form, without zero rows."""
+    rows, kept = [list(row) for row in rows], 0
+    for column in range(len(rows[0])):
+        pivot = next((k for k in range(kept, len(rows)) if not ring.is_zero(rows[k][column])), None)
+        if pivot is None:
+            continue
+        rows[kept], rows[pivot] = rows[pivot], rows[kept]
+        scale = rows[kept][column]
+        rows[kept] = [x / scale for x in rows[kept]]
+        for k, row in enumerate(rows):
+            factor = row[column]
+            if k != kept and not ring.is_zero(factor):
+                rows[k] = [x - factor * y for x, y in zip(row, rows[kept], strict=True)]
+        kept += 1
+        if kept == len(rows):
+            break
+    return rows[:kept]
+
+
+def _dot(x: Sequence[Element], y: Sequence[Element], ring: Ring) -> Element:
+    return sum((a * b for a, b in zip(x, y, strict=True)), ring.zero)
+
+
+def _value(ring: Ring, x: Fraction) -> Element:
+    return ring.rational(x.numerator, x.denominator)
+
+
+def _plus(x: Row, y: Row) -> Row:
+    return tuple(map(add, x, y))
+
+
+def _minus(x: Row, y: Row) -> Row:
+    return tuple(map(sub, x, y))
+
+
+def _times(factor: Element, x: Row) -> Row:
+    return tuple(factor * a for a in x)
+
+
+def _sum(rows: Sequence[Row], zero: Row) -> Row:
+    total = zero
+    for row in rows:
+        total = _plus(total, row)
+    return total
+
+
+def _equal(ring: Ring, x: Row, y: Row) -> bool:
+    return all(ring.is_zero(a - b) for a, b in zip(x, y, strict=True))
+
+
+def _trimmed(texts: list[str]) -> list[str]:
+    """Return the texts of a row without the zeros at its end."""
+    while texts and texts[-1] == "0":
+        texts.pop()
+    return texts

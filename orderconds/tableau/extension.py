@@ -1,0 +1,45 @@
+"""Continuous extensions: weights b_i(theta) that give the solution at the time t + theta h inside a step.
+
+The extension of a Runge-Kutta method uses the stages of the step, with the weights b_i(theta) in place of
+b_i. It has order q if, for each rooted tree t of at most q nodes, the elementary weight with b_i(theta)
+equals theta^|t| / gamma(t), as an identity of polynomials in theta (Hairer, Norsett and Wanner, Solving
+Ordinary Differential Equations I, section II.6). The extension of an RKMK method uses the same weights in the
+Lie algebra: y(theta) = exp(h sum_i b_i(theta) k_i).y_0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from orderconds.ring.protocol import Element
+from orderconds.tableau.methods import Row
+
+
+@dataclass(frozen=True)
+class Extension:
+    """The polynomials b_i(theta): row i has the coefficients of theta, theta^2, ...; all rows have one
+    length. ``order`` is the claimed order.
+
+    >>> Extension(((1, -1), (0, 1)), 1).power(2)
+    (-1, 1)
+    """
+
+    rows: tuple[Row, ...]
+    order: int
+
+    @property
+    def degree(self) -> int:
+        """The degree of the polynomials."""
+        return len(self.rows[0])
+
+    def power(self, p: int) -> Row:
+        """Return the coefficients of theta^p, one for each stage."""
+        return tuple(row[p - 1] for row in self.rows)
+
+    def at_end(self) -> Row:
+        """Return the weights b_i(1)."""
+        return self.combined(tuple(1 for _ in self.rows[0]))
+
+    def combined(self, factors: tuple[Element, ...]) -> Row:
+        """Return the sums of the rows with these factors."""
+        return tuple(sum((f * x for f, x in zip(factors, row, strict=True)), 0 * row[0]) for row in self.rows)
