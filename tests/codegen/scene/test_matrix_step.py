@@ -19,7 +19,7 @@ from codegen.lab.runner import Emitted
 from codegen.loader import load as loaded
 from codegen.lower import method_for
 from codegen.scene import LinearScene
-from codegen.scene.matrix_step import IDENTITY, A, Place, Setting, bracket, expm, h, logm, projected
+from codegen.scene.matrix_step import IDENTITY, A, Place, Evaluation, bracket, expm, h, logm, projected
 from codegen.scenes import load
 from orderconds.errors import InputError
 
@@ -30,7 +30,7 @@ OSCILLATOR = "linear_oscillator_sl2"
 
 def value(formula, group, generator, domain):
     """Return the value of a formula for a constant generator."""
-    return formula.value(Setting(group, domain, lambda c: generator))
+    return formula.value(Evaluation(group, domain, lambda c: generator))
 
 
 def test_types_follow_from_the_parts():
@@ -74,7 +74,7 @@ def test_the_projection_onto_sp_is_that_of_equation_4_18():
         def value(self, at):
             return tuple(map(float, matrix))
 
-    found = projected(Given()).value(Setting(group, d, lambda c: ()))
+    found = projected(Given()).value(Evaluation(group, d, lambda c: ()))
     assert found == pytest.approx([float(x) for x in expected], abs=1e-14)
 
 
