@@ -43,8 +43,9 @@ def LinearScene(
     arguments are those of :func:`codegen.scene.FieldScene`: every field scene whose field does not depend on
     the state is a linear problem in time. For y' = y A(t) the action is ``RightMultiplication()``, and the
     sign of A is changed. ``steps`` maps names to steps y1 = M y0: pairs of a formula of M
-    (:mod:`codegen.scene.matrix_step`) and its order. The method ``step:NAME`` is such a step. :class:`SceneError` is raised for a matrix outside of the algebra, for an A that
-    depends on the state, and in the cases in which ``FieldScene`` raises it.
+    (:mod:`codegen.scene.matrix_step`) and its order. The method ``step:NAME`` is such a step.
+    :class:`SceneError` is raised for a matrix outside of the algebra, for an A that depends on the state, and
+    in the cases in which ``FieldScene`` raises it.
 
     >>> from sympy import Matrix, Symbol
     >>> from codegen.groups import SL2, Linear
