@@ -134,11 +134,22 @@ def solve(
         minimised=_minimised(minimise),
         starts=None if starts is None else integer(starts, "starts", STARTS),
         processes=integer(processes, "processes", PROCESSES),
-        checkpoint=None if checkpoint is None else Path(checkpoint),
+        checkpoint=_path(checkpoint),
         name=text(name, "name", "a name as a str"),
     )
+    if not callable(report):
+        raise InputError(described(report), where="report", expected="a function of one text, such as print")
     with named_as_arguments():
         return SearchResult.of(request, solver.solve(request, report))
+
+
+def _path(checkpoint: object) -> Path | None:
+    """Return the path of a checkpoint. For None, return None."""
+    if checkpoint is None:
+        return None
+    if not isinstance(checkpoint, str | os.PathLike):
+        raise InputError(described(checkpoint), where="checkpoint", expected="the path of a file")
+    return Path(checkpoint)
 
 
 def _minimised(minimise: object) -> bool:

@@ -114,6 +114,14 @@ WRONG: dict[str, tuple[Call, str]] = {
         "budget: -1; expected a number from 0",
     ),
     "bench one target": (lambda: codegen.bench(RIGID, "cf4", targets="c"), "targets: 'c' of type str"),
+    "solve with a checkpoint 3": (
+        lambda: orderconds.solve("rk", 2, 2, checkpoint=3),  # type: ignore[arg-type]
+        "checkpoint: 3; expected the path of a file",
+    ),
+    "solve without a report": (
+        lambda: orderconds.solve("rk", 2, 2, report=None),  # type: ignore[arg-type]
+        "report: an object of type NoneType; expected a function",
+    ),
     "recommend for a text": (lambda: codegen.recommend(RIGID, "x"), "error: 'x' of type str"),  # type: ignore[arg-type]
     "recommend for error 0": (
         lambda: codegen.recommend(RIGID, 0),
