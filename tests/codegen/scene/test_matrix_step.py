@@ -19,7 +19,7 @@ from codegen.lab.runner import Emitted
 from codegen.loader import load as loaded
 from codegen.lower import method_for
 from codegen.scene import LinearScene
-from codegen.scene.matrix_step import IDENTITY, A, Place, Evaluation, bracket, expm, h, logm, projected
+from codegen.scene.matrix_step import IDENTITY, A, Evaluation, Place, bracket, expm, h, logm, projected
 from codegen.scenes import load
 from orderconds.errors import InputError
 
