@@ -36,7 +36,6 @@ def test_the_notebook_shows_conditions_tableaux_trees_and_a_verdict() -> None:
     assert any("<b>wrong</b>: fails" in x.get("text/html", "") for x in shown)
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # of the packages that run notebooks
 def test_running_the_notebook_gives_the_stored_outputs() -> None:
     nbformat = pytest.importorskip("nbformat")
