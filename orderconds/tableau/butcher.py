@@ -21,6 +21,9 @@ WIDEST = 12
 BETWEEN = 10.0
 """The space between two columns of an array in points."""
 
+SPACED = r" \\[2pt] "
+"""The end of a row. Without space, fractions of neighbouring rows touch."""
+
 NARROWER = r"\!"
 """A negative space at both sides of an entry."""
 
@@ -35,7 +38,7 @@ def tableau_latex(tableau: Tableau) -> str:
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
-    \begin{array}{c|cc} 0 &  &  \\ 1 & 1 &  \\ \hline  & \frac{1}{2} & \frac{1}{2} \end{array}
+    \begin{array}{c|cc} 0 &  &  \\[2pt] 1 & 1 &  \\[2pt] \hline  & \frac{1}{2} & \frac{1}{2} \end{array}
     """
     rows = _butcher(tableau)
     return (_array(*rows, tableau) if rows else None) or equations(tableau)
@@ -57,9 +60,9 @@ def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> 
         return None
     narrow = NARROWER * number
     lines = [" & ".join(x and f"{narrow}{x}{narrow}" for x in row) for row in cells]
-    upper, lower = (r" \\ ".join(part) for part in (lines[: len(above)], lines[len(above) :]))
+    upper, lower = (SPACED.join(part) for part in (lines[: len(above)], lines[len(above) :]))
     columns = "c" * (len(cells[0]) - 1)
-    return rf"\begin{{array}}{{c|{columns}}} {upper} \\ \hline {lower} \end{{array}}"
+    return rf"\begin{{array}}{{c|{columns}}} {upper} \\[2pt] \hline {lower} \end{{array}}"
 
 
 def tableau_html(tableau: Tableau) -> str:

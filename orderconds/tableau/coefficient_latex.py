@@ -54,8 +54,10 @@ def _latex(x: Expression, tight: int) -> str:
 
 
 def _split_sign(x: Expression) -> tuple[str, Expression]:
-    """Return the sign of a negative number and its absolute value. For other expressions, return no sign and
-    the expression."""
+    """Return the sign of a negative number or of an expression -y, and the number or y without it. For other
+    expressions, return no sign and the expression."""
+    if isinstance(x, Chain) and x.operators == ("-",) and x.operands[0] == Constant(Fraction(0)):
+        return "-", x.operands[1]
     if isinstance(x, Constant) and not x.unit and x.value < 0:
         return "-", Constant(-x.value)
     return "", x

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, cast
 
 from orderconds.tableau.brackets import Bracket, Combination, Product, Term
 from orderconds.tableau.coefficient_latex import to_latex
-from orderconds.tableau.line_width import at_top, lines, separated, width, with_small_fractions
+from orderconds.tableau.line_width import COLUMN, at_top, lines, separated, width, with_small_fractions
 from orderconds.tableau.methods import (
     CommutatorFree,
     Composition,
@@ -44,7 +44,7 @@ BLANK = r"\,"
 """A narrow space between a factor and a vector field."""
 
 Equation = tuple[str, Sequence[str]]
-"""The left-hand side of an equation, and the pieces of its right-hand side. A line ends after a piece."""
+"""The left-hand side of an equation, and the parts of its right-hand side. A line ends after a part."""
 
 
 def equations(tableau: Tableau) -> str:
@@ -56,12 +56,11 @@ def equations(tableau: Tableau) -> str:
     >>> print(equations(Tableau.cf([[], [["1/2"]]], [[0, 1]])))
     \begin{aligned} Y_{1} &= y_0 \\ Y_{2} &= \exp\bigl(\tfrac{1}{2} h k_{1}\bigr)\, y_0 \\ y_1 &= \exp\bigl(h k_{2}\bigr)\, y_0 \end{aligned}
     """  # noqa: E501
-    written: list[str] = []
-    for left, pieces in _equations(tableau):
-        written += lines(left, pieces)
-        if len(written) > MOST:
-            written = [rf"&\text{{{_size(tableau)}}}"]
-            break
+    both = list(_equations(tableau))
+    free = COLUMN - width("=") - max(width(left) for left, _ in both)
+    written = [line for left, parts in both for line in lines(left, parts, free)]
+    if len(written) > MOST:
+        written = [rf"&\text{{{_size(tableau)}}}"]
     return r"\begin{aligned} " + r" \\ ".join(written) + r" \end{aligned}"
 
 
@@ -178,11 +177,11 @@ def _name(name: str) -> str:
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
-    """Return a product of exponentials and its initial value in pieces. The exponential at the right acts
+    """Return a product of exponentials and its initial value in parts. The exponential at the right acts
     first."""
     start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
-    pieces = [piece for row in reversed(stage.exponentials) for piece in _exponential(row, tableau)]
-    return [*pieces[:-1], pieces[-1] + start] if pieces else [start]
+    parts = [part for row in reversed(stage.exponentials) for part in _exponential(row, tableau)]
+    return [*parts[:-1], parts[-1] + start] if parts else [start]
 
 
 def _exponential(row: Row, tableau: Tableau) -> list[str]:

@@ -8,8 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-COLUMN = 222.0
-"""The width of a line. A column of the class ``article`` is 229 points wide."""
+COLUMN = 210.0
+"""The width of a line. A column of the class ``article`` is 229 points wide, and a paragraph is indented."""
 
 INDENT = r"\quad "
 
@@ -18,7 +18,7 @@ _WIDTHS = {
     **dict.fromkeys(("+", "-"), 7.8),
     "=": 13.3,
     **dict.fromkeys(("(", ")", "[", "]"), 4.0),
-    ",": 2.8,
+    **dict.fromkeys((",", "."), 2.8),
     r"\,": 1.67,
     " ": 2.2,
     "&": 0.0,
@@ -38,6 +38,9 @@ _OTHER = 5.2
 
 _SMALLER = 0.8
 """The ratio of the width of a digit in a fraction, an index or an exponent to its normal width."""
+
+_SMALLEST = 0.68
+"""The ratio in the smallest font, that of a fraction in a fraction."""
 
 
 def width(latex: str) -> float:
@@ -69,11 +72,11 @@ class _Reader:
 
     def _atom(self, token: str, scale: float) -> float:
         if token in ("_", "^"):
-            return self._argument(_SMALLER * scale)
+            return self._argument(self._smaller(scale))
         if token == "{":
             return self.formula(scale)
         if token in (r"\frac", r"\tfrac"):
-            return max(self._argument(_SMALLER * scale), self._argument(_SMALLER * scale)) + 2.4
+            return max(self._argument(self._smaller(scale)), self._argument(self._smaller(scale))) + 2.4
         if token == r"\sqrt":
             index = 0.0
             if self.position < len(self.tokens) and self.tokens[self.position] == "[":
@@ -81,6 +84,10 @@ class _Reader:
                 index = 2.0
             return 8.4 * scale + index + self._argument(scale)
         return scale * _WIDTHS.get(token, _OTHER)
+
+    @staticmethod
+    def _smaller(scale: float) -> float:
+        return max(_SMALLER * scale, _SMALLEST)
 
     def _argument(self, scale: float) -> float:
         return self._atom(self._next(), scale) if self.position < len(self.tokens) else 0.0
@@ -116,26 +123,26 @@ def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
         yield token, depth == 0
 
 
-def lines(left: str, pieces: Sequence[str], column: float = COLUMN) -> Iterator[str]:
-    r"""Yield the lines of an equation for the environment ``aligned``. A line is broken between two pieces.
+def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
+    r"""Yield the lines of an equation for the environment ``aligned``. A line is broken between two parts.
+    ``free`` is the width of a right-hand side.
 
-    >>> list(lines("x", ["a + b", " + c"], column=50))
+    >>> list(lines("x", ["a + b", " + c"], 30))
     ['x &= a + b', '&\\quad  + c']
     """
-    start, free = f"{left} &= ", column - width(left) - width("=")
-    line, used = start, 0.0
-    for piece in pieces:
-        size = width(piece)
+    line, used = f"{left} &= ", 0.0
+    for part in parts:
+        size = width(part)
         if used and used + size > free:
-            yield line
+            yield line.rstrip()
             line, used = f"&{INDENT}", width(INDENT)
-        line += piece
+        line += part
         used += size
-    yield line
+    yield line.rstrip()
 
 
 def separated(entries: Sequence[str], opening: str = "(", closing: str = ")") -> list[str]:
-    """Return the pieces of a list of entries in brackets.
+    """Return the parts of a list of entries in brackets.
 
     >>> separated(["1", "2"])
     ['(1, ', '2)']
@@ -143,5 +150,5 @@ def separated(entries: Sequence[str], opening: str = "(", closing: str = ")") ->
     if not entries:
         return [opening + closing]
     *before, last = entries
-    pieces = [*(f"{entry}, " for entry in before), f"{last}{closing}"]
-    return [opening + pieces[0], *pieces[1:]]
+    parts = [*(f"{entry}, " for entry in before), f"{last}{closing}"]
+    return [opening + parts[0], *parts[1:]]
