@@ -242,9 +242,10 @@ class MatrixColumns(Representation):
         return tuple(exponential[n * i + n - 1] for i in range(n - 1))
 
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
-        """Return both derivatives from the derivative of the exponential.
+        """Return the derivatives of p.translation(x, u) with respect to x and to u.
 
-        The transpose of the derivative at a is the derivative at the transpose of a.
+        Both follow from the derivative of the exponential of [[x, u], [0, 0]], because the transpose of
+        the derivative at a matrix is the derivative at the transposed matrix.
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)

@@ -57,7 +57,7 @@ class Assign:
 
     @classmethod
     def of_terms(cls, target: Var, terms: Iterable[tuple[Coefficient, Var]]) -> Assign:
-        """Return target = the linear combination of these terms."""
+        """Return the statement that assigns the linear combination of these terms to ``target``."""
         pairs = tuple(terms)
         return cls((target,), Linear(tuple(c for c, _ in pairs)), tuple(v for _, v in pairs))
 

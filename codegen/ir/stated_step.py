@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from codegen.ir.domain import Domain, Values
 from codegen.ir.operations import Operation, P, R
@@ -30,5 +30,5 @@ class StatedStep(Operation):
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
         y, t = args
-        scene: Problem = problem  # type: ignore[assignment]
+        scene = cast("Problem", problem)
         return (scene.stated_step(domain, self.step, y, t),)

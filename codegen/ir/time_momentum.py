@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from codegen.ir.domain import Domain, ExprDomain, Values
 from codegen.ir.expr import Expr, evaluate
@@ -38,7 +38,7 @@ class TimeMomentum(Operation):
         start, end, t = args
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
-        increment = self._evaluated(problem, domain, start, t)  # type: ignore[arg-type]
+        increment = self._evaluated(cast("Problem", problem), domain, start, t)
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:

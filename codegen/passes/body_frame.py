@@ -94,8 +94,8 @@ class _Framing:
             # is not applied.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
-            # Starts are evaluated before the block, so they are renamed before the body of the block adds
-            # names.
+            # The initial values of the unknowns are computed before the block. They are renamed first,
+            # because the body of the block defines more names.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)

@@ -97,8 +97,8 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The second search goes from P back to the momentum of the equations from which P is computed by
-    # invertible maps.
+    # P is computed by invertible maps from a momentum that the equations solve for. The second search starts
+    # at P and returns these maps.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 

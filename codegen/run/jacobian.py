@@ -50,8 +50,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the functions that compute the derivative; no functions if the derivative was not requested."""
     if plan.kernel.vary is None:
         return ()
-    # The derivative has a separate plan, because the kernel of variations has other inputs, outputs and loops
-    # than the step.
+    # The derivative is computed by its own kernel, the kernel of variations. This kernel has other inputs,
+    # outputs and loops than the step, so it has its own plan.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 

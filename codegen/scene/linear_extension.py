@@ -64,14 +64,14 @@ def without_momentum_rate(problem: Problem) -> Problem:
 def _hamiltonian(problem: Problem) -> Expr:
     """Return H = (q'.p - p'.q)/2; raise SceneError if its canonical equation is not the equation of the
     problem, or if H does not depend on the time."""
-    found = f"the linear problem {problem.name} has no momentum u"
+    refusal = f"the linear problem {problem.name} has no momentum u"
     if not problem.roots:
         problem.require_formulas()
     (block,) = problem.state
     symbols, space = block.symbols, problem.roots[0].space
     if len(symbols) % 2:
         raise SceneError(
-            f"{found}, because it has {len(symbols)} coordinates", expected="coordinates (q, p), q first"
+            f"{refusal}, because it has {len(symbols)} coordinates", expected="coordinates (q, p), q first"
         )
     point = tuple(space.sym(s) for s in symbols)
     rates = problem.action.velocity(Formulas(ExprDomain(space)), problem.group, tuple(problem.roots), point)
@@ -86,7 +86,7 @@ def _hamiltonian(problem: Problem) -> Expr:
     canonical = (*slopes[n:], *(-s for s in slopes[:n]))
     if not all(normal(a - b).is_zero for a, b in zip(rates, canonical, strict=True)):
         raise SceneError(
-            f"{found}, because A(t) is not in sp({2 * n}) for the coordinates (q, p)",
+            f"{refusal}, because A(t) is not in sp({2 * n}) for the coordinates (q, p)",
             expected="A(t) with J A symmetric, where J = (0, 1; -1, 0)",
         )
     if normal(gradient(hamiltonian, (TIME,))[0]).is_zero:

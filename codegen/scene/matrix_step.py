@@ -37,7 +37,7 @@ class Place(Enum):
 
 
 @dataclass(frozen=True)
-class Setting(Generic[S]):
+class Evaluation(Generic[S]):
     """The group, the number domain and the generator c -> A(t + c h) with which a formula is evaluated."""
 
     group: MatrixElements
@@ -84,7 +84,7 @@ class MatrixFormula(ABC):
         """The set that contains the values."""
 
     @abstractmethod
-    def value(self, at: Setting[S]) -> Vector[S]:
+    def value(self, at: Evaluation[S]) -> Vector[S]:
         """Return the matrix, row by row."""
 
     @abstractmethod
@@ -128,7 +128,7 @@ class Generator(MatrixFormula):
         """The set that contains the values."""
         return Place.ALGEBRA
 
-    def value(self, at: Setting[S]) -> Vector[S]:
+    def value(self, at: Evaluation[S]) -> Vector[S]:
         """Return the matrix, row by row."""
         return at.group.hat(at.domain, at.generator(self.c))
 
@@ -146,7 +146,7 @@ class Unit(MatrixFormula):
         """The set that contains the values."""
         return Place.GROUP
 
-    def value(self, at: Setting[S]) -> Vector[S]:
+    def value(self, at: Evaluation[S]) -> Vector[S]:
         """Return the matrix, row by row."""
         n = at.group.order
         return tuple(at.domain.rational(int(i == j)) for i in range(n) for j in range(n))
@@ -179,7 +179,7 @@ class Sum(Binary):
         """The algebra for two elements of the algebra."""
         return Place.ALGEBRA if self._both(Place.ALGEBRA) else Place.MATRIX
 
-    def value(self, at: Setting[S]) -> Vector[S]:
+    def value(self, at: Evaluation[S]) -> Vector[S]:
         """Return the matrix, row by row."""
         return tuple(x + y for x, y in zip(self.left.value(at), self.right.value(at), strict=True))
 
@@ -196,7 +196,7 @@ class Product(Binary):
         """The group for two elements of the group."""
         return Place.GROUP if self._both(Place.GROUP) else Place.MATRIX
 
-    def value(self, at: Setting[S]) -> Vector[S]:
+    def value(self, at: Evaluation[S]) -> Vector[S]:
         """Return the matrix, row by row."""
         return product(at.domain, self.left.value(at), self.right.value(at), at.group.order)
 
@@ -213,7 +213,7 @@ class Commutator(Binary):
         """The algebra for two elements of the algebra."""
         return Place.ALGEBRA if self._both(Place.ALGEBRA) else Place.MATRIX
 
-    def value(self, at: Setting[S]) -> Vector[S]:
+    def value(self, at: Evaluation[S]) -> Vector[S]:
         """Return the matrix, row by row."""
         x, y, d, n = self.left.value(at), self.right.value(at), at.domain, at.group.order
         return tuple(a - b for a, b in zip(product(d, x, y, n), product(d, y, x, n), strict=True))
@@ -250,7 +250,7 @@ class Multiple(MatrixFormula):
         """Return the matrix."""
         return (self.of,)
 
-    def value(self, at: Setting[S]) -> Vector[S]:
+    def value(self, at: Evaluation[S]) -> Vector[S]:
         """Return the matrix, row by row."""
         factor = at.domain.rational(*self.factor.value.as_integer_ratio())
         for _ in range(self.factor.power):
@@ -273,7 +273,7 @@ class Projected(Unary):
         """The set that contains the values."""
         return Place.ALGEBRA
 
-    def value(self, at: Setting[S]) -> Vector[S]:
+    def value(self, at: Evaluation[S]) -> Vector[S]:
         """Return the matrix, row by row."""
         d, entries = at.domain, self.of.value(at)
         result = []
@@ -304,7 +304,7 @@ class Exponential(Unary):
             yield self
         yield from super().closed_forms()
 
-    def value(self, at: Setting[S]) -> Vector[S]:
+    def value(self, at: Evaluation[S]) -> Vector[S]:
         """Return the matrix, row by row."""
         x = self.of.value(at)
         if self.of.place is Place.ALGEBRA:
@@ -329,7 +329,7 @@ class Logarithm(Unary):
         yield self
         yield from super().closed_forms()
 
-    def value(self, at: Setting[S]) -> Vector[S]:
+    def value(self, at: Evaluation[S]) -> Vector[S]:
         """Return the matrix, row by row."""
         return _logarithm(at.domain, self.of.value(at))
 

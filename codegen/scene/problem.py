@@ -264,7 +264,7 @@ class Problem:
 
     def stated_step(self, domain: Domain, name: str, y: Vector[S], t: S) -> Vector[S]:
         """Return the point after a step that the scene states as a function of matrices."""
-        from codegen.scene.matrix_step import Setting
+        from codegen.scene.matrix_step import Evaluation
 
         product = self.group.offers(DirectProduct) if self.carries_momentum else None
         group = self.group if product is None else product.factors[0]
@@ -275,7 +275,7 @@ class Problem:
             return tuple(evaluate(roots, domain, self.scalars(domain, time)))
 
         matrices = group.require(MatrixElements)
-        matrix = self.steps[name].formula.value(Setting(matrices, domain, generator))
+        matrix = self.steps[name].formula.value(Evaluation(matrices, domain, generator))
         if product is None:
             return self.action.act(domain, group, matrix, y)
         return self.action.act(domain, self.group, (*matrix, domain.rational(0)), y)

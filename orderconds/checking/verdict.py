@@ -397,7 +397,7 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
     if dense.order != dense.claimed:
         reason = f"; {dense.failing[0]}" if dense.failing else ""
         yield f"the continuous extension has order {dense.order} (rk), claimed {dense.claimed}{reason}"
-    if dense.continuous is not True:
+    if dense.continuous is False:
         yield "the continuous extension does not end at the new state: some b_i(1) differs from b_i"
 
 

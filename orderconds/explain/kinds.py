@@ -105,7 +105,7 @@ def get(name: str) -> Kind:
         raise UnknownName(
             f"there is no kind of trees {name!r}",
             expected=f"one of {', '.join(KINDS)}",
-            hint=f"type: orderconds trees {close[0] if close else 'rooted'} --order 4",
+            hint=f"for example, run: orderconds trees {close[0] if close else 'rooted'} --order 4",
         )
     return KINDS[name]()
 

@@ -65,7 +65,7 @@ class Equations:
     """The largest letter in the words that index independent conditions, for a Magnus method on Gauss nodes;
     None for other methods."""
     kept: tuple[OrderCondition, ...] | None = None
-    """The independent conditions for the reduction ``spelling``."""
+    """The independent conditions if the file requests the reduction called ``spelling``; otherwise None."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None

@@ -137,10 +137,14 @@ def solve(
         checkpoint=_path(checkpoint),
         name=text(name, "name", "a name as a str"),
     )
-    if not callable(report):
-        raise InputError(described(report), where="report", expected="a function of one text, such as print")
     with named_as_arguments():
-        return SearchResult.of(request, solver.solve(request, report))
+        return SearchResult.of(request, solver.solve(request, _function(report)))
+
+
+def _function(report: Callable[[str], object]) -> Callable[[str], object]:
+    if callable(report):
+        return report
+    raise InputError(described(report), where="report", expected="a function of one text, such as print")
 
 
 def _path(checkpoint: object) -> Path | None:

@@ -132,7 +132,8 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # The empty sum is zero. Zero is a product of any number of nodes, for example of one node.
+    # An empty sum is zero and contains no product. Any numbers may be returned for zero; (1, 1) keeps the
+    # minimum and the maximum defined.
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 

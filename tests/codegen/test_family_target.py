@@ -96,7 +96,11 @@ def stepper(made: Compiled) -> Callable[[list[float], float, float], list[float]
     return step
 
 
-@pytest.mark.parametrize(("target", "compiler"), [(t, c) for t in CLEAN for c in CLEAN[t]])
+@pytest.mark.parametrize(
+    ("target", "compiler"),
+    # The first compiler of each target is quick enough for every run.
+    [pytest.param(t, c, marks=pytest.mark.slow if c != CLEAN[t][0] else ()) for t in CLEAN for c in CLEAN[t]],
+)
 @pytest.mark.parametrize("case", ALL)
 def test_emitted_code_is_clean_and_its_example_runs(case, target, compiler, tmp_path):
     """The example's answer is that of the loaded module."""

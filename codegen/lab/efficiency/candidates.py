@@ -132,7 +132,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
     least = max((2 * stated.get("rk", 0) + 3) // 4, 1)
     if not kind.takes_cutoff:
-        # On some scenes a family has fewer order conditions, so a method has a higher order.
+        # The order conditions of a family may depend on the scene: on R^n all brackets vanish. A method can
+        # then have a higher order than on a general group.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
         except MethodError:

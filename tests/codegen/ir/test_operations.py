@@ -31,10 +31,12 @@ from codegen.ir.operations import (
     Operation,
     Zero,
 )
+from codegen.ir.program import Program
 from codegen.ir.scene_operations import (
     Bivector,
     BodyForce,
     BodyVelocity,
+    CayleyElement,
     Differential,
     Energy,
     Field,
@@ -42,10 +44,13 @@ from codegen.ir.scene_operations import (
     FlowOf,
     HamiltonianDerivatives,
     Legendre,
+    Sandwich,
     Secant,
     TaylorStep,
     ToOrbit,
 )
+from codegen.ir.stated_step import StatedStep
+from codegen.ir.time_momentum import TimeMomentum
 from codegen.ir.values import MINUS_ONE, ONE, Coefficient, Kind
 from tests.strategies import hamiltonian_scene
 
@@ -58,6 +63,7 @@ ALL = [
     *(Zero(Kind.ALG), Linear((ONE,)), Advance(HALF_H), Identity(), Exp(), Multiply(), MultiplyExp()),
     *(ElementAt(), InverseDifferential()),
     *(Act(), ActExp(), InverseDexpSlope(2), DualDexp(), Legendre(), Energy(), Differential(), Secant()),
+    *(CayleyElement(), Sandwich(), StatedStep("projection"), TimeMomentum(Program("step", (), (), ()))),
     *(
         Bivector(),
         FlowOf("V", HALF_H),

@@ -26,6 +26,7 @@ from codegen.scenes import load
 D = PreciseDomain(Fraction(3, 10), 40)
 LINEAR, HAMILTONIAN = "linear_oscillator_sl2+u", "linear_oscillator+u"
 CANONICAL = [
+    (LINEAR, "step:projection"),
     *((LINEAR, f"magnus:{name}") for name in ("magnus4", "magnus2", "lie_euler")),
     (LINEAR, "magnus:lie_midpoint_triple_jump"),
     *((LINEAR, method) for method in ("cf_magnus:cf_magnus4", "fer:fer4", "cayley:cayley4")),

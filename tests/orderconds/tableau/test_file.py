@@ -255,8 +255,8 @@ MALFORMED = {
     ),
     "two forms of cf": (
         CF + '[[stage]]\n[update]\nexp = [["1"]]\n[low_storage]\nA = ["0"]\nB = ["1"]\n',
-        "both low_storage",
-        "one of these two",
+        "contains low_storage, and also stage or update",
+        "only one of these two forms",
     ),
     "low storage of two lengths": (
         CF + '[low_storage]\nA = ["0"]\nB = ["1", "2"]\n',

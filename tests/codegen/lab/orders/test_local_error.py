@@ -164,13 +164,15 @@ def test_on_a_vector_space_variational_methods_are_partitioned_ones(method, orde
         assert all(method.ring.is_zero(x - y) is True for x, y in zip(found, expected, strict=True))
 
 
-@pytest.mark.parametrize("group", ["SO(3)", pytest.param("GL(2)", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("group", ["SO(3)", "GL(2)"])
 def test_the_triple_jump_has_order_four(group):
     agree(hamiltonian_scene(group), Method("vcg", shipped("triple_jump")), 4)
 
 
 @pytest.mark.parametrize(
-    ("tableau", "cutoff", "order"), [("rk4", 2, 4), ("rk4", 1, 3), ("gauss2", 2, 4), ("gauss2", 1, 3)]
+    ("tableau", "cutoff", "order"),
+    [("rk4", 2, 4), ("rk4", 1, 3), pytest.param("gauss2", 2, 4, marks=pytest.mark.slow), ("gauss2", 1, 3)],
 )
 def test_variational_munthe_kaas_of_order_four(tableau, cutoff, order):
     agree(hamiltonian_scene("SO(3)"), Method("vrkmk", shipped(tableau), cutoff), order)
