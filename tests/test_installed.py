@@ -29,6 +29,7 @@ COMMANDS = {
     "convert": "rk4 --to csv",
     "derive": "vcg --order 3",
     "emit": "free_rigid_body --method cf:cf4 --target c --target python --output out",
+    "extend": "rk4 --order 3",
     "list": "",
     "localerror": "free_rigid_body --method cf:cf4",
     "longrun": "free_rigid_body --method cf:cf4 --steps 400 --no-rounding",

@@ -86,7 +86,7 @@ class Representation(ABC):
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of <p, phi(x) u> with respect to x and u; needed if :meth:`closed` is
         false."""
-        raise NotImplementedError
+        raise self._missing("gradient")
 
     def closed(self, group: LieGroup) -> bool:
         """Return True if :meth:`series` has a closed form for this group."""
@@ -94,13 +94,21 @@ class Representation(ABC):
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Return a function of ad_(x, u) applied to (y, v), where (x, u) and (y, v) contain one copy."""
-        raise NotImplementedError
+        raise self._missing("series")
 
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
         """Return a function of ad*_(x, u) applied to (m, p), where (x, u) and (m, p) contain one copy."""
-        raise NotImplementedError
+        raise self._missing("dual_series")
+
+    def _missing(self, method: str) -> SceneError:
+        """Return the error of a method that ``closed`` requires and that a subclass has not written."""
+        return SceneError(
+            f"the representation {type(self).__name__} has no method {method}",
+            expected="series and dual_series if closed returns True, else gradient",
+            hint=f"write {method} in the class {type(self).__name__}",
+        )
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
         """Return the group if rho(g) v is the matrix of g times the column v; None otherwise."""

@@ -139,14 +139,14 @@ def _environments(text: str, where: str) -> Iterator[tuple[str | None, str]]:
 
 def _butcher(body: str, where: str) -> Arrays:
     parts = [_rows(part, where) for part in re.split(r"\\hline", body) if part.strip()]
-    if not 2 <= len(parts) <= 3 or any(len(part) != 1 for part in parts[1:]):
+    weights = [row for part in parts[1:] for row in part]
+    if not 1 <= len(weights) <= 2 or len({len(row) for row in weights}) != 1:
         raise TableauError(
             "horizontal lines that do not separate A from b",
             where=where,
-            expected=r"rows c & A, \hline, a "
-            "row & b",
+            expected=r"rows c & A, \hline, a row & b; at most one row of embedded weights after it",
         )
-    return butcher(parts[0], [row[1:] for (row,) in parts[1:]])
+    return butcher(parts[0], [row[1:] for row in weights])
 
 
 def _rows(body: str, where: str) -> list[list[str]]:

@@ -1,114 +1,68 @@
 r"""Tableaux in the notation of publications. A Butcher tableau is written as an array in LaTeX or HTML; other
-methods are written as rows of coefficients with names."""
+methods are written as equations (:mod:`orderconds.tableau.equations`)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from html import escape
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
-from orderconds.errors import TableauError
 from orderconds.tableau.coefficient_latex import to_latex
-from orderconds.tableau.methods import CommutatorFree, Embedded, Row, RungeKutta
-from orderconds.tableau.write import as_data
+from orderconds.tableau.equations import equations, has_name, short_text
+from orderconds.tableau.line_width import COLUMN, width
+from orderconds.tableau.methods import Embedded, RungeKutta
 
 if TYPE_CHECKING:
-    from orderconds.ring.protocol import Element, RealRing
     from orderconds.tableau.record import Tableau
 
 WIDEST = 12
 """The largest number of stages for which the coefficients of a tableau are printed."""
 
-SHORT = 10
-"""Rounded decimals are printed with this number of digits."""
+BETWEEN = 10.0
+"""The space between two columns of an array in points."""
 
-BLANK = r"\,"
-"""A narrow space between a factor and a vector field."""
+SPACED = r" \\[2pt] "
+"""The end of a row. Without space, fractions of neighbouring rows touch."""
+
+NARROWER = r"\!"
+"""A negative space at both sides of an entry."""
 
 CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 
 
 def tableau_latex(tableau: Tableau) -> str:
-    r"""Return a displayed LaTeX formula that contains the Butcher array, or each coefficient with its name.
+    r"""Return LaTeX of the Butcher array or, for other methods, of the equations that define the method.
+
+    The formula fits in a column of a two-column article. The columns of a wide array are set closer. If the
+    array is still too wide, its rows are printed as equations.
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
-    \begin{array}{c|cc} 0 &  &  \\ 1 & 1 &  \\ \hline  & \frac{1}{2} & \frac{1}{2} \end{array}
+    \begin{array}{c|cc} 0 &  &  \\[2pt] 1 & 1 &  \\[2pt] \hline  & \frac{1}{2} & \frac{1}{2} \end{array}
     """
     rows = _butcher(tableau)
-    if rows is None:
-        return r"\begin{aligned} " + r" \\ ".join(_equations(tableau)) + r" \end{aligned}"
-    above, below = rows
-    lines = [_latex_row(line, tableau) for line in above]
-    lines[-1] += r" \\ \hline " + r" \\ ".join(_latex_row(line, tableau) for line in below)
-    return rf"\begin{{array}}{{c|{'c' * (len(above[0]) - 1)}}} " + r" \\ ".join(lines) + r" \end{array}"
+    return (_array(*rows, tableau) if rows else None) or equations(tableau)
 
 
-def _latex_row(cells: Sequence[str], tableau: Tableau) -> str:
-    return " & ".join(_latex(x, tableau) if x else "" for x in cells)
-
-
-def _latex(text: str, tableau: Tableau) -> str:
-    return text if tableau.doubles else to_latex(text)
-
-
-def _equations(tableau: Tableau) -> Iterator[str]:
-    """Yield stages and update of a commutator-free method; for other formats, rows of coefficients."""
-    method = tableau.method
-    if isinstance(method, CommutatorFree):
-        if method.s > WIDEST:
-            yield rf"&\text{{{method.s} stages}}"
-            return
-        for i, stage in enumerate(method.stages, start=1):
-            start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
-            yield rf"Y_{{{i}}} &= {_product(stage.exponentials, tableau)}{start}"
-        start = "y_0" if method.update.start is None else f"Y_{{{method.update.start + 1}}}"
-        yield rf"y_1 &= {_product(method.update.exponentials, tableau)}{start}"
-        return
-    for key, value in as_data(tableau).items():
-        if isinstance(value, list) and len(value) <= 4 * WIDEST:
-            entries = ", ".join(map(_entry, value))
-            yield rf"\text{{{key.replace('_', ' ')}}} &= ({entries})"
-
-
-def _entry(value: object) -> str:
-    """Return one entry in LaTeX. The entry is a coefficient, a name, or a list of coefficients and names."""
-    if isinstance(value, list):
-        return rf"[{', '.join(map(_entry, value))}]"
-    try:
-        return to_latex(str(value))
-    except TableauError:
-        return rf"\text{{{value}}}"
-
-
-def _product(rows: Sequence[Row], tableau: Tableau) -> str:
-    """Return exponentials in the order of composition: the exponential that acts first is at the right."""
-    return "".join(rf"\exp\bigl({_exponent(row, tableau)}\bigr)\, " for row in reversed(rows))
-
-
-def _exponent(row: Row, tableau: Tableau) -> str:
-    """Return an exponent in LaTeX: h times a linear combination. A linear combination of one term is printed
-    without brackets."""
-    text = _combination(row, tableau).replace(r"\frac", r"\tfrac")
-    if text.count("k_") == 1:
-        factor, _, index = text.rpartition("k_")
-        return f"{factor.removesuffix(BLANK)} h k_{index}".strip()
-    return f"h({text})"
-
-
-def _combination(row: Row, tableau: Tableau) -> str:
-    """Return a linear combination of the vector fields k_j of the stages."""
-    written = ""
-    for j, x in enumerate(row, start=1):
-        if tableau.ring.is_zero(x) is True:
-            continue
-        size = _latex(_text(x, tableau), tableau)
-        minus = size.startswith("-") and " " not in size
-        size = size.removeprefix("-") if minus else size
-        factor = "" if size == "1" else f"({size}){BLANK}" if " " in size else f"{size}{BLANK}"
-        sign = (" - " if minus else " + ") if written else "-" if minus else ""
-        written += f"{sign}{factor}k_{{{j}}}"
-    return written or "0"
+def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
+    """Return a Butcher array with the rows of the stages above the rule and the weights below it. Return None
+    if the array is too wide for a column."""
+    rows = [*above, *below]
+    if any(has_name(x) for row in rows for x in row):
+        return None
+    cells = [[x and (x if tableau.doubles else to_latex(x)) for x in row] for row in rows]
+    natural = sum(max(map(width, column)) + BETWEEN for column in zip(*cells, strict=True))
+    saved = -2 * width(NARROWER) * len(cells[0])
+    for number in range(3):
+        if natural - number * saved <= COLUMN:
+            break
+    else:
+        return None
+    narrow = NARROWER * number
+    lines = [" & ".join(x and f"{narrow}{x}{narrow}" for x in row) for row in cells]
+    upper, lower = (SPACED.join(part) for part in (lines[: len(above)], lines[len(above) :]))
+    columns = "c" * (len(cells[0]) - 1)
+    return rf"\begin{{array}}{{c|{columns}}} {upper} \\[2pt] \hline {lower} \end{{array}}"
 
 
 def tableau_html(tableau: Tableau) -> str:
@@ -151,18 +105,12 @@ def _butcher(tableau: Tableau) -> tuple[list[list[str]], list[list[str]]] | None
     for node, row in zip(method.c, method.A, strict=True):
         last = max((j for j, x in enumerate(row) if ring.is_zero(x) is not True), default=-1)
         above.append(
-            [_text(node, tableau), *(_text(x, tableau) if j <= last else "" for j, x in enumerate(row))]
+            [
+                short_text(node, tableau),
+                *(short_text(x, tableau) if j <= last else "" for j, x in enumerate(row)),
+            ]
         )
     weights = [method.b]
     if isinstance(tableau.embedded, Embedded):
         weights.append(tableau.embedded.b)
-    return above, [["", *(_text(x, tableau) for x in row)] for row in weights]
-
-
-def _text(x: Element, tableau: Tableau) -> str:
-    if tableau.doubles:
-        return f"{cast('RealRing', tableau.ring).nearest_float(x):.6g}"
-    text = tableau.ring.text(x)
-    if "~" in text and len(text) > SHORT:
-        return f"{cast('RealRing', tableau.ring).nearest_float(x):.{SHORT}g}~"
-    return text
+    return above, [["", *(short_text(x, tableau) for x in row)] for row in weights]

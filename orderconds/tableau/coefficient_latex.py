@@ -41,14 +41,26 @@ def _latex(x: Expression, tight: int) -> str:
         for operator, operand in zip(x.operators, x.operands[1:], strict=True):
             text += f" {operator} {_latex(operand, 1)}"
     else:
-        level, text = 1, _latex(x.operands[0], 1)
+        sign, first = _split_sign(x.operands[0])
+        level, text = 0 if sign else 1, _latex(first, 0 if x.operators[0] == "/" else 1)
         for operator, operand in zip(x.operators, x.operands[1:], strict=True):
             text = (
                 rf"{text} \cdot {_latex(operand, 2 if _ends_in_a_factor(operand) else 1)}"
                 if operator == "*"
                 else rf"\frac{{{text}}}{{{_latex(operand, 0)}}}"
             )
+        text = sign + text
     return f"({text})" if level < tight else text
+
+
+def _split_sign(x: Expression) -> tuple[str, Expression]:
+    """Return the sign of a negative number or of an expression -y, and the number or y without it. For other
+    expressions, return no sign and the expression."""
+    if isinstance(x, Chain) and x.operators == ("-",) and x.operands[0] == Constant(Fraction(0)):
+        return "-", x.operands[1]
+    if isinstance(x, Constant) and not x.unit and x.value < 0:
+        return "-", Constant(-x.value)
+    return "", x
 
 
 def _ends_in_a_factor(x: Expression) -> bool:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from orderconds import Tableau, derive
+from orderconds.tableau.library import available
 
 PREAMBLE = (
     "\\documentclass[twocolumn]{article}\n\\usepackage{amsmath,tikz}\n\\usetikzlibrary{shapes.geometric}\n"
@@ -19,11 +20,11 @@ PREAMBLE = (
 def texts() -> dict[str, str]:
     families = {"rk": 4, "cf": 3, "vcg": 3, "sprk": 3, "splitting": 3, "magnus": 4, "rkn": 4, "rkmk(1)": 3}
     conditions = {family: derive(family, order).latex() for family, order in families.items()}
-    return conditions | {name: Tableau.load(name)._repr_latex_() for name in ("rk4", "gauss3")}
+    return conditions | {name: rf"{Tableau.load(name)._repr_latex_()}\clearpage" for name in available()}
 
 
 @pytest.mark.slow
-def test_conditions_and_tableaux_compile_in_two_columns(tmp_path: Path) -> None:
+def test_conditions_and_every_tableau_of_the_library_fit_in_two_columns(tmp_path: Path) -> None:
     if shutil.which("pdflatex") is None:
         pytest.skip("no LaTeX")
     body = "\n\n".join(texts().values())

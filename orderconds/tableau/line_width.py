@@ -1,0 +1,154 @@
+r"""The printed width of LaTeX formulas, and lines that fit in a column of a two-column article.
+
+Widths are estimates in points for Computer Modern at 10 points.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+COLUMN = 210.0
+"""The width of a line. A column of the class ``article`` is 229 points wide, and a paragraph is indented."""
+
+INDENT = r"\quad "
+
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}_^]|.")
+_WIDTHS = {
+    **dict.fromkeys(("+", "-"), 7.8),
+    "=": 13.3,
+    **dict.fromkeys(("(", ")", "[", "]"), 4.0),
+    **dict.fromkeys((",", "."), 2.8),
+    r"\,": 1.67,
+    " ": 2.2,
+    "&": 0.0,
+    r"\!": -1.67,
+    r"\cdot": 2.8,
+    r"\ldots": 13.3,
+    r"\quad": 10.0,
+    r"\exp": 18.0,
+    r"\text": 0.0,
+    r"\hat": 0.0,
+    r"\bigl": 0.6,
+    r"\bigr": 0.6,
+    r"\Omega": 7.3,
+}
+_OTHER = 5.2
+"""The width of a digit is 5 points, that of most letters 4 to 6."""
+
+_SMALLER = 0.8
+"""The ratio of the width of a digit in a fraction, an index or an exponent to its normal width."""
+
+_SMALLEST = 0.68
+"""The ratio in the smallest font, that of a fraction in a fraction."""
+
+
+def width(latex: str) -> float:
+    r"""Return the width of a formula in points.
+
+    >>> width("12") < width(r"\frac{123}{12}") < width("12 + 3") < width(r"\sqrt{12} + 3")
+    True
+    """
+    return _Reader(latex).formula()
+
+
+class _Reader:
+    """A reader of a formula, token by token."""
+
+    def __init__(self, latex: str) -> None:
+        self.tokens = _TOKEN.findall(latex)
+        self.position = 0
+
+    def formula(self, scale: float = 1.0) -> float:
+        """Return the width up to the end of the group or of the formula. In numerators, indices and
+        exponents, ``scale`` is the size of the font."""
+        total = 0.0
+        while self.position < len(self.tokens):
+            token = self._next()
+            if token == "}":
+                break
+            total += self._atom(token, scale)
+        return total
+
+    def _atom(self, token: str, scale: float) -> float:
+        if token in ("_", "^"):
+            return self._argument(self._smaller(scale))
+        if token == "{":
+            return self.formula(scale)
+        if token in (r"\frac", r"\tfrac"):
+            return max(self._argument(self._smaller(scale)), self._argument(self._smaller(scale))) + 2.4
+        if token == r"\sqrt":
+            index = 0.0
+            if self.position < len(self.tokens) and self.tokens[self.position] == "[":
+                self.position = self.tokens.index("]", self.position) + 1
+                index = 2.0
+            return 8.4 * scale + index + self._argument(scale)
+        return scale * _WIDTHS.get(token, _OTHER)
+
+    @staticmethod
+    def _smaller(scale: float) -> float:
+        return max(_SMALLER * scale, _SMALLEST)
+
+    def _argument(self, scale: float) -> float:
+        return self._atom(self._next(), scale) if self.position < len(self.tokens) else 0.0
+
+    def _next(self) -> str:
+        self.position += 1
+        return str(self.tokens[self.position - 1])
+
+
+def at_top(latex: str, token: str) -> bool:
+    """Return True if a token occurs in a formula outside of braces.
+
+    >>> at_top("a + b", " "), at_top(r"\\frac{a + b}{c}", " ")
+    (True, False)
+    """
+    return any(outside and x == token for x, outside in _tokens(latex))
+
+
+def with_small_fractions(latex: str) -> str:
+    r"""Return a formula in which the fractions outside of braces are small also in a displayed formula.
+
+    >>> print(with_small_fractions(r"\frac{\frac{1}{2} + x}{3}"))
+    \tfrac{\frac{1}{2} + x}{3}
+    """
+    return "".join(r"\tfrac" if x == r"\frac" and outside else x for x, outside in _tokens(latex))
+
+
+def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
+    """Yield the tokens of a formula, each with True if it is outside of braces."""
+    depth = 0
+    for token in _TOKEN.findall(latex):
+        depth += (token == "{") - (token == "}")
+        yield token, depth == 0
+
+
+def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
+    r"""Yield the lines of an equation for the environment ``aligned``. A line is broken between two parts.
+    ``free`` is the width of a right-hand side.
+
+    >>> list(lines("x", ["a + b", " + c"], 30))
+    ['x &= a + b', '&\\quad  + c']
+    """
+    line, used = f"{left} &= ", 0.0
+    for part in parts:
+        size = width(part)
+        if used and used + size > free:
+            yield line.rstrip()
+            line, used = f"&{INDENT}", width(INDENT)
+        line += part
+        used += size
+    yield line.rstrip()
+
+
+def separated(entries: Sequence[str], opening: str = "(", closing: str = ")") -> list[str]:
+    """Return the parts of a list of entries in brackets.
+
+    >>> separated(["1", "2"])
+    ['(1, ', '2)']
+    """
+    if not entries:
+        return [opening + closing]
+    *before, last = entries
+    parts = [*(f"{entry}, " for entry in before), f"{last}{closing}"]
+    return [opening + parts[0], *parts[1:]]
