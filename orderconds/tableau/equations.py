@@ -65,12 +65,22 @@ def equations(tableau: Tableau) -> str:
 
 
 def has_name(text: str) -> bool:
-    """Return True if a coefficient contains a name, which is the generator of a field of numbers."""
+    """Return True if a coefficient contains a name, which is the generator of a field of numbers.
+
+    >>> has_name("1/2 + sqrt(3)/6"), has_name("1 - 2*g")
+    (False, True)
+    """
     return bool(set(re.findall(r"[A-Za-z_]\w*", text)) - {"sqrt"})
 
 
 def short_text(x: Element, tableau: Tableau) -> str:
-    """Return the text of a coefficient. The text of a double has six digits, and a ball has few digits."""
+    """Return the text of a coefficient. The text of a double has six digits, and a ball has few digits.
+
+    >>> from orderconds.tableau import Tableau
+    >>> tableau = Tableau.rk([[0, 0], ["1/2", 0]], [0, 1])
+    >>> short_text(tableau.method.A[1][0], tableau)
+    '1/2'
+    """
     if tableau.doubles:
         return f"{cast('RealRing', tableau.ring).nearest_float(x):.6g}"
     text = tableau.ring.text(x)

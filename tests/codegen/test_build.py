@@ -266,7 +266,9 @@ def test_an_interrupted_build_ends_every_process_of_the_compiler(monkeypatch, tm
     monkeypatch.setenv("CC", str(compiler))
     monkeypatch.setenv("MARK", str(mark))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    program = f"from codegen.build import build\nbuild({SOURCE!r})\n"
+    # A shell lets its background processes ignore the signal, and children inherit this.
+    restore = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    program = f"{restore}from codegen.build import build\nbuild({SOURCE!r})\n"
     with subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.DEVNULL) as process:
         while not mark.exists() or not mark.read_text().strip():
             time.sleep(0.01)
