@@ -30,6 +30,9 @@ EVEN = 4.0
 between its order and the usual order, and for every factor of two in the predicted time of its recipes.
 """
 
+FAILED = 4.0
+"""The delay of the queues of a kind of recipe if no prediction of this kind succeeded."""
+
 
 def usual_order(error: float) -> float:
     """Return the order of methods that are usually the fastest for an error.
@@ -99,7 +102,10 @@ class Jobs(Sequence[Job]):
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the delay of a queue: log2 of its predicted time divided by the least predicted time."""
+        """Return the delay of a queue: log2 of its predicted time divided by the least predicted time.
+
+        It is FAILED if all predictions of its kind failed.
+        """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
         ratios = [
@@ -107,7 +113,9 @@ class Jobs(Sequence[Job]):
             for goal in goals
             if self.least.get(goal, math.inf) < math.inf and (goal, kind) in self.fastest
         ]
-        return min(math.log2(min(ratios)), 100.0) if ratios else 0.0
+        if not ratios:
+            return 0.0
+        return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
         """Use a prediction for later jobs."""

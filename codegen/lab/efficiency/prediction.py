@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 
 from codegen.ir.domain import FloatDomain
 from codegen.ir.expr import Expr, walk
@@ -40,6 +41,17 @@ the order of the method."""
 
 PATIENCE = 0.4
 """The interpretation of one recipe ends after this CPU time in seconds."""
+
+PARTS = 64
+"""If no run on the whole span succeeds, for example because more steps are necessary for stability, the first
+of PARTS equal parts of the span is interpreted. The error on the whole span is then predicted as PARTS times
+the error on this part.
+"""
+
+TRIES = 3
+"""If the runs of TRIES methods of one kind failed on the whole span, one after another, other methods of this
+kind are interpreted on the first part only.
+"""
 
 MOST_SWEEPS = 40
 FEWEST_SWEEPS = 3
@@ -167,10 +179,17 @@ class Bar:
 
 @dataclass
 class Predictor:
-    """Predicts the times of recipes for one form of a scene. The cost of each operation is computed once."""
+    """Predicts the times of recipes for one form of a scene. The cost of each operation is computed once.
+
+    ``beginning`` returns the equations on the first of :data:`PARTS` parts of the span, with the reference at
+    its end. ``failures`` counts, for each kind of method (family, explicit or not), the methods whose runs on
+    the whole span failed since the last success.
+    """
 
     equations: Equations
     exact: Reference
+    beginning: Callable[[], tuple[Equations, Reference]] | None = None
+    failures: Counter[tuple[str, bool]] = field(default_factory=Counter)
     costs: dict[str, tuple[float, tuple[int, ...]]] = field(default_factory=dict)
     numeric: NumericPrograms = field(default_factory=NumericPrograms)
 
@@ -194,31 +213,20 @@ class Predictor:
         if not bars:
             return Prediction(method.label, order, method.family, explicit, outside, sweep)
         numeric = self.numeric.of(program, problem, widths)
-        steps, error, sweeps = self._reached(
-            numeric, problem, min(bar.steps for bar in bars), max(bar.most(step) for bar in bars)
-        )
+        first, most = min(bar.steps for bar in bars), max(bar.most(step) for bar in bars)
+        kind, reached = (method.family, explicit), (FEW_STEPS, math.inf, 0.0)
+        if self.failures[kind] < TRIES:
+            end = time.process_time() + PATIENCE
+            reached = _reached(numeric, problem, self.equations, self.exact, first, most, end)
+            self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
+        if self.beginning is not None and not math.isfinite(reached[1]):
+            equations, exact = self.beginning()
+            part = replace(problem, span=equations.problem.span)
+            end = time.process_time() + PATIENCE
+            steps, error, sweeps = _reached(numeric, part, equations, exact, FEW_STEPS, MANY_STEPS, end)
+            reached = PARTS * steps, PARTS * error, sweeps
+        steps, error, sweeps = reached
         return Prediction(method.label, order, method.family, explicit, outside, sweep, sweeps, steps, error)
-
-    def _reached(
-        self, program: Program, problem: Problem, steps: int, most: float
-    ) -> tuple[int, float, float]:
-        """Return a number of steps with a small error, the error, and the average number of sweeps of a
-        step.
-        """
-        size = max(1.0, math.hypot(*map(float, self.exact.state)))
-        end, best = time.process_time() + PATIENCE, (FEW_STEPS, math.inf, 0.0)
-        while steps <= most and time.process_time() < end:
-            try:
-                state, sweeps = run(program, problem, steps, end)
-                error = self.equations.error(state, self.exact)
-            except (ArithmeticError, ValueError):
-                error, sweeps = math.inf, 0.0
-            if error < best[1]:
-                best = steps, error, sweeps
-            if error <= SMALL * size:
-                break
-            steps *= 2
-        return best
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
         """Return two times in nanoseconds: the operations of a step outside of implicit blocks, and one sweep
@@ -251,6 +259,36 @@ class Predictor:
         cost, results = self.costs[key]
         widths.update(zip(assign.targets, results, strict=True))
         return cost
+
+
+def _reached(
+    program: Program,
+    problem: Problem,
+    equations: Equations,
+    exact: Reference,
+    steps: int,
+    most: float,
+    end: float,
+) -> tuple[int, float, float]:
+    """Return a number of steps with a small error, the error, and the average number of sweeps of a step.
+
+    The number of steps is doubled up to ``most``, and until the process has used ``end`` CPU seconds. The
+    error is infinite if all runs failed.
+    """
+    size = max(1.0, math.hypot(*map(float, exact.state)))
+    best = FEW_STEPS, math.inf, 0.0
+    while steps <= most and time.process_time() < end:
+        try:
+            state, sweeps = run(program, problem, steps, end)
+            error = equations.error(state, exact)
+        except (ArithmeticError, ValueError):
+            error, sweeps = math.inf, 0.0
+        if error < best[1]:
+            best = steps, error, sweeps
+        if error <= SMALL * size:
+            break
+        steps *= 2
+    return best
 
 
 def widths_of_inputs(program: Program, problem: Problem) -> dict[Var, int]:

@@ -89,6 +89,7 @@ class Search:
     raced: set[Recipe] = field(default_factory=set)
     codes: set[str] = field(default_factory=set)
     timed: set[tuple[Recipe, float]] = field(default_factory=set)
+    lost: dict[Goal, dict[Recipe, None]] = field(default_factory=lambda: defaultdict(dict))
     complete: bool = True
 
     def __post_init__(self) -> None:
@@ -228,11 +229,14 @@ class Search:
     def _reached(self, goal: Goal) -> Iterable[Result]:
         """Yield the fastest result of each recipe that reaches a goal and satisfies its needs.
 
-        A run for a smaller error than the error of the goal also reaches the goal.
+        A run for a smaller error than the error of the goal also reaches the goal. Recipes that a long run
+        excluded are omitted.
         """
         fastest: dict[Recipe, Result] = {}
         for error, results in self.results.items():
             for recipe, result in results.items() if error <= goal.error else ():
+                if recipe in self.lost[goal]:
+                    continue
                 known = fastest.get(recipe)
                 if result.reached and (known is None or result.seconds < known.seconds):
                     fastest[recipe] = result
@@ -279,11 +283,23 @@ class Search:
         """Time the fastest recipes for a goal again; return the ranking, and the labels of recipes that a
         long run excludes.
 
+        If long runs exclude all measured recipes, further recipes are measured.
+        """
+        while True:
+            ranked, raced = self._ranked(goal), len(self.raced)
+            if not ranked and self.lost[goal]:
+                self.race()
+            if len(self.raced) == raced:
+                return ranked, [recipe.label for recipe in self.lost[goal]]
+
+    def _ranked(self, goal: Goal) -> list[Result]:
+        """Time the fastest recipes for a goal again, and return the ranking without those that a long run
+        excludes.
+
         If a long run of one of the two fastest recipes loses a conserved quantity, shorter steps are tried.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
-        lost: list[str] = []
         halvings: Counter[Recipe] = Counter()
         kept = 0
         while goal.long and kept < min(2, len(ranked)):
@@ -297,12 +313,12 @@ class Search:
             halvings[recipe] += 1
             shorter = self.racers[recipe].halved(result) if halvings[recipe] <= SHORTER else None
             if shorter is None:
-                lost.append(recipe.label)
+                self.lost[goal][recipe] = None
             else:
                 # The first ``kept`` recipes passed the long run and are faster than all following recipes, so
                 # they stay first.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
-        return ranked, lost
+        return ranked
 
     def _loses(self, result: Result, steps: int) -> bool:
         """Return True if a run of ``steps`` steps loses a conserved quantity or fails; the run has the step

@@ -6,16 +6,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 
 from codegen import scenes
 from codegen.build import build
 from codegen.emitter import compile_method
 from codegen.lab.efficiency.candidates import Recipe, candidates, method_of, named
 from codegen.lab.efficiency.equations import Equations, all_equations
-from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor
+from codegen.lab.efficiency.prediction import PARTS, Bar, Prediction, Predictor
 from codegen.lab.efficiency.race import Entry, entry
-from codegen.lab.reference import cached_reference
+from codegen.lab.reference import Reference, cached_reference
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
@@ -42,6 +42,11 @@ class Task:
     def problem(self) -> Problem:
         """Return the scene with its span."""
         return _problem(self.scene, self.span)
+
+    def first_part(self) -> Task:
+        """Return the task on the first of :data:`PARTS` equal parts of the span."""
+        first, last = self.problem().span
+        return replace(self, span=(first, first + (last - first) / PARTS))
 
     def equations(self, form: str) -> Equations:
         """Return the equations of the scene in a form."""
@@ -76,7 +81,14 @@ def _equations(scene: str, span: tuple[Fraction, Fraction] | None, form: str) ->
 
 @cache
 def _predictor(task: Task, form: str) -> Predictor:
-    return Predictor(task.equations(form), cached_reference(task.problem()))
+    return Predictor(
+        task.equations(form), cached_reference(task.problem()), partial(_beginning, task.first_part(), form)
+    )
+
+
+@cache
+def _beginning(task: Task, form: str) -> tuple[Equations, Reference]:
+    return task.equations(form), cached_reference(task.problem())
 
 
 def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:

@@ -24,10 +24,10 @@ from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.goal import Goal, possible, possible_needs
 from codegen.lab.efficiency.jobs import Jobs
 from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor, run, widths_of_inputs
-from codegen.lab.efficiency.race import Racer, Result, entry
+from codegen.lab.efficiency.race import Entry, Racer, Result, entry
 from codegen.lab.efficiency.recommend import Recommendation, Request, recommend
 from codegen.lab.efficiency.search import Search
-from codegen.lab.efficiency.task import Task
+from codegen.lab.efficiency.task import Task, emitted, predicted
 from codegen.lab.reference import Reference, cached_reference, reference
 from codegen.lower import families_for, lower, problem_for
 from codegen.method import parse
@@ -117,7 +117,7 @@ def test_a_method_that_loses_a_conserved_quantity_is_not_recommended_for_long_ti
     without = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
     # The first two places have survived a long run.
     assert first not in [place.entry.recipe.label for place in without.places[:2]]
-    assert without.places
+    assert without.places, "further recipes are measured if the measured ones are lost"
     monkeypatch.setattr(module.Search, "_loses", lambda s, r, n: True)
     nothing = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
     assert first in nothing.lost
@@ -191,6 +191,23 @@ def test_the_predicted_steps_reach_nearly_the_error(label: str) -> None:
     racer = Racer(equations, exact, entry(recipe, compile_method(problem, method)))
     result = racer.reach(1e-9)
     assert 1 / 1.5 < (result.steps + 0.5) / (prediction.count(1e-9) + 0.5) < 1.5
+
+
+@pytest.mark.slow  # the reference solution of a stiff scene
+@pytest.mark.parametrize("label", ["ambient:dop853", "taylor(8)", "rkmk:rk4"])
+def test_methods_that_need_many_steps_for_stability_are_predicted(label: str) -> None:
+    """The prediction agrees with the emitted code up to a factor of four in the number of steps.
+
+    It is too large, because this scene damps the errors that a prediction adds up.
+    """
+    task = Task("stiff_driven_spin")
+    recipe = next(r for r in task.recipes() if r.method == label and not r.adaptive)
+    prediction = predicted(task, (recipe, (Bar(1e-8),)))
+    assert prediction is not None
+    known = emitted(task, recipe)
+    assert isinstance(known, Entry)
+    racer = Racer(task.equations(PRINTED), cached_reference(task.problem()), known)
+    assert 1 / 4 < racer.reach(1e-8).steps / prediction.count(1e-8) < 4
 
 
 def test_a_prediction_scales_with_the_order() -> None:
