@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from orderconds.solve.solver import Order, Outcome
 
 
+SPECIFIED = ("stages", "low_storage", "explicit", "dirk", "symmetric", "fsal", "rkn")
+"""The options that are attributes of the specification without conversion."""
+
+
 @click.command(name="solve", short_help="Find a method, prove its order, and write its tableau.")
 @click.argument("family", shell_complete=completing(family_names))
 @click.option(
@@ -32,6 +36,11 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--order", "-p", type=click.IntRange(*SOLVED_ORDER), required=True, help="The order of the method."
+)
+@click.option(
+    "--low-storage",
+    is_flag=True,
+    help="Search only for schemes with two registers (2N), K <- A_i K + F(Y), Y <- exp(h B_i K) Y.",
 )
 @click.option("--explicit", is_flag=True, help="Search only for explicit methods: a_ij = 0 for j >= i.")
 @click.option("--dirk", is_flag=True, help="Search only for diagonally implicit methods: a_ij = 0 for j > i.")
@@ -160,7 +169,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     # conditions up to order p - 1.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
-        **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
+        **{key: options[key] for key in SPECIFIED},
         **{key: options[key] for key in ("fix", "positive", "exponentials", "inner")},
         size=_size(options["size"]),
     )
