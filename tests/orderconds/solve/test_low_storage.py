@@ -1,6 +1,8 @@
-"""``solve --low-storage``: two registers, the conditions of rooted trees, the error and the order on groups."""
+"""``solve --low-storage``: two registers, the conditions of rooted trees, the error and order on groups."""
 
 from __future__ import annotations
+
+import shlex
 
 import pytest
 from click.testing import CliRunner
@@ -25,11 +27,17 @@ def test_williamsons_scheme_is_found_from_two_of_its_coefficients() -> None:
     assert "--low-storage" in found.command
 
 
-@pytest.mark.parametrize(("order", "count"), [(3, 4), (4, 8), (5, 17), (6, 37)])
-def test_the_equations_are_those_of_rooted_trees(order: int, count: int) -> None:
-    problem = Problem("cf", order, Spec(count, low_storage=True), "low-storage")
+@pytest.mark.parametrize("order", [3, 4, 5])
+def test_the_equations_are_those_of_rooted_trees(order: int) -> None:
     rk = families.get("rk")
-    assert len(problem.conditions) == count == sum(len(rk.conditions(n)) for n in range(1, order + 1))
+    every = [c for n in range(1, order + 1) for c in rk.conditions(n)]
+    problem = Problem("cf", order, Spec(len(every), low_storage=True), "low-storage")
+    assert list(problem.conditions) == every
+
+
+def test_two_conditions_of_order_six_follow_from_the_others() -> None:
+    problem = Problem("cf", 6, Spec(20, low_storage=True), "low-storage")
+    assert len(problem.conditions) == 35
 
 
 def test_a_scheme_found_with_these_equations_has_its_order_on_groups() -> None:
@@ -73,7 +81,7 @@ def test_there_is_one_structure() -> None:
 def test_the_command_writes_the_two_registers() -> None:
     result = CliRunner().invoke(
         program,
-        "solve cf --low-storage --stages 3 --order 3 --fix A2=-5/9 --fix B1=1/3 --processes 1".split(),
+        shlex.split("solve cf --low-storage --stages 3 --order 3 --fix A2=-5/9 --fix B1=1/3 --processes 1"),
     )
     assert result.exit_code == 0, result.stderr
     assert '[low_storage]\nA = ["0", "-5/9", "A3"]\nB = ["1/3", "B2", "B3"]\n' in result.stdout
