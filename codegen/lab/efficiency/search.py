@@ -43,9 +43,9 @@ LEADERS, CLOSE = 4, 1.4
 """At most LEADERS recipes are timed again. Their times are at most CLOSE times the best time."""
 
 CONTROLLED = 100.0
-"""The further safety factor for a kind of recipe with step-size control of which no recipe was measured yet,
-if equal steps have large errors. On stiff scenes, equal steps can take some hundred times as long as controlled
-steps.
+"""The additional safety factor for a kind of recipe with step-size control of which no recipe was measured
+yet, if equal steps have large errors. On stiff scenes, equal steps can take some hundred times as long as
+controlled steps.
 """
 
 ROUND = 6
