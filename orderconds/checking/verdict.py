@@ -93,14 +93,14 @@ def check(
 
 def _register_form(tableau: Tableau) -> RegisterForm | None:
     """Return the scheme with two registers to which the tableau can be rewritten, as text."""
-    found = low_storage(tableau)
-    if found is None:
+    rewriting = low_storage(tableau)
+    if rewriting is None:
         return None
     space = "vector space" if isinstance(tableau.method, RungeKutta) else "group"
-    if found.scheme is None:
-        return RegisterForm(found.holds, space, reason=found.reason)
-    A, B = (tuple(map(tableau.ring.text, row)) for row in (found.scheme.A, found.scheme.B))
-    return RegisterForm(found.holds, space, A, B)
+    if rewriting.scheme is None:
+        return RegisterForm(rewriting.holds, space, reason=rewriting.reason)
+    A, B = (tuple(map(tableau.ring.text, row)) for row in (rewriting.scheme.A, rewriting.scheme.B))
+    return RegisterForm(rewriting.holds, space, A, B)
 
 
 def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:

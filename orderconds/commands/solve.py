@@ -21,10 +21,6 @@ if TYPE_CHECKING:
     from orderconds.solve.solver import Order, Outcome
 
 
-SPECIFIED = ("stages", "low_storage", "explicit", "dirk", "symmetric", "fsal", "rkn")
-"""The options that are attributes of the specification without conversion."""
-
-
 @click.command(name="solve", short_help="Find a method, prove its order, and write its tableau.")
 @click.argument("family", shell_complete=completing(family_names))
 @click.option(
@@ -169,8 +165,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     # conditions up to order p - 1.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
-        **{key: options[key] for key in SPECIFIED},
-        **{key: options[key] for key in ("fix", "positive", "exponentials", "inner")},
+        **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
+        **{key: options[key] for key in ("low_storage", "fix", "positive", "exponentials", "inner")},
         size=_size(options["size"]),
     )
     device = output is not None and Path(output).exists() and not Path(output).is_file()

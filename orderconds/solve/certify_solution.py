@@ -325,7 +325,7 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
         certificate, holds = order.certificate, order.order >= problem.order
     if not holds or certificate == "decimal":
         raise NotProved(f"order {problem.order} is not proved")
-    wanted = ("explicit", "diagonally_implicit", "symmetric", "fsal", "symplectic")
+    wanted = ("explicit", "diagonally_implicit", "symmetric", "fsal", "symplectic", "low_storage")
     held = {key: True for key, value in properties(tableau).items() if value is True and key in wanted}
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)

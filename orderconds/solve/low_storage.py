@@ -72,9 +72,9 @@ def solved_family(family: Family) -> Family:
     for name, implied in known.items():
         if family.label() in implied:
             return families.get(name)
-    served = sorted({label for implied in known.values() for label in implied})
+    claimable = sorted({label for implied in known.values() for label in implied})
     raise InputError(
         f"--low-storage in family {family.label()}",
         where="solve",
-        expected=f"one of the families {', '.join(served)}, or no --low-storage",
+        expected=f"one of the families {', '.join(claimable)}, or no --low-storage",
     )

@@ -18,9 +18,6 @@ from orderconds.solve.problem import Problem, find_problem
 from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
-OPTIONS = ("low-storage", "explicit", "dirk", "symmetric", "fsal", "rkn")
-"""The options without a value, as the command line writes them."""
-
 PLAIN, MINIMISED = 4096, 1024
 """The default numbers of random starts for each structure. A search that minimises the principal error uses
 the second number, every other search the first number."""
@@ -64,7 +61,8 @@ class Order:
         """
         w = self.spec
         words = ["orderconds", "solve", self.family, "--stages", str(w.stages), "--order", str(self.order)]
-        words += [f"--{key}" for key in OPTIONS if getattr(w, key.replace("-", "_"))]
+        words += ["--low-storage"] if w.low_storage else []
+        words += [f"--{key}" for key in ("explicit", "dirk", "symmetric", "fsal", "rkn") if getattr(w, key)]
         for option, values in (("--fix", w.fix), ("--positive", w.positive)):
             for value in values:
                 words += [option, value]

@@ -67,23 +67,23 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     method, ring = tableau.method, tableau.ring
     if not isinstance(method, RungeKutta | CommutatorFree):
         return None
-    found = two_registers(method, ring)
-    if found.holds is None and tableau.proof is not None:
+    rewriting = two_registers(method, ring)
+    if rewriting.holds is None and tableau.proof is not None:
         from orderconds.tableau.random_member import OUTSIDE, RandomMember
 
         member = RandomMember(tableau.proof.symbolic)
         try:
             drawn = member.method()
         except OUTSIDE:
-            return found
+            return rewriting
         if isinstance(drawn, RungeKutta | CommutatorFree) and two_registers(drawn, member).holds:
-            return replace(found, holds=True)
-    return found
+            return replace(rewriting, holds=True)
+    return rewriting
 
 
 def _low_storage(tableau: Tableau) -> dict[str, Verdict]:
-    found = low_storage(tableau)
-    return {} if found is None else {"low_storage": found.holds}
+    rewriting = low_storage(tableau)
+    return {} if rewriting is None else {"low_storage": rewriting.holds}
 
 
 def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, str]:
@@ -132,6 +132,7 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     gamma = method.gamma
     verdicts = {
         **_of_tableau(method.as_runge_kutta(ring), ring),
+        "low_storage": False,
         **stability_of_midpoints(gamma, ring),
     }
     palindrome = reads_backwards(gamma, ring)
