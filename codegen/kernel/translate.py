@@ -68,8 +68,8 @@ def to_kernel(
     blocks are solved by fixed-point iteration. With ``variations`` the kernel also propagates a variation of
     the state (``Kernel.vary``). Values of ``chains`` other than :data:`AS_WRITTEN` require a program without
     blocks. A ``whole`` step, or a step with variations, reads and returns the momentum in the frame that
-    emitted code uses (:mod:`codegen.kernel.carried_momentum`). Without ``outlining``, repeated computations of
-    a long step do not become functions (:mod:`codegen.kernel.outlining`).
+    emitted code uses (:mod:`codegen.kernel.carried_momentum`). Without ``outlining``, repeated computations
+    of a long step do not become functions (:mod:`codegen.kernel.outlining`).
 
     Raises :class:`codegen.errors.SceneError` if an operation of the group has no closed form,
     :class:`codegen.ir.differentiate.NotDifferentiable` if Newton's method has no matrix, and
