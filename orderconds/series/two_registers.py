@@ -141,15 +141,15 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
         [*(x.get(u, 0) for u in rooted), *(y.get(w, 0) for w in ordered)]
         for x, y in zip(left, right, strict=True)
     ]
-    found: dict[Forest, dict[Forest, Fraction]] = {}
+    relations: dict[Forest, dict[Forest, Fraction]] = {}
     for (place, _), *rest in kernel(rows, len(rooted) + len(ordered)):
         if place >= len(rooted):
             if any(pivot >= len(rooted) for pivot, _ in rest):
                 raise ValueError(f"an ordered forest of order {order} is no combination of rooted forests")
-            found[ordered[place - len(rooted)]] = {rooted[p]: -x / _symmetry(rooted[p]) for p, x in rest}
-    if len(found) < len(ordered):
-        raise ValueError(f"only {len(found)} of {len(ordered)} ordered forests are combinations")
-    return {forest: found[forest] for forest in ordered}
+            relations[ordered[place - len(rooted)]] = {rooted[p]: -x / _symmetry(rooted[p]) for p, x in rest}
+    if len(relations) < len(ordered):
+        raise ValueError(f"only {len(relations)} of {len(ordered)} ordered forests are combinations")
+    return {forest: relations[forest] for forest in ordered}
 
 
 def _symmetry(forest: Forest) -> int:
