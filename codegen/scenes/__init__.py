@@ -60,6 +60,7 @@ GALLERY = (
     "stiff_driven_spin",
     "toda_lattice",
     "torus_gradient_flow",
+    "wilson_flow",
 )
 
 EXTENDED = "+u"

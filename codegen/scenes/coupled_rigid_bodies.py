@@ -2,7 +2,7 @@
 
 R. Grossman, P. S. Krishnaprasad and J. E. Marsden, The dynamics of two coupled rigid bodies, in: Dynamical
 Systems Approaches to Nonlinear Problems in Systems and Circuits (SIAM, 1988), 373-378. The joint is at the
-point d_k of body k, from its centre of mass, and eps is the reduced mass. The kinetic energy of the bodies
+point d_k of body k, on a principal axis, and eps is the reduced mass. The kinetic energy of the bodies
 alone is sum_k P_k.J_k^-1 P_k/2, where P_k is the momentum in the body. The joint subtracts b.S^-1 b/2: b is
 the velocity with which the bodies would separate at the joint, and S = 1/eps + sum_k g_k C_k g_k^T with C_k
 = hat(d_k)^T J_k^-1 hat(d_k) is the inverse of the mass that resists it. Energy and total momentum are kept.
@@ -21,7 +21,7 @@ J1, J2, eps = (
     diag(Rational(3, 2), Rational(1, 2), 1),
     param("eps", Rational(1, 2)),
 )
-d1, d2 = Matrix([Rational(1, 2), 0, 1]), Matrix([0, Rational(3, 4), Rational(-1, 2)])
+d1, d2 = Matrix([0, 0, 1]), Matrix([Rational(3, 4), 0, 0])
 
 
 def resistance(d: Matrix, J: Matrix) -> Matrix:
@@ -37,14 +37,14 @@ b = Q * w2.cross(d2) - w1.cross(d1)
 S = eye(3) / eps + resistance(d1, J1) + Q * resistance(d2, J2) * Q.T
 x, y, z = S[:, 0], S[:, 1], S[:, 2]
 adjugate = Matrix([y.cross(z).T, z.cross(x).T, x.cross(y).T])
-joint = b.dot(adjugate * b) / x.dot(y.cross(z))
+relief = b.dot(adjugate * b) / x.dot(y.cross(z))
 
 scene = HamiltonianScene(
     title="Two rigid bodies coupled by a ball joint, T*(SO(3) x SO(3))",
     group=G,
     q=q,
     mu=mu,
-    H=(P1.dot(w1) + P2.dot(w2) - joint) / 2,
+    H=(P1.dot(w1) + P2.dot(w2) - relief) / 2,
     q0=[*eye(3), *eye(3)],
     mu0=[1, Rational(-1, 2), Rational(3, 2), Rational(-1, 2), 1, Rational(1, 2)],
     span=(0, 2),

@@ -10,7 +10,7 @@ from codegen.scenes import load as gallery
 from tests.codegen.scenes.test_gallery import kept
 
 INERTIAS = np.diag([1, 2, 2.5]), np.diag([1.5, 0.5, 1])
-JOINTS = np.array([0.5, 0, 1]), np.array([0, 0.75, -0.5])
+JOINTS = np.array([0, 0, 1]), np.array([0.75, 0, 0])
 EPS = 0.5
 
 
