@@ -28,8 +28,8 @@ from orderconds.errors import InputError
 T = TypeVar("T")
 
 SEARCHES = 8
-"""The time of all searches of a report, as a multiple of the time of one search. A report on the whole gallery
-is ready in less than twenty minutes on two cores.
+"""The largest time of all searches of a report, as a multiple of the time of one search, so that a report on
+the whole gallery takes less than twenty minutes on two cores.
 """
 
 
