@@ -66,8 +66,8 @@ class Lattice(ABC):
         finite = np.isfinite(table).all(axis=0)
         if not finite.all():
             place = tuple(int(i) for i in np.argwhere(~finite)[0])
-            found = table[(slice(None), *place)].tolist()
-            raise ValueError(f"expected finite numbers, found the state {found} of site {place}")
+            state = table[(slice(None), *place)].tolist()
+            raise ValueError(f"expected finite numbers, found the state {state} of site {place}")
         try:
             work = np.empty(interface.workspace * finite.size, table.dtype)
         except MemoryError:

@@ -31,15 +31,14 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.site_scene import with_frozen_neighbours
 from codegen.scene.sites import Sites, offset_text
 
-EXPLICIT = "explicit methods of the families rkmk, cf, cg, rk and ambient are possible, for example cf:cf4"
-
 RECOMPUTED = (Linear, Zero, Advance)
 """Operations whose results are computed again in each sweep that reads them."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method that has no step by sweeps over sites."""
-    return MethodError(what, where=scene.name, expected=expected, hint=EXPLICIT)
+    hint = "explicit methods of the families rkmk, cf, cg, rk and ambient are possible, for example cf:cf4"
+    return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
 @dataclass(frozen=True)

@@ -370,7 +370,7 @@ def _run(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
             ADVANCE, (every, _shape(step), SITES, old, _WORK, new, *moment, *plan.parameters), (_BAD,)
         )
 
-    def once(old: Term, new: Term) -> tuple[Statement, ...]:
+    def tried(old: Term, new: Term) -> tuple[Statement, ...]:
         again = If(_BAD > 0, (advance(old, new, True),))
         return (advance(old, new, False), *((again,) if any(loop.near for loop in loops) else ()))
 
@@ -378,7 +378,7 @@ def _run(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
     # The old state stays in its array until the new state is known to be finite. The two arrays then exchange
     # their roles, so no state is copied.
     body = (
-        If(even, once(_STATE, _WORK), once(_WORK, _STATE)),
+        If(even, tried(_STATE, _WORK), tried(_WORK, _STATE)),
         If(_BAD > 0, (Assign(STATUS, code(NOT_FINITE)),), (Assign(_DONE, _DONE + 1),)),
     )
     place = count("place")
