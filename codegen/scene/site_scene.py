@@ -110,22 +110,22 @@ def _offsets(name: str, f: Sequence[sympy.Expr], coordinates: Sequence[str]) -> 
     except TypeError:
         raise SceneError(f"f is {f}", where=name, expected="a column of formulas") from None
     symbols = {str(s) for entry in entries for s in getattr(entry, "free_symbols", ())}
-    found = {offset for s in symbols if (offset := offset_of(s, coordinates)) is not None}
-    if not found:
+    offsets = {offset for s in symbols if (offset := offset_of(s, coordinates)) is not None}
+    if not offsets:
         raise SceneError(
             "a field that reads no neighbour",
             where=name,
             expected="formulas in neighbour(y, offset)",
             hint="use FieldScene, and emit --batch for many independent systems",
         )
-    lengths = {len(offset) for offset in found}
+    lengths = {len(offset) for offset in offsets}
     if len(lengths) > 1:
         raise SceneError(
             f"offsets of the lengths {', '.join(map(str, sorted(lengths)))}",
             where=name,
             expected="offsets with one entry for each dimension of the lattice",
         )
-    return tuple(sorted(found))
+    return tuple(sorted(offsets))
 
 
 def _outside(
