@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict, deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from codegen.lab.efficiency.candidates import Recipe
 from codegen.lab.efficiency.goal import Goal
@@ -43,9 +43,9 @@ def usual_order(error: float) -> float:
     return 2 - math.log10(error) / 2
 
 
-Kind = tuple[str, str, bool]
-"""A kind of recipe: family, form, and True if the tableau is explicit. Recipes of one kind have similar
-costs.
+Kind = tuple[str, str, bool, bool]
+"""A kind of recipe: family, form, True if the tableau is explicit, and True if it has an error estimate for
+step-size control. Recipes of one kind have similar costs.
 """
 
 Queue = tuple[Kind, int]
@@ -62,10 +62,13 @@ class Jobs(Sequence[Job]):
     A job is created only when a worker process is free, so its bars use all predictions up to this time. The
     queues take turns, and queues of orders that are usual for an error are first. If a kind of recipe is
     predicted to be slower than another kind, its queues have a delay, the logarithm of the ratio of the
-    times.
+    times. ``controlled`` are the recipes that can also run with step-size control.
     """
 
-    def __init__(self, goals: Mapping[Recipe, Iterable[Goal]]) -> None:
+    def __init__(
+        self, goals: Mapping[Recipe, Iterable[Goal]], controlled: Collection[Recipe] = frozenset()
+    ) -> None:
+        self.controlled = controlled
         self.goals = {recipe: tuple(dict.fromkeys(own)) for recipe, own in goals.items()}
         self.given: list[Recipe] = []
         self.known: dict[Goal, list[Prediction]] = defaultdict(list)
@@ -76,10 +79,14 @@ class Jobs(Sequence[Job]):
         self.queues: dict[Queue, deque[Recipe]] = defaultdict(deque)
         self.turns: dict[Queue, int] = defaultdict(int)
         for recipe in sorted(self.goals, key=lambda r: r.stages):
-            self.queues[kind_of(recipe), recipe.order].append(recipe)
+            self.queues[self.kind(recipe), recipe.order].append(recipe)
 
     def __len__(self) -> int:
         return len(self.goals)
+
+    def kind(self, recipe: Recipe) -> Kind:
+        """Return the kind of a recipe."""
+        return recipe.family, recipe.form, recipe.explicit, recipe in self.controlled
 
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
         """Return the next job. The caller must read the jobs in the order 0, 1, 2, ..., each job once. After
@@ -124,7 +131,7 @@ class Jobs(Sequence[Job]):
         for goal in self.goals[recipe]:
             if prediction.explicit or not goal.explicit:
                 self.known[goal].append(prediction)
-                key, seconds = (goal, kind_of(recipe)), prediction.seconds(goal.error)
+                key, seconds = (goal, self.kind(recipe)), prediction.seconds(goal.error)
                 self.fastest[key] = min(self.fastest.get(key, math.inf), seconds)
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
@@ -137,11 +144,6 @@ class Jobs(Sequence[Job]):
             bar = bar_of(goal, order, known, self.least.get(goal, math.inf))
             self.bars[goal, order] = len(known), bar
         return bar
-
-
-def kind_of(recipe: Recipe) -> Kind:
-    """Return the kind of a recipe."""
-    return recipe.family, recipe.form, recipe.explicit
 
 
 def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: float) -> Bar:

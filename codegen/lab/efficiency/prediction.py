@@ -84,7 +84,9 @@ class Prediction:
     A step takes ``outside`` + ``sweeps`` * ``sweep`` nanoseconds: ``sweep`` is the time of one iteration over
     all implicit blocks, ``sweeps`` the average number of iterations, ``outside`` the time of the remaining
     operations. ``explicit`` is True if no equation is solved. If the interpreted runs failed, ``error`` is
-    infinite. ``failure`` is the reason if the scene or the family does not accept the method.
+    infinite. ``rough`` is True if no interpreted run on the whole span had a small error, for example because
+    the motion is fast in a part of the span. Step-size control may then save a large part of the time.
+    ``failure`` is the reason if the scene or the family does not accept the method.
     """
 
     method: str
@@ -96,6 +98,7 @@ class Prediction:
     sweeps: float = 0.0
     steps: int = FEW_STEPS
     error: float = math.inf
+    rough: bool = False
     failure: str = ""
 
     def count(self, error: float) -> float:
@@ -219,6 +222,7 @@ class Predictor:
             end = time.process_time() + PATIENCE
             reached = _reached(numeric, problem, self.equations, self.exact, first, most, end)
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
+        rough = reached[1] > SMALL * size_of(self.exact)
         if self.beginning is not None and not math.isfinite(reached[1]):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -226,7 +230,8 @@ class Predictor:
             steps, error, sweeps = _reached(numeric, part, equations, exact, FEW_STEPS, MANY_STEPS, end)
             reached = PARTS * steps, PARTS * error, sweeps
         steps, error, sweeps = reached
-        return Prediction(method.label, order, method.family, explicit, outside, sweep, sweeps, steps, error)
+        amounts = (outside, sweep, sweeps, steps, error)
+        return Prediction(method.label, order, method.family, explicit, *amounts, rough)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
         """Return two times in nanoseconds: the operations of a step outside of implicit blocks, and one sweep
@@ -275,7 +280,7 @@ def _reached(
     The number of steps is doubled up to ``most``, and until the process has used ``end`` CPU seconds. The
     error is infinite if all runs failed.
     """
-    size = max(1.0, math.hypot(*map(float, exact.state)))
+    size = size_of(exact)
     best = FEW_STEPS, math.inf, 0.0
     while steps <= most and time.process_time() < end:
         try:
@@ -289,6 +294,11 @@ def _reached(
             break
         steps *= 2
     return best
+
+
+def size_of(exact: Reference) -> float:
+    """Return the size of the final state, at least 1."""
+    return max(1.0, math.hypot(*map(float, exact.state)))
 
 
 def widths_of_inputs(program: Program, problem: Problem) -> dict[Var, int]:

@@ -42,6 +42,12 @@ UNSEEN = 4.0
 LEADERS, CLOSE = 4, 1.4
 """At most LEADERS recipes are timed again. Their times are at most CLOSE times the best time."""
 
+CONTROLLED = 100.0
+"""The additional safety factor for a kind of recipe with step-size control of which no recipe was measured
+yet, if equal steps have large errors. On stiff scenes, equal steps can take some hundred times as long as
+controlled steps.
+"""
+
 ROUND = 6
 """The number of recipes that are emitted between two corrections of the predictions."""
 
@@ -124,7 +130,7 @@ class Search:
         methods: dict[Recipe, list[Goal]] = defaultdict(list)
         for recipe, suited in self.suited.items():
             methods[replace(recipe, adaptive=False)] += suited
-        jobs = Jobs(methods)
+        jobs = Jobs(methods, {replace(recipe, adaptive=False) for recipe in self.suited if recipe.adaptive})
         for k, prediction in enumerate(in_processes(partial(predicted, self.task), jobs)):
             if k % GROUP == 0:
                 self.progress(f"{self.problem.name}: predicting method {k + 1} of {len(jobs)}")
@@ -148,7 +154,8 @@ class Search:
             return seconds * self._corrections[kind, error] / self.safety
         if kind in self._of_kind:
             return seconds * self._of_kind[kind] / self.safety
-        return seconds * self._least / UNSEEN
+        gained = CONTROLLED if recipe.adaptive and prediction.rough else 1.0
+        return seconds * self._least / (UNSEEN * gained)
 
     def _correct(self) -> None:
         """Compute the corrections of predictions from the ratios of measured to predicted times."""

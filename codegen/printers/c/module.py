@@ -315,7 +315,8 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
         declared = [
             f"    static {real.c_type} state[{interface.size}];",
             *(f"    state[{place}] = {number(x)};" for place, x in entries),
-            *(() if entries else (f"    /* {IN_MANIFEST} */",)),
+            # The example is part of a block comment, so it contains only line comments.
+            *(() if entries else (f"    // {IN_MANIFEST}",)),
         ]
     # The example starts at t = 0. The arguments have the same order as the parameters of the emitted ``run``.
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
