@@ -98,13 +98,13 @@ class PlaneCurves(Figure):
 class SphereCurves(Figure):
     """Curves on a sphere about the origin, in orthogonal projection. ``point`` has three formulas.
 
-    ``view`` is the direction of the eye: azimuth and elevation in degrees. With ``panels`` each run has a
+    ``direction`` points to the eye: azimuth and elevation in degrees. With ``panels`` each run has a
     panel of its own. With ``dots`` the states are drawn as dots without lines between them.
     """
 
     point: tuple[Quantity, Quantity, Quantity]
     axes: tuple[str, str, str] = ("x", "y", "z")
-    view: tuple[float, float] = (30.0, 25.0)
+    direction: tuple[float, float] = (30.0, 25.0)
     panels: bool = True
     dots: bool = False
 
@@ -113,12 +113,12 @@ class SphereCurves(Figure):
 class SpaceCurves(Figure):
     """Curves in space, in orthogonal projection. ``point`` has three formulas.
 
-    ``view`` is the direction of the eye: azimuth and elevation in degrees.
+    ``direction`` points to the eye: azimuth and elevation in degrees.
     """
 
     point: tuple[Quantity, Quantity, Quantity]
     axes: tuple[str, str, str] = ("x", "y", "z")
-    view: tuple[float, float] = (30.0, 25.0)
+    direction: tuple[float, float] = (30.0, 25.0)
     panels: bool = False
 
 
@@ -196,7 +196,7 @@ def read_figures(scene: str, value: object) -> tuple[Figure, ...]:
 
     Raises :class:`codegen.errors.SceneError` for an object that is no figure, and for equal names.
     """
-    found: list[Figure] = []
+    figures: list[Figure] = []
     for figure in value if isinstance(value, Iterable) else [value]:
         if not isinstance(figure, Figure):
             raise SceneError(
@@ -204,9 +204,9 @@ def read_figures(scene: str, value: object) -> tuple[Figure, ...]:
                 where=scene,
                 expected="figures, such as PlaneCurves(...) of codegen.scene.figure",
             )
-        if any(figure.name == other.name for other in found):
+        if any(figure.name == other.name for other in figures):
             raise SceneError(
                 f"two figures with the name {figure.name!r}", where=scene, expected="distinct names"
             )
-        found.append(figure)
-    return tuple(found)
+        figures.append(figure)
+    return tuple(figures)

@@ -129,9 +129,8 @@ def styles(figure: Figure) -> dict[str, Style]:
     """Return the style of each run of a figure by its name. A method has the colour of all other figures."""
     runs = figure.runs
     chosen = Styles([run.method for run in runs])
-    found = {run.name: chosen.of(run.method) for run in runs}
     if len({run.method for run in runs}) == len(runs):
-        return found
+        return {run.name: chosen.of(run.method) for run in runs}
     # Several runs use one method: their names decide.
     chosen = Styles([method_name(run.name) for run in runs])
     return {run.name: chosen.of(run.name) for run in runs}

@@ -21,7 +21,7 @@ GROWS = 1.02
 def draw(figure: Deviation, source: Source) -> Drawn:
     """Return the picture: one line for each run, with a logarithmic vertical axis."""
     looks = styles(figure)
-    found: dict[str, float] = {}
+    numbers: dict[str, float] = {}
     canvas = Canvas.of(1, height=4.2, width=WIDE)
     axes = canvas.panels[0]
     axes.set_yscale("log")
@@ -30,11 +30,11 @@ def draw(figure: Deviation, source: Source) -> Drawn:
         chosen = marks(len(times), k / len(figure.runs))
         texts = [f"{run.name}: {scientific(sizes[i])} at t = {times[i]:.4g}" for i in chosen]
         canvas.line(axes, (times, sizes), run.name, looks[run.name], chosen, texts, {"linewidth": 1.0})
-        found[run.name] = float(sizes.max())
+        numbers[run.name] = float(sizes.max())
     label_axes(axes, "time t", figure.axis)
-    largest = "; ".join(f"{name}: largest deviation {scientific(x, 3)}" for name, x in found.items())
+    largest = "; ".join(f"{name}: largest deviation {scientific(x, 3)}" for name, x in numbers.items())
     note = failures(figure.runs, [source.path(run).failure for run in figure.runs])
-    return Drawn(canvas.finish(figure, source.problem.name, f"{largest}."), note, found)
+    return Drawn(canvas.finish(figure, source.problem.name, f"{largest}."), note, numbers)
 
 
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:

@@ -24,7 +24,7 @@ def draw(figure: Orders, source: Source) -> Drawn:
     slope.
     """
     looks = styles(figure)
-    found: dict[str, dict[str, float]] = {}
+    numbers: dict[str, dict[str, float]] = {}
     canvas = Canvas.of(1)
     axes = canvas.panels[0]
     axes.set_xscale("log")
@@ -34,7 +34,7 @@ def draw(figure: Orders, source: Source) -> Drawn:
         texts = [f"{name}: h = {h:.3g}, error {scientific(e, 4)}" for h, e in points]
         sizes, values = zip(*points, strict=True)
         canvas.line(axes, (sizes, values), name, looks[name], range(len(points)), texts)
-        found[name] = {f"{h:.6g}": e for h, e in points}
+        numbers[name] = {f"{h:.6g}": e for h, e in points}
     for order in figure.orders:
         nearest = min(curves.values(), key=lambda points: abs(slope(points) - order))
         (h, e), (finest, _) = nearest[0], nearest[-1]
@@ -45,9 +45,11 @@ def draw(figure: Orders, source: Source) -> Drawn:
     label_axes(axes, "step size h", figure.axis)
     log_ticks(axes.xaxis, lambda x: f"{x:g}")
     listed = "; ".join(
-        f"{name}: {', '.join(f'{e:.3e}' for e in rows.values())}" for name, rows in found.items()
+        f"{name}: {', '.join(f'{e:.3e}' for e in rows.values())}" for name, rows in numbers.items()
     )
-    return Drawn(canvas.finish(figure, source.problem.name, f"Errors for decreasing h. {listed}."), "", found)
+    return Drawn(
+        canvas.finish(figure, source.problem.name, f"Errors for decreasing h. {listed}."), "", numbers
+    )
 
 
 def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]]:

@@ -17,13 +17,13 @@ from codegen.lab.pictures.source import Source, sweep_values
 from codegen.scene.figure import Run, Scan, Sweep
 
 DIGITS = 1e-8
-"""The best value is found up to this part of the range of the sweep."""
+"""The best value is exact up to this part of the range of the sweep."""
 
 
 def draw(figure: Scan, source: Source) -> Drawn:
     """Return the picture: one line for each run; marks are at the best values."""
     looks = styles(figure)
-    found: dict[str, dict[str, float]] = {}
+    numbers: dict[str, dict[str, float]] = {}
     canvas = Canvas.of(1, height=3.4)
     axes = canvas.panels[0]
     axes.set_yscale("log")
@@ -40,13 +40,13 @@ def draw(figure: Scan, source: Source) -> Drawn:
         best, least = minimum(source, figure, run, values, sizes)
         axes.plot([best], [least], marker="x", color=INK, markersize=7, zorder=5)
         annotate(axes, f"{name} = {best:.4g}", (best, least), (6, 4), "left")
-        found[run.name] = {name: best, "error": least}
+        numbers[run.name] = {name: best, "error": least}
         notes.append(f"The error of {run.name} is least at {name} = {best:.5g}: {scientific(least, 3)}.")
     label_axes(axes, _sweep(figure.runs[0]).name, figure.axis or "distance from the end of the reference")
     few_decades(axes)
     notes.append(failures(figure.runs, [source.path(run).failure for run in figure.runs]))
     note = " ".join(filter(None, notes))
-    return Drawn(canvas.finish(figure, source.problem.name, note), note, found)
+    return Drawn(canvas.finish(figure, source.problem.name, note), note, numbers)
 
 
 def error(source: Source, figure: Scan, run: Run, value: float) -> float:

@@ -40,7 +40,7 @@ def draw(figure: SphereCurves, source: Source) -> Drawn:
     """Return the picture. The start of the curves is marked by a black dot."""
     runs, looks = figure.runs, styles(figure)
     canvas = Canvas.of(len(runs) if figure.panels else 1, height=WIDE / 2)
-    frame = projection(*figure.view)
+    frame = projection(*figure.direction)
     reference = figure.reference
     curves = [source.values(run, figure.point) for run in runs]
     radius = float(numpy.linalg.norm(source.start(runs[0], figure.point)))

@@ -28,13 +28,13 @@ def draw(figure: TimeSeries, source: Source) -> Drawn:
     """Return the picture. Each run has a panel; each quantity has a colour, a dash and a marker."""
     runs, reference = figure.runs, figure.reference
     canvas = Canvas.of(len(runs), 1, ONE if len(runs) == 1 else SEVERAL, width=WIDE)
-    found: dict[str, dict[str, list[float]]] = {}
+    numbers: dict[str, dict[str, list[float]]] = {}
     for run, axes in zip(runs, canvas.panels, strict=True):
         times = source.path(run).times
         rows = source.values(run, list(figure.quantities.values()))
         if reference is not None and figure.difference:
             rows = rows - source.beside(run, reference, next(iter(figure.quantities.values())))
-        found[run.name] = _draw_rows(canvas, axes, figure, run, times, rows)
+        numbers[run.name] = _draw_rows(canvas, axes, figure, run, times, rows)
         if len(runs) > 1:
             axes.set_title(run.name, fontsize=9, color=INK)
         if reference is not None and not figure.difference:
@@ -43,7 +43,7 @@ def draw(figure: TimeSeries, source: Source) -> Drawn:
             canvas.line(axes, exact, figure.reference_label, REFERENCE_STYLE, looks=REFERENCE_LOOKS)
         label_axes(axes, "time t" if axes is canvas.panels[-1] else "", figure.axis)
     note = failures(runs, [source.path(run).failure for run in runs])
-    return Drawn(canvas.finish(figure, source.problem.name, _ranges(found)), note, found)
+    return Drawn(canvas.finish(figure, source.problem.name, _ranges(numbers)), note, numbers)
 
 
 def _draw_rows(
@@ -55,15 +55,15 @@ def _draw_rows(
     rows: numpy.ndarray,
 ) -> dict[str, list[float]]:
     """Draw the quantities of a run and return their least and largest values."""
-    found = {}
+    numbers = {}
     for k, (label, row) in enumerate(zip(figure.quantities, rows, strict=True)):
         style = Style(f"var(--series-{k + 1})", MARKERS[k], DASHES[k % len(DASHES)])
         x, y = _window(figure, times, row)
         chosen = marks(len(x), (k + 0.5) / len(rows))
         texts = [f"{run.name}, {label}: {y[i]:.6g} at t = {x[i]:.4g}" for i in chosen]
         canvas.line(axes, (x, y), label, style, chosen, texts, {"linewidth": 0.9})
-        found[label] = [float(y.min()), float(y.max())]
-    return found
+        numbers[label] = [float(y.min()), float(y.max())]
+    return numbers
 
 
 def _window(
@@ -75,10 +75,10 @@ def _window(
     return times[shown], row[shown]
 
 
-def _ranges(found: Mapping[str, Mapping[str, Sequence[float]]]) -> str:
+def _ranges(numbers: Mapping[str, Mapping[str, Sequence[float]]]) -> str:
     parts = (
         f"{name}, {label}: between {low:.6g} and {high:.6g}"
-        for name, series in found.items()
+        for name, series in numbers.items()
         for label, (low, high) in series.items()
     )
     return "; ".join(parts) + "."
