@@ -74,6 +74,11 @@ class Figures(Measurement[Results]):
             if one.failure:
                 yield f"{subject.scene.name} {one.figure.name}: the figure failed: {one.failure}"
 
+    def verdict(self, result: Results, subject: Subject) -> str:
+        """Return a sentence with the number of figures."""
+        drawn, count = sum(one.drawn is not None for one in result), len(result)
+        return f"{drawn} of {count} figures are drawn. Every curve comes from emitted C."
+
     def section(self, result: Results, subject: Subject) -> Section | None:
         """Return the pictures with their captions and commands."""
         if not result:

@@ -14,6 +14,7 @@ from codegen.lab.page.axes import SIZE, appearance, legend, new_figure
 from codegen.lab.page.series_style import Style, Styles, method_name
 from codegen.lab.page.svg import INK, Text, svg_element
 from codegen.scene.figure import Figure, Run
+from codegen.scene.problem import Problem
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -116,12 +117,13 @@ class Canvas:
             self.texts[len(self.names) - 1] = []
         return self.names.index(label)
 
-    def finish(self, figure: Figure, scene: str, description: str) -> Markup:
+    def finish(self, figure: Figure, scene: Problem, description: str) -> Markup:
         """Return the SVG element."""
+        name = f"{scene.name} {figure.name}"
         numbers = {name: k for k, name in enumerate(self.names)}
         if any(name not in self.titled for name in self.names):
             legend(self.drawing, self.panels, numbers)
-        svg = svg_element(self.drawing, Text(f"{scene} {figure.name}", figure.title, description, self.texts))
+        svg = svg_element(self.drawing, Text(name, f"{figure.title}, {scene.title}", description, self.texts))
         return Markup(_rounded(str(svg)))
 
 

@@ -34,7 +34,7 @@ def draw(figure: Deviation, source: Source) -> Drawn:
     label_axes(axes, "time t", figure.axis)
     largest = "; ".join(f"{name}: largest deviation {scientific(x, 3)}" for name, x in numbers.items())
     note = failures(figure.runs, [source.path(run).failure for run in figure.runs])
-    return Drawn(canvas.finish(figure, source.problem.name, f"{largest}."), note, numbers)
+    return Drawn(canvas.finish(figure, source.problem, f"{largest}."), note, numbers)
 
 
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:

@@ -47,9 +47,7 @@ def draw(figure: Orders, source: Source) -> Drawn:
     listed = "; ".join(
         f"{name}: {', '.join(f'{e:.3e}' for e in rows.values())}" for name, rows in numbers.items()
     )
-    return Drawn(
-        canvas.finish(figure, source.problem.name, f"Errors for decreasing h. {listed}."), "", numbers
-    )
+    return Drawn(canvas.finish(figure, source.problem, f"Errors for decreasing h. {listed}."), "", numbers)
 
 
 def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]]:

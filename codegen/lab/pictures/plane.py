@@ -55,7 +55,7 @@ def draw(figure: PlaneCurves, source: Source) -> Drawn:
         f"{run.name} ends at ({x[-1]:.4g}, {y[-1]:.4g})" for run, (x, y) in zip(runs, curves, strict=True)
     )
     note = failures(runs, [source.path(run).failure for run in runs])
-    svg = canvas.finish(figure, source.problem.name, f"{ends}.")
+    svg = canvas.finish(figure, source.problem, f"{ends}.")
     return Drawn(
         svg, note, {run.name: [float(x[-1]), float(y[-1])] for run, (x, y) in zip(runs, curves, strict=True)}
     )

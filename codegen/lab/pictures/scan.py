@@ -46,7 +46,7 @@ def draw(figure: Scan, source: Source) -> Drawn:
     few_decades(axes)
     notes.append(failures(figure.runs, [source.path(run).failure for run in figure.runs]))
     note = " ".join(filter(None, notes))
-    return Drawn(canvas.finish(figure, source.problem.name, note), note, numbers)
+    return Drawn(canvas.finish(figure, source.problem, note), note, numbers)
 
 
 def error(source: Source, figure: Scan, run: Run, value: float) -> float:

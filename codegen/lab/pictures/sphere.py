@@ -63,7 +63,7 @@ def draw(figure: SphereCurves, source: Source) -> Drawn:
     far = "; ".join(
         f"{name}: relative distance from the sphere at most {x:.1e}" for name, x in spread.items()
     )
-    return Drawn(canvas.finish(figure, source.problem.name, f"{far}."), note, spread)
+    return Drawn(canvas.finish(figure, source.problem, f"{far}."), note, spread)
 
 
 def projection(azimuth: float, elevation: float) -> numpy.ndarray:

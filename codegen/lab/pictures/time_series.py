@@ -43,7 +43,7 @@ def draw(figure: TimeSeries, source: Source) -> Drawn:
             canvas.line(axes, exact, figure.reference_label, REFERENCE_STYLE, looks=REFERENCE_LOOKS)
         label_axes(axes, "time t" if axes is canvas.panels[-1] else "", figure.axis)
     note = failures(runs, [source.path(run).failure for run in runs])
-    return Drawn(canvas.finish(figure, source.problem.name, _ranges(numbers)), note, numbers)
+    return Drawn(canvas.finish(figure, source.problem, _ranges(numbers)), note, numbers)
 
 
 def _draw_rows(

@@ -32,9 +32,7 @@ def test_a_figure_of_a_user_is_drawn(tmp_path):
 
 def test_the_file_and_the_numbers_are_written(tmp_path):
     path = tmp_path / "frozen.svg"
-    result = CliRunner().invoke(
-        command, ["duffing", "frozen", "-o", str(path), "--json"], standalone_mode=False
-    )
+    result = CliRunner().invoke(program, ["figure", "duffing", "frozen", "-o", str(path), "--json"])
     assert result.exit_code == 0
     document = json.loads(result.stdout)
     assert document["name"] == "frozen"
