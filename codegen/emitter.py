@@ -186,8 +186,18 @@ def compensated(compiled: Compiled) -> Compiled:
 
 
 def with_batch(compiled: Compiled) -> Compiled:
-    """Return a compiled method whose module also has a function that steps many independent systems."""
-    return replace(compiled, kernel=replace(compiled.kernel, batch=True))
+    """Return a compiled method whose module also has a function that steps many independent systems.
+
+    A loop over systems with a call is not turned into vector instructions. So an explicit step whose repeated
+    computations are functions is translated again without functions.
+    """
+    kernel = compiled.kernel
+    changed = kernel.deferred or kernel.expansion or kernel.carried or compiled.compensated
+    if kernel.outlined and not kernel.loops and not changed:
+        plain, own = to_kernel(compiled.program, compiled.problem, outlining=False), kernel.estimate
+        estimate = own and replace(own, errors=plain.estimate.errors if plain.estimate else ())
+        kernel = replace(kernel, body=plain.body, outputs=plain.outputs, outlined=(), estimate=estimate)
+    return replace(compiled, kernel=replace(kernel, batch=True))
 
 
 def _with_arrays(scene: Problem, method: Method, jacobian: bool, run: bool) -> Compiled:
