@@ -118,6 +118,16 @@ def test_a_step_on_a_cotangent_bundle_computes_each_exponential_once():
     assert "expm2(" not in source
 
 
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_the_matrix_of_a_large_state_is_passed_tested_and_stored_as_a_whole(target):
+    artifact = emit_compiled(compiled("field", "SO(5)", "rkmk(0):euler"), target)
+    source = "".join(artifact.files.values())
+    assert re.search(r"product5\(v_1(\[0:25\])?, state, v_2\)", source)
+    stored = "memcpy(state, v_2, sizeof v_2);" if target == "c" else "state[:] = v_2\n"
+    assert stored in source
+    assert ("all_finite(v_2, 25)" if target == "c" else "isfinite, v_2)") in source
+
+
 ON_GROUPS = {"rkmk", "cg", "cf", "ambient", "taylor"}
 ON_BUNDLES = ON_GROUPS | {"vcg", "vrkmk", "vcf", "vrkmk_pade", "slgi", "discrete_gradient"}
 PROMISED = [("field", "SO(5)", "cf:cf4"), ("hamiltonian", "SO(4)", "vcg:midpoint")]
