@@ -1,8 +1,7 @@
 """Arrays that a step passes, tests and copies as a whole, instead of entry by entry.
 
 The state of a large matrix group is one array, and so is the result of a product of matrices. Without this
-module, each entry of these arrays would be written out in each call, in the test of the result, and in the
-assignment of the new state.
+module, each call, the test of the result and the assignment of the new state would list all entries.
 """
 
 from __future__ import annotations
