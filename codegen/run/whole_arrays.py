@@ -41,10 +41,10 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
     result: list[Statement] = []
     for statement in sequence:
         if isinstance(statement, Array) and len(statement.values) >= SHORTEST:
-            found = [places.get(x.text) if x.op == "name" else None for x in statement.values]
-            first = found[0]
-            if first is not None and found == list(range(first, first + len(found))):
-                parts[statement.name.text] = state.part(first, len(found))
+            read = [places.get(x.text) if x.op == "name" else None for x in statement.values]
+            first = read[0]
+            if first is not None and read == list(range(first, first + len(read))):
+                parts[statement.name.text] = state.part(first, len(read))
                 continue
         if isinstance(statement, Call):
             given = statement.arguments
@@ -56,11 +56,11 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
 
 def names_in(body: Iterable[Statement]) -> frozenset[str]:
     """Return the names that the statements contain."""
-    found = set()
+    names = set()
     values = []
     for term in terms(body):
         if term.op == "name":
-            found.add(term.text)
+            names.add(term.text)
         elif term.value is not None:
             values.append(term.value)
-    return frozenset(found | {n.payload for n in walk(values) if n.op == "sym"})
+    return frozenset(names | {n.payload for n in walk(values) if n.op == "sym"})
