@@ -22,6 +22,7 @@ from pathlib import Path
 
 from codegen.errors import SceneError
 from codegen.scene.extended_phase_space import extended
+from codegen.scene.figure import read_figures
 from codegen.scene.problem import Problem
 from codegen.scene.run_time import with_runtime
 from codegen.scene.stiff_variant import StiffVariant
@@ -32,6 +33,10 @@ from orderconds.input_file import read_bytes
 
 GALLERY = (
     "actuated_rigid_body",
+    "allen_cahn",
+    "body_in_fluid",
+    "circle",
+    "coupled_rigid_bodies",
     "dipole",
     "driven_spin",
     "duffing",
@@ -45,9 +50,18 @@ GALLERY = (
     "free_rigid_body_quaternion",
     "free_rigid_body_s3",
     "heavy_top",
+    "independent_components",
+    "inertial_navigation",
     "linear_oscillator",
     "linear_oscillator_sl2",
+    "lyapunov_exponents",
+    "planar_body_in_fluid",
+    "principal_components",
+    "satellite",
     "stiff_driven_spin",
+    "toda_lattice",
+    "torus_gradient_flow",
+    "wilson_flow",
 )
 
 EXTENDED = "+u"
@@ -151,8 +165,9 @@ def file_stem(scene: Problem) -> str:
 
 def _load(name: str) -> Problem:
     if name in GALLERY:
-        scene: Problem = import_module(f"codegen.scenes.{name}").scene
-        return replace(scene, name=name)
+        module = import_module(f"codegen.scenes.{name}")
+        scene: Problem = module.scene
+        return replace(scene, name=name, figures=read_figures(name, vars(module).get("figures", ())))
     if name in _REGISTERED:
         return _REGISTERED[name][0]
     path = Path(name)
@@ -200,6 +215,7 @@ def _run(name: str, path: Path) -> Problem:
         raise SceneError(
             "no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)"
         )
+    scene = replace(scene, figures=read_figures(name, names.get("figures", ())))
     return _named(scene, path.stem, names.get("__doc__") or "")
 
 

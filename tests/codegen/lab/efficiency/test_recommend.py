@@ -22,8 +22,9 @@ from codegen.lab.efficiency import prediction, race, search
 from codegen.lab.efficiency.candidates import Recipe, candidates
 from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.goal import Goal, possible, possible_needs
+from codegen.lab.efficiency.interpreted_runs import run
 from codegen.lab.efficiency.jobs import Jobs
-from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor, run, widths_of_inputs
+from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor, widths_of_inputs
 from codegen.lab.efficiency.race import Entry, Racer, Result, entry
 from codegen.lab.efficiency.recommend import Recommendation, Request, recommend
 from codegen.lab.efficiency.search import Search
@@ -246,7 +247,7 @@ def test_jobs_of_slow_families_wait() -> None:
 def test_methods_with_an_error_estimate_have_an_early_turn() -> None:
     """In a slow kind, the first method with step-size control is predicted before most other methods."""
     recipes = [Recipe(f"{f}:m{k}", 4, k, f"m{k}") for f in ("slow", "fast") for k in range(9)]
-    jobs = Jobs({recipe: [Goal(1e-6)] for recipe in recipes}, {recipes[8]})
+    jobs = Jobs({recipe: [Goal(1e-6)] for recipe in recipes}, {recipes[8]: [Goal(1e-6)]})
     order = []
     for k in range(len(jobs)):
         recipe, _ = jobs[k]
@@ -255,6 +256,21 @@ def test_methods_with_an_error_estimate_have_an_early_turn() -> None:
         jobs.add(recipe, Prediction(recipe.method, 4, recipe.family, error=1e-6, outside=outside))
     assert order.index("slow:m8") < 3
     assert order.index("slow:m1") > 8
+
+
+@pytest.mark.parametrize("controlled", [False, True])
+def test_rough_predictions_exclude_only_recipes_without_step_size_control(controlled: bool) -> None:
+    """Equal steps of a higher order are slow, which says nothing about controlled steps of a lower order."""
+    goal = Goal(1e-12)
+    low, high, other = (Recipe(f"{f}:m{k}", k, k, f"m{k}") for f, k in (("f", 5), ("f", 6), ("g", 6)))
+    jobs = Jobs({r: [goal] for r in (low, high, other)}, {low: [goal]} if controlled else {})
+    jobs.add(other, Prediction(other.method, 6, "g", outside=1e3, error=1e-12))
+    jobs.add(high, Prediction(high.method, 6, "f", outside=1e3, error=1e-2, rough=True))
+    assert jobs._bar(goal, low).too_high("f", True) != controlled
+    # A prediction for step-size control is used.
+    slow = Prediction(high.method, 6, "f", outside=1e3, error=1e-2)
+    jobs.add(high, replace(slow, rough=True, controlled=slow))
+    assert jobs._bar(goal, low).too_high("f", True)
 
 
 def test_a_prediction_is_rough_if_no_run_on_the_whole_span_is_accurate(
