@@ -25,6 +25,7 @@ from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.compensation import compensated as add_carries
 from codegen.kernel.operations import STEP, step_operations
+from codegen.kernel.site_kernel import site_method
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
@@ -129,6 +130,8 @@ def compile_method(
     method = method_for(scene, method, family)
     if adaptive:
         method = replace(method, adaptive=True)
+    if scene.sites is not None:
+        return _with_sites(scene, method, {"jacobian": jacobian, "a run to an end time": request.any})
     problem = problem_for(scene, method)
     if scene.matrices is not None and not lowering(method.family).in_coordinates:
         return _with_arrays(scene, method, jacobian, request.any)
@@ -213,6 +216,17 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, run: bool) -> C
         order = order_of_estimate(method, scene)
         kernel = replace(kernel, estimate=replace(kernel.estimate, order=order))
     return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
+
+
+def _with_sites(scene: Problem, method: Method, requests: Mapping[str, bool]) -> Compiled:
+    """Return a method on a chain or lattice."""
+    requests = {"an error estimate": method.adaptive, **requests}
+    refused = [what for what, wanted in requests.items() if wanted]
+    if refused:
+        what = f"{refused[0]} for a chain or lattice"
+        raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
+    own = site_method(scene, method)
+    return Compiled(scene, method, own.problem, own.lowered, own.program, own.trace, own.kernel)
 
 
 def work(kernel: Kernel) -> int:
@@ -371,6 +385,14 @@ def emit_kernel(
             f"the target {target}",
             where="--batch",
             expected="a target with batches",
+            hint=f"add --target {able}",
+        )
+    if kernel.sites is not None and not known_target(target).lattice_loader:
+        able = next(name for name in target_names() if known_target(name).lattice_loader)
+        raise InputError(
+            f"the target {target}",
+            where=interface.module,
+            expected="a target with chains and lattices",
             hint=f"add --target {able}",
         )
     files = known_target(target).print_module(kernel, interface, recipe)

@@ -130,7 +130,8 @@ class Search:
         methods: dict[Recipe, list[Goal]] = defaultdict(list)
         for recipe, suited in self.suited.items():
             methods[replace(recipe, adaptive=False)] += suited
-        jobs = Jobs(methods, {replace(recipe, adaptive=False) for recipe in self.suited if recipe.adaptive})
+        controlled = {replace(r, adaptive=False): suited for r, suited in self.suited.items() if r.adaptive}
+        jobs = Jobs(methods, controlled)
         for k, prediction in enumerate(in_processes(partial(predicted, self.task), jobs)):
             if k % GROUP == 0:
                 self.progress(f"{self.problem.name}: predicting method {k + 1} of {len(jobs)}")
@@ -146,7 +147,7 @@ class Search:
         """Return the predicted time of a recipe for an error in seconds, corrected by the ratio for its kind
         of recipe.
         """
-        prediction = self.predictions.get((recipe.method, recipe.form))
+        prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
             return math.inf
         seconds, kind = prediction.seconds(error), self.kind(recipe)
@@ -156,6 +157,11 @@ class Search:
             return seconds * self._of_kind[kind] / self.safety
         gained = CONTROLLED if recipe.adaptive and prediction.rough else 1.0
         return seconds * self._least / (UNSEEN * gained)
+
+    def prediction(self, recipe: Recipe) -> Prediction | None:
+        """Return the prediction for a recipe with equal steps or with step-size control."""
+        known = self.predictions.get((recipe.method, recipe.form))
+        return known.controlled or known if known is not None and recipe.adaptive else known
 
     def _correct(self) -> None:
         """Compute the corrections of predictions from the ratios of measured to predicted times."""
@@ -258,7 +264,8 @@ class Search:
         to predicted times.
         """
         racer = self.racers[recipe]
-        prediction = self.predictions[recipe.method, recipe.form]
+        prediction = self.prediction(recipe)
+        assert prediction is not None  # Only predicted recipes are raced.
         met = [goal for goal in self.suited[recipe] if goal.met(racer.entry.features)]
         for error in sorted({goal.error for goal in met}, reverse=True):
             worst = max(self.best(goal) for goal in met if goal.error == error)

@@ -22,8 +22,9 @@ from codegen.lab.efficiency import prediction, race, search
 from codegen.lab.efficiency.candidates import Recipe, candidates
 from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.goal import Goal, possible, possible_needs
+from codegen.lab.efficiency.interpreted_runs import run
 from codegen.lab.efficiency.jobs import Jobs
-from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor, run, widths_of_inputs
+from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor, widths_of_inputs
 from codegen.lab.efficiency.race import Entry, Racer, Result, entry
 from codegen.lab.efficiency.recommend import Recommendation, Request, recommend
 from codegen.lab.efficiency.search import Search
@@ -246,7 +247,7 @@ def test_jobs_of_slow_families_wait() -> None:
 def test_methods_with_an_error_estimate_have_an_early_turn() -> None:
     """In a slow kind, the first method with step-size control is predicted before most other methods."""
     recipes = [Recipe(f"{f}:m{k}", 4, k, f"m{k}") for f in ("slow", "fast") for k in range(9)]
-    jobs = Jobs({recipe: [Goal(1e-6)] for recipe in recipes}, {recipes[8]})
+    jobs = Jobs({recipe: [Goal(1e-6)] for recipe in recipes}, {recipes[8]: [Goal(1e-6)]})
     order = []
     for k in range(len(jobs)):
         recipe, _ = jobs[k]
