@@ -21,8 +21,8 @@ from orderconds.tableau.methods import CommutatorFree, RungeKutta
 from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
-MOST_VERTICES = {"rk": 8, "cf": 6}
-"""The largest trees that are evaluated, for B-series and for Lie-Butcher series."""
+MOST_ROOTED, MOST_ORDERED = 8, 6
+"""The largest rooted trees and the largest ordered forests that are evaluated."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
@@ -38,27 +38,28 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
     series = _series(tableau)
     if series is None:
         return None
-    label, step, trees = series
+    label, step, trees, most = series
     if symmetric is True:
         return SymmetryOrder(label, None)
     ring, certificate = tableau.ring, "exact"
     there_and_back = step.then(step.scaled(ring.rational(-1)))
-    for n in range(2, MOST_VERTICES[label] + 1, 2):
+    for n in range(2, most + 1, 2):
         verdicts = {ring.is_zero(there_and_back(tree)) for tree in trees(n)}
         if False in verdicts:
             return SymmetryOrder(label, n - 1, certificate)
         if None in verdicts:
             certificate = "decimal"
-    return SymmetryOrder(label, MOST_VERTICES[label] + 1, certificate, at_least=True)
+    return SymmetryOrder(label, most + 1, certificate, at_least=True)
 
 
-def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]]] | None:
-    """Return the family, the step and the trees of its series."""
+def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
+    """Return the family, the step, the trees of its series, and the largest number of vertices."""
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):
-        return "rk", Character(ring, ROOTED, runge_kutta_series(ring, method.A, method.b)), rooted_trees
+        weights = runge_kutta_series(ring, method.A, method.b)
+        return "rk", Character(ring, ROOTED, weights), rooted_trees, MOST_ROOTED
     if isinstance(method, CommutatorFree):
         family = families.get("cf")
         assert isinstance(family, CommutatorFreeFamily)
-        return "cf", Character(ring, ORDERED, family.series(method, ring)), ordered_forests
+        return "cf", Character(ring, ORDERED, family.series(method, ring)), ordered_forests, MOST_ORDERED
     return None

@@ -68,8 +68,7 @@ def check(
     proof, broken = _proof(tableau)
     enclosed, facts = (proof.tableau, proof.facts) if proof else (tableau, ())
     embedded = _embedded(enclosed, [f for f, _ in wanted])
-    computed = properties(tableau)
-    dense = extension_order(tableau)
+    computed, dense = properties(tableau), extension_order(tableau)
     if family is None:
         broken += (*_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
     broken += _missing_claims(enclosed, tableau) if complete else []
