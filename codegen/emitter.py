@@ -24,6 +24,7 @@ from codegen.ir.program import Program
 from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.compensation import compensated as add_carries
+from codegen.kernel.large_linear_kernel import large_linear_method
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
@@ -197,7 +198,7 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, run: bool) -> C
     if refused:
         what = f"{refused} for a scene with large matrices"
         raise MethodError(what, where=scene.name, expected="a scene with formulas in coordinates")
-    own = array_method(scene, method)
+    own = large_linear_method(scene, method) if scene.linear else array_method(scene, method)
     kernel = own.kernel
     if kernel.estimate is not None:
         order = order_of_estimate(method, scene)

@@ -188,7 +188,7 @@ class ArrayLoops:
         if not _covers(c):
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
-            i, j = _along(diagonal, _ROW)
+            i, j = along(diagonal, _ROW)
             before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
             row, column = (j, i) if a.transposed else (i, j)
             columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
@@ -238,7 +238,7 @@ class ArrayLoops:
             body = For(_COLUMN, whole(c.columns), inner(_ROW, _COLUMN, before, entry))
             yield For(_ROW, whole(c.rows), (body,))
         for n, diagonal in enumerate(c.diagonals):
-            i, j = _along(diagonal, _ROW)
+            i, j = along(diagonal, _ROW)
             before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
             yield For(_ROW, whole(c.length(diagonal)), inner(i, j, before, entry))
 
@@ -312,7 +312,7 @@ def _shifted(first: Term | None, column: int) -> Index:
     return first + column if column else first
 
 
-def _along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
+def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
     """Return row and column of an entry of a diagonal."""
     offset = diagonal.offset
     if not offset:

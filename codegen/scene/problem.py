@@ -125,11 +125,11 @@ class Problem:
     @property
     def linear(self) -> bool:
         """True if the field does not depend on the state: y' = A(t).y, a linear problem in time."""
-        state = set(self.symbols)
         # A tangent field on matrices with orthonormal columns depends on the matrix.
-        return self.matrices is None and not any(
-            n.op == "sym" and n.payload in state for n in walk(self.roots)
-        )
+        if self.matrices is not None:
+            return self.matrices.linear
+        state = set(self.symbols)
+        return not any(n.op == "sym" and n.payload in state for n in walk(self.roots))
 
     @property
     def is_hamiltonian(self) -> bool:

@@ -312,10 +312,11 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     initial, entries = ", ".join(map(number, recipe.initial)), entries_set(recipe.initial)
     declared = [f"    {real.c_type} state[{interface.size}] = {{{initial}}};"]
     if entries is not None:
+        # The example is part of a comment, which must not contain the beginning of another one.
         declared = [
             f"    static {real.c_type} state[{interface.size}];",
             *(f"    state[{place}] = {number(x)};" for place, x in entries),
-            *(() if entries else (f"    /* {IN_MANIFEST} */",)),
+            *(() if entries else (f"    // {IN_MANIFEST}",)),
         ]
     # The example starts at t = 0. The arguments have the same order as the parameters of the emitted ``run``.
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
