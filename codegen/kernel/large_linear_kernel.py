@@ -104,7 +104,7 @@ class _Builder:
 
     program: Program
     scene: Problem
-    field: LinearField
+    given: LinearField
     domain: ExprDomain = field(default_factory=ExprDomain)
     times: list[Expr] = field(default_factory=list)
     letters: dict[Letter, int] = field(default_factory=dict)
@@ -134,7 +134,7 @@ class _Builder:
                 raise AssertionError(value.power)
             if not value.is_zero:
                 exponents.append(self.element(value))
-        argument = Matrix(STATE, self.field.rows, self.field.columns)
+        argument = Matrix(STATE, self.given.rows, self.given.columns)
         return LinearArrayStep(
             argument,
             self.matrix(),
@@ -253,7 +253,7 @@ class _Builder:
             return replace(c, diagonals=diagonals, full=now(c.full))
 
         terms: list[tuple[Expr, ConstantMatrix]] = []
-        for coefficient, c in self.field.matrix.terms:
+        for coefficient, c in self.given.matrix.terms:
             factor = now(coefficient)
             assert isinstance(factor, Expr)
             terms.append((factor, fixed(c)))

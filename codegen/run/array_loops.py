@@ -273,12 +273,13 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of entries that are given as numbers."""
-    for c in constants:
+    # A matrix with formulas in t occurs once for each stage time; its numbers are the same at all times.
+    for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
                 table_name(c, n),
                 d.entry,
-                f"The entries a[i][i + {d.offset}] of a {c.rows} x {c.columns} matrix.",
+                f"The entries a[i][{_sum(d.offset)}] of a {c.rows} x {c.columns} matrix.",
             )
             for n, d in enumerate(c.diagonals)
         ]
@@ -286,6 +287,11 @@ def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterato
         for name, entry, about in listed:
             if isinstance(entry, tuple) and entry:
                 yield Table(real(name, len(entry)), (_rounded(entry, precision),), about)
+
+
+def _sum(offset: int) -> str:
+    """Return the text of i + offset."""
+    return f"i {'-' if offset < 0 else '+'} {abs(offset)}" if offset else "i"
 
 
 def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ...]:

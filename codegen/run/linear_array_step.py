@@ -158,7 +158,7 @@ class _Step:
         left, right = self.step.commutators[number_of]
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
-        body = (
+        body: tuple[Statement, ...] = (
             *map(Array, (first, second)),
             self.applied(right, x, first),
             self.applied(left, first, y),
@@ -172,7 +172,7 @@ class _Step:
     def text(self, element: Element) -> str:
         """Return an element as text."""
         parts = [] if element.letter is None else [f"letter_{element.letter + 1}"]
-        parts += [f"({c.text()[:12]}) {_commutator(k)}" for c, k in element.commutators]
+        parts += [f"{float(c):.6g} {_commutator(k)}" for c, k in element.commutators]
         return " + ".join(parts)
 
     def over(self, y: Term, entry: Term) -> For:

@@ -244,9 +244,7 @@ class FullMatrix(StoredMatrix):
 
     def _row_sum(self, a: Term) -> Function:
         added = (*self._entry(a), Assign(_TOTAL, _TOTAL + size(_ENTRY)))
-        return _largest_sum(
-            a, self.n, [Assign(_TOTAL, number(0.0)), For(_COLUMN, whole(self.n), added)]
-        )
+        return _largest_sum(a, self.n, [Assign(_TOTAL, number(0.0)), For(_COLUMN, whole(self.n), added)])
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
         k = self.columns

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.groups.actions import Action, Columns, Linear
@@ -26,14 +26,14 @@ from codegen.scene.problem import TIME, Problem, StateField
 if TYPE_CHECKING:
     import sympy
 
+    Start = Sequence[sympy.Expr] | Callable[..., sympy.Expr]
+    """An initial state: the numbers row by row, or a function of the row (and of the column, if there are
+    several)."""
+
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of GL(n).
 
 Measurements that interpret programs need these formulas; there are n^2 of them."""
-
-Start = Union[Sequence["sympy.Expr"], Callable[..., "sympy.Expr"]]
-"""An initial state: the numbers row by row, or a function of the row (and the column, if there are several).
-"""
 
 
 def LargeLinearScene(
@@ -47,13 +47,13 @@ def LargeLinearScene(
 ) -> Problem:
     """Return the scene y' = A(t) y for vectors y, or for n x k matrices y with k = ``columns``.
 
-    ``A`` is a matrix :func:`codegen.scene.banded` or :func:`codegen.scene.full`, or a sum of multiples of such
-    matrices. Its entries and factors are formulas in the indices, in ``t`` and in parameters. ``y0`` is the
-    initial state row by row, or a function of the indices, counted from 0; by default its columns are the
+    ``A`` is a matrix :func:`codegen.scene.banded` or :func:`codegen.scene.full`, or a sum of multiples of
+    such matrices. Its entries and factors are formulas in the indices, in ``t`` and in parameters. ``y0`` is
+    the initial state row by row, or a function of the indices, counted from 0; by default its columns are the
     first unit vectors. ``span`` is the rational time interval.
 
-    Emitted steps of the families magnus, cf_magnus and fer, and of rkmk, cf and cg, apply exponentials to y by
-    products of A and vectors (:mod:`codegen.ir.linear_array_step`). Their text does not depend on n.
+    Emitted steps of the families magnus, cf_magnus and fer, and of rkmk, cf and cg, apply exponentials to y
+    by products of A and vectors (:mod:`codegen.ir.linear_array_step`). Their text does not depend on n.
     :class:`SceneError` is raised for a matrix that is not square, for one that contains an unknown, and for a
     state of a wrong size.
     """
@@ -66,7 +66,9 @@ def LargeLinearScene(
         )
     if A.rows != A.columns or A.rows < 2:
         raise SceneError(
-            f"A is a {A.rows} x {A.columns} matrix", where=name, expected="a square matrix of two rows or more"
+            f"A is a {A.rows} x {A.columns} matrix",
+            where=name,
+            expected="a square matrix of two rows or more",
         )
     n = A.rows
     if not isinstance(columns, int) or isinstance(columns, bool) or not 1 <= columns <= n:

@@ -147,8 +147,8 @@ class Problem:
                 f"a field without formulas in coordinates, because {self.group.name} has {self.group.dim} "
                 "coordinates",
                 where=self.name,
-                expected="a scene with fewer rows",
-                hint="emit and converge work for every number of rows",
+                expected="formulas in coordinates, which a scene of large matrices has up to eight rows",
+                hint="use a smaller matrix here; emit and converge work for every number of rows",
             )
 
     def as_field(self) -> Problem:
