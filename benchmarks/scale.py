@@ -11,7 +11,6 @@ numbers in a vector register is printed as well: it bounds the ratio.
 from __future__ import annotations
 
 import argparse
-import os
 import statistics
 import subprocess
 import tempfile
@@ -125,13 +124,20 @@ def files_of(artifact: Artifact) -> dict[str, str]:
     return {name: text for name, text in artifact.files.items() if name.endswith((".c", ".h"))}
 
 
+LOOP = (
+    "void add(double *restrict x, const double *restrict y) { for (int i = 0; i < 4096; i++) x[i] += y[i]; }"
+)
+
+
 def width() -> int:
-    """Return the number of doubles in a vector register that this compiler uses by default."""
-    compiler = find_compiler()
-    words = [*compiler.command, "-march=native", "-dM", "-E", "-x", "c", os.devnull]
-    macros = subprocess.run(words, capture_output=True, text=True, check=True).stdout
-    # gcc and clang prefer 256-bit registers also on processors with AVX-512.
-    return 4 if "__AVX__" in macros else 2
+    """Return the number of doubles in the vector registers that this compiler uses for a loop.
+
+    The registers are read from the assembly text of a loop, because a compiler may prefer shorter registers
+    than the processor has.
+    """
+    words = [*find_compiler().command, *VECTOR_FLAGS, "-S", "-x", "c", "-o", "-", "-"]
+    assembly = subprocess.run(words, input=LOOP, capture_output=True, text=True, check=True).stdout
+    return 8 if "%zmm" in assembly else 4 if "%ymm" in assembly else 2
 
 
 def ratios(case: Case, turns: int, systems: int) -> list[tuple[float, float, float]]:

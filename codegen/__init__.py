@@ -18,13 +18,14 @@ if TYPE_CHECKING:
     from codegen.lab.efficiency.measured import bench as bench
     from codegen.lab.orders.scene_convergence import converge as converge
     from codegen.loader import load as load
+    from codegen.loader import load_lattice as load_lattice
 
-__all__ = ["bench", "converge", "emit", "load", "recommend"]
+__all__ = ["bench", "converge", "emit", "load", "load_lattice", "recommend"]
 
 lazy(
     __name__,
     emitter=("emit",),
-    loader=("load",),
+    loader=("load", "load_lattice"),
     **{
         "lab.efficiency.advice": ("recommend",),
         "lab.efficiency.measured": ("bench",),

@@ -33,6 +33,7 @@ class Status(IntEnum):
     BAD_TIMES = 9
     LEAST_STEP = 10
     BAD_EVENT = 11
+    BAD_SHAPE = 12
 
 
 class StepFailed(ArithmeticError):

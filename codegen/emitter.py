@@ -26,6 +26,7 @@ from codegen.kernel.column_choice import fastest
 from codegen.kernel.compensation import compensated as add_carries
 from codegen.kernel.large_linear_kernel import large_linear_method
 from codegen.kernel.operations import STEP, step_operations
+from codegen.kernel.site_kernel import site_method
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
@@ -130,6 +131,8 @@ def compile_method(
     method = method_for(scene, method, family)
     if adaptive:
         method = replace(method, adaptive=True)
+    if scene.sites is not None:
+        return _with_sites(scene, method, {"jacobian": jacobian, "a run to an end time": request.any})
     problem = problem_for(scene, method)
     if scene.matrices is not None and not lowering(method.family).in_coordinates:
         return _with_arrays(scene, method, jacobian, request)
@@ -187,8 +190,18 @@ def compensated(compiled: Compiled) -> Compiled:
 
 
 def with_batch(compiled: Compiled) -> Compiled:
-    """Return a compiled method whose module also has a function that steps many independent systems."""
-    return replace(compiled, kernel=replace(compiled.kernel, batch=True))
+    """Return a compiled method whose module also has a function that steps many independent systems.
+
+    A loop over systems with a call is not turned into vector instructions. So an explicit step whose repeated
+    computations are functions is translated again without functions.
+    """
+    kernel = compiled.kernel
+    changed = kernel.deferred or kernel.expansion or kernel.carried or compiled.compensated
+    if kernel.outlined and not kernel.loops and not changed:
+        plain, own = to_kernel(compiled.program, compiled.problem, outlining=False), kernel.estimate
+        estimate = own and replace(own, errors=plain.estimate.errors if plain.estimate else ())
+        kernel = replace(kernel, body=plain.body, outputs=plain.outputs, outlined=(), estimate=estimate)
+    return replace(compiled, kernel=replace(kernel, batch=True))
 
 
 def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunRequest) -> Compiled:
@@ -214,6 +227,17 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
         order = order_of_estimate(method, scene)
         kernel = replace(kernel, estimate=replace(kernel.estimate, order=order))
     return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
+
+
+def _with_sites(scene: Problem, method: Method, requests: Mapping[str, bool]) -> Compiled:
+    """Return a method on a chain or lattice."""
+    requests = {"an error estimate": method.adaptive, **requests}
+    refused = [what for what, wanted in requests.items() if wanted]
+    if refused:
+        what = f"{refused[0]} for a chain or lattice"
+        raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
+    own = site_method(scene, method)
+    return Compiled(scene, method, own.problem, own.lowered, own.program, own.trace, own.kernel)
 
 
 def work(kernel: Kernel) -> int:
@@ -372,6 +396,14 @@ def emit_kernel(
             f"the target {target}",
             where="--batch",
             expected="a target with batches",
+            hint=f"add --target {able}",
+        )
+    if kernel.sites is not None and not known_target(target).lattice_loader:
+        able = next(name for name in target_names() if known_target(name).lattice_loader)
+        raise InputError(
+            f"the target {target}",
+            where=interface.module,
+            expected="a target with chains and lattices",
             hint=f"add --target {able}",
         )
     files = known_target(target).print_module(kernel, interface, recipe)

@@ -48,6 +48,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
             ("order", order.text()),
             *digits,
             *scene_facts(compiled),
+            *site_facts(compiled),
             *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
             *(("solved by", choice.text()) for choice in compiled.solvers),
@@ -97,6 +98,16 @@ def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
         ("form", f"{form.name}; {form.state}"),
         *((("to scene", form.conversion),) if form.conversion else ()),
     )
+
+
+def site_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
+    """Return the lines of the header about a lattice and about the memory that a step reads and writes."""
+    step, sites = compiled.kernel.sites, compiled.scene.sites
+    if step is None or sites is None:
+        return ()
+    *_, workspace, traffic = step.explanation()
+    loops = f"{len(step.sweeps)} loops over all sites a step; {workspace}; {traffic}"
+    return (("sites", sites.text()), ("loops", loops))
 
 
 def steps_of(kernel: Kernel) -> str:

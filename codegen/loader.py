@@ -14,6 +14,7 @@ from codegen.build import build
 from codegen.compiled_integrator import CompiledIntegrator
 from codegen.integrator import Integrator
 from codegen.interpreted_integrator import InterpretedIntegrator
+from codegen.lattice import CompiledLattice, Lattice
 from codegen.printers import target as known_target
 from codegen.printers.c.module import FLAGS, VECTOR_FLAGS
 from codegen.printers.interface import Interface
@@ -28,6 +29,39 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
     file is read from the cache. Errors: CompilerMissing, CompileError, and InputError for a folder without
     such a module.
     """
+    artifact, interface, defaults = _opened(source, module, target)
+    if interface.dimension:
+        raise InputError(
+            f"{artifact.key[0]} is a module for a chain or lattice",
+            where="load",
+            expected="a module for a single system",
+            hint="call codegen.load_lattice",
+        )
+    integrator = known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
+    integrator.artifact = artifact
+    return integrator
+
+
+def load_lattice(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Lattice:
+    """Return a module for a chain or lattice, which :class:`codegen.scene.SiteScene` describes.
+
+    The arguments and errors are those of :func:`load`.
+    """
+    artifact, interface, defaults = _opened(source, module, target)
+    if not interface.dimension:
+        raise InputError(
+            f"{artifact.key[0]} is a module for a single system",
+            where="load_lattice",
+            expected="a module for a chain or lattice",
+            hint="call codegen.load",
+        )
+    lattice = known_target(artifact.manifest["target"]).load_lattice(interface, defaults, artifact.files)
+    lattice.artifact = artifact
+    return lattice
+
+
+def _opened(source: object, module: str, target: str) -> tuple[Artifact, Interface, dict[str, float]]:
+    """Return an artifact, its interface, and the default values of its parameters."""
     if not isinstance(source, Artifact | str | PathLike):
         raise InputError(
             described(source), where="load", expected="an emitted module, or the folder that contains it"
@@ -41,9 +75,7 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
             f"the manifest's entry for {artifact.key[0]} was changed after it was written",
             hint="emit the module again",
         ) from None
-    integrator = known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
-    integrator.artifact = artifact
-    return integrator
+    return artifact, interface, defaults
 
 
 def load_compiled(
@@ -66,3 +98,15 @@ def load_interpreted(
 ) -> Integrator:
     """Return the integrator of a Python module."""
     return InterpretedIntegrator(interface, defaults, files[f"{interface.module}.py"])
+
+
+def load_compiled_lattice(
+    interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
+) -> Lattice:
+    """Return the lattice of a C module; the module is compiled unless the cache contains it."""
+    flags = (*FLAGS, *VECTOR_FLAGS)
+    try:
+        return CompiledLattice(interface, defaults, build(files, flags))
+    except (OSError, AttributeError):
+        # The cached file has the recorded digest, but it is not the library of this module.
+        return CompiledLattice(interface, defaults, build(files, flags, again=True))

@@ -66,6 +66,11 @@ class RunRequest:
         """True if the module contains a run to an end time."""
         return self.integrate or self.events > 0 or self.dense
 
+    @property
+    def any(self) -> bool:
+        """True if an option differs from its default."""
+        return self.observed or self.compensate
+
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
     """Raise :class:`MethodError` for options that compensated summation does not support."""

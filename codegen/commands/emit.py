@@ -194,6 +194,7 @@ def explained(compiled: Compiled) -> dict[str, object]:
         ],
         "functions": functions_of(compiled),
         "compared": [list(choice.compared) for choice in compiled.solvers],
+        "loops": [] if compiled.kernel.sites is None else compiled.kernel.sites.explanation(),
     }
 
 
@@ -244,6 +245,10 @@ def explanation(compiled: Compiled) -> str:
         parts.append(report.program.text())
     costs = sentences(step_operations(compiled.kernel))
     parts.append("# kernel\n" + "".join(f"  {line}\n" for line in costs))
+    if compiled.kernel.sites is not None:
+        parts.append(
+            "# loops over sites\n" + "".join(f"  {x}\n" for x in compiled.kernel.sites.explanation())
+        )
     functions = functions_of(compiled)
     if functions:
         lines = [f"  {p['name']}, {p['calls']} calls: {p['about']}\n" for p in functions]

@@ -18,6 +18,7 @@ from codegen.ir.expr import Expr, walk
 from codegen.ir.linear_array_step import LinearArrayStep
 from codegen.ir.number import Number
 from codegen.ir.program import Substep
+from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
 """The symbol for the duration of the flow that ends a step and is joined with the first flow of the next
@@ -329,8 +330,8 @@ class Kernel:
     functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
     momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted code can have a
     run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or
-    makes the step ``arrays``. With ``batch``, emitted code also has a function that steps many independent
-    systems, and with ``observed`` a run to a given end time.
+    makes the step ``arrays`` or the step ``sites`` of a lattice. With ``batch``, emitted code also has a
+    function that steps many independent systems, and with ``observed`` a run to a given end time.
     """
 
     name: str
@@ -350,6 +351,7 @@ class Kernel:
     arrays: ArrayStep | LinearArrayStep | None = None
     batch: bool = False
     observed: Observed | None = None
+    sites: SiteStep | None = None
 
     @property
     def adaptive(self) -> bool:
@@ -399,6 +401,8 @@ class Kernel:
         yield from self.outputs
         if self.arrays is not None:
             yield from self.arrays.expressions()
+        if self.sites is not None:
+            yield from self.sites.expressions()
         if self.estimate is not None:
             yield from self.estimate.errors
 

@@ -66,10 +66,16 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Return the number of each operation of a kernel, as :func:`operations` counts them.
 
     A kernel without outputs computes the coefficients of a Taylor polynomial, and evaluates the polynomial,
-    or computes with whole matrices, with a typical number of terms of each exponential.
+    or computes with whole matrices, with a typical number of terms of each exponential. The operations of a
+    lattice are counted for one site.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
+    if kernel.sites is not None:
+        total: dict[str, int] = {}
+        for sweep in kernel.sites.sweeps:
+            total = _plus(total, operations(arrange(sweep.kernel))[STEP])
+        return {STEP: total}
     expansion = kernel.expansion
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))

@@ -60,6 +60,7 @@ def to_kernel(
     variations: Variations | None = None,
     chains: int = AS_WRITTEN,
     whole: bool = False,
+    outlining: bool = True,
 ) -> Kernel:
     """Return the kernel of a program in its problem (:func:`codegen.lower.problem`).
 
@@ -67,13 +68,14 @@ def to_kernel(
     blocks are solved by fixed-point iteration. With ``variations`` the kernel also propagates a variation of
     the state (``Kernel.vary``). Values of ``chains`` other than :data:`AS_WRITTEN` require a program without
     blocks. A ``whole`` step, or a step with variations, reads and returns the momentum in the frame that
-    emitted code uses (:mod:`codegen.kernel.carried_momentum`).
+    emitted code uses (:mod:`codegen.kernel.carried_momentum`). Without ``outlining``, repeated computations
+    of a long step do not become functions (:mod:`codegen.kernel.outlining`).
 
     Raises :class:`codegen.errors.SceneError` if an operation of the group has no closed form,
     :class:`codegen.ir.differentiate.NotDifferentiable` if Newton's method has no matrix, and
     ZeroDivisionError if the matrix does not exist to first order.
     """
-    return _Translation(program, scene, solvers, variations, chains, whole).kernel()
+    return _Translation(program, scene, solvers, variations, chains, whole, outlining).kernel()
 
 
 class _Translation:
@@ -90,9 +92,10 @@ class _Translation:
         variations: Variations | None,
         chains: int,
         whole: bool,
+        outlining: bool,
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
-        self.variations, self.chains = variations, chains
+        self.variations, self.chains, self.outlining = variations, chains, outlining
         # In this domain equal expressions are one node, and angles that are equal as polynomials become one
         # expression.
         self.domain = SharedArguments()
@@ -283,7 +286,7 @@ class _Translation:
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
         # After chains have been rewritten, the results of repeated operations no longer occur as nodes, so
         # calls could not replace them.
-        if long and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
+        if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
             shorter, functions = _outlined(self.outline, self.blocks, ends, self.hints, self.name)

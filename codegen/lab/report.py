@@ -39,7 +39,7 @@ class Request:
         """Return the subject of each page. An unknown name raises InputError before the first measurement."""
         chosen = [(name, scenes.load(name)) for name in dict.fromkeys(self.scenes or REPORT_SCENES)]
         selected(self.parts)
-        effort = EFFORTS[self.effort]
+        effort = EFFORTS[self.effort].shared(len(chosen))
         return tuple(
             subject(name, scene, self.methods, self.peers, effort, self.adaptive) for name, scene in chosen
         )

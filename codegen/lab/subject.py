@@ -27,6 +27,11 @@ from orderconds.errors import InputError
 
 T = TypeVar("T")
 
+SEARCHES = 8
+"""The largest time of all searches of a report, as a multiple of the time of one search, so that a report on
+the whole gallery takes less than twenty minutes on two cores.
+"""
+
 
 @dataclass(frozen=True)
 class Effort:
@@ -47,6 +52,15 @@ class Effort:
     stiff: bool
     endurance: bool
     search: float = 25.0
+
+    def shared(self, scenes: int) -> Effort:
+        """Return the effort for each of several scenes: all searches together take at most SEARCHES times the
+        time of one search.
+
+        >>> USUAL.shared(4).search, USUAL.shared(16).search
+        (25.0, 12.5)
+        """
+        return replace(self, search=min(self.search, SEARCHES * self.search / max(1, scenes)))
 
 
 QUICK = Effort(

@@ -15,6 +15,9 @@ from codegen.ir.precision import DOUBLE, Precision, precision
 LISTS = ("parameters", "blocks", "inputs", "solvers")
 """The fields of :class:`Interface` that are tuples; in JSON they are lists."""
 
+LATTICE = ("dimension", "workspace")
+"""The fields that describe a lattice."""
+
 RUN = ("integrated", "controlled", "events", "dense")
 """The fields that describe the run to a given end time."""
 
@@ -31,7 +34,8 @@ class Interface:
     blocks. ``variations`` is the size of the Jacobian, 0 without one. ``batch`` is true if there is a
     function for many independent systems. ``integrated`` is true if there is a run to a given end time,
     ``controlled`` if step control chooses the steps of this run. ``events`` is the number of its event
-    functions. ``dense`` is the order of its continuous extension, 0 without one.
+    functions. ``dense`` is the order of its continuous extension, 0 without one. ``dimension`` is the
+    dimension of the lattice, 0 for a single system, and ``workspace`` the numbers of workspace for each site.
     """
 
     prefix: str
@@ -49,6 +53,8 @@ class Interface:
     controlled: bool = False
     events: int = 0
     dense: int = 0
+    dimension: int = 0
+    workspace: int = 0
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
@@ -74,6 +80,8 @@ class Interface:
             controlled=kernel.observed is not None and kernel.estimate is not None,
             events=0 if kernel.observed is None else kernel.observed.events,
             dense=_order_of_extension(kernel),
+            dimension=0 if kernel.sites is None else kernel.sites.dimension,
+            workspace=0 if kernel.sites is None else kernel.sites.workspace,
         )
 
     @property
@@ -95,8 +103,9 @@ class Interface:
         """Return plain data for the manifest; :meth:`from_json` reads it back."""
         # Tuples become lists, so that the data equal the data read from a JSON file.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
-        # Manifests of modules without this run do not mention it.
-        return data if self.integrated else {k: x for k, x in data.items() if k not in RUN}
+        # Manifests of modules without this run, or without a lattice, do not mention it.
+        hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
+        return {k: x for k, x in data.items() if k not in hidden}
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias, cast
 if TYPE_CHECKING:
     from codegen.integrator import Integrator
     from codegen.ir.kernel import Kernel
+    from codegen.lattice import Lattice
     from codegen.printers.interface import Interface
     from codegen.printers.recipe import Recipe
 
@@ -19,6 +20,7 @@ Files: TypeAlias = Mapping[str, str]
 
 PrintModule: TypeAlias = "Callable[[Kernel, Interface, Recipe], dict[str, str]]"
 Load: TypeAlias = "Callable[[Interface, Mapping[str, float], Files], Integrator]"
+LoadLattice: TypeAlias = "Callable[[Interface, Mapping[str, float], Files], Lattice]"
 CompileSeconds: TypeAlias = Callable[[Files], float]
 Solutions: TypeAlias = "Callable[[Integrator, Sequence[float], float, float], list[list[float]]]"
 
@@ -37,7 +39,8 @@ class Target:
     cache and returns the seconds. ``observer`` is a function (integrator, state, t, h) that makes one step
     and returns the solved unknowns of each substep; measurements of implicit steps use these unknowns.
     ``stack`` is a regular expression; its first group is the stack of a call in bytes, as stated in the file
-    that contains the step.
+    that contains the step. ``batches`` is true if modules can have a function for many systems.
+    ``lattice_loader`` is the loader of modules for lattices; without it the target has no lattices.
     """
 
     name: str
@@ -51,6 +54,7 @@ class Target:
     observer: str = ""
     stack: str = ""
     batches: bool = False
+    lattice_loader: str = ""
 
     @property
     def print_module(self) -> PrintModule:
@@ -63,6 +67,11 @@ class Target:
     def load(self) -> Load:
         """The function that loads the files of a module as an integrator."""
         return cast("Load", resolve_name(self.loader))
+
+    @property
+    def load_lattice(self) -> LoadLattice:
+        """The function that loads the files of a module for a lattice; ValueError without a loader."""
+        return cast("LoadLattice", resolve_name(self.lattice_loader))
 
     @property
     def compile_seconds(self) -> CompileSeconds | None:

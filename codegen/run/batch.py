@@ -10,7 +10,8 @@ functions near zero only; elsewhere they return NaN. A lane whose new state is n
 the loop, and the scalar step is called for it. The scalar step knows all arguments, and finds the status if
 the step fails. Where the loop succeeds, it has the same roundings as the scalar step.
 
-Kernels with equations, and kernels that call other functions, run lane after lane.
+Kernels with equations, and kernels that call other functions, run lane after lane. An explicit step with
+outlined functions is translated again without them (:func:`codegen.emitter.with_batch`).
 """
 
 from __future__ import annotations

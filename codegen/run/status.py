@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from codegen.run.language import RAISES_STATUS, Unit, terms
 from codegen.run.terms import (
     BAD_EVENT,
+    BAD_SHAPE,
     BAD_STEP,
     BAD_TIMES,
     EVENT,
@@ -34,6 +35,7 @@ MEANINGS = {
     BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is an infinity or a NaN",
+    BAD_SHAPE: "the lattice has too few sites in one of its dimensions",
 }
 """The comment on each status code in the header of emitted code."""
 
@@ -48,6 +50,7 @@ REASONS = {
     BAD_TIMES: "the output times are not finite, not in order, or not between t and end",
     LEAST_STEP: "the end is not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is not finite",
+    BAD_SHAPE: "the lattice has too few sites in one of its dimensions",
 }
 """The reason for each failure, with the label of the implicit block and the step size, for both targets."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from codegen.ir.linear_array_step import LinearArrayStep
-from codegen.run import batch, deferred_flows, integration, jacobian, step_control, taylor_control
+from codegen.run import batch, deferred_flows, integration, jacobian, sites, step_control, taylor_control
 from codegen.run.arithmetic import outlined
 from codegen.run.array_step import array_functions, array_tables
 from codegen.run.cause import cause, is_searched, step_arguments
@@ -22,6 +22,9 @@ from codegen.run.warm_start import WarmStart, differences, memory_record
 def unit_of(plan: Plan) -> Unit:
     """Return the unit of a kernel."""
     # Callees come first, because C needs a declaration before each call.
+    if plan.kernel.sites is not None:
+        scalars = ("t", "h", *(p.text for p in plan.parameters))
+        return Unit(scalars, (), (), tuple(sites.functions(plan, plan.kernel.sites)))
     functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
     if plan.kernel.deferred is not None:
         functions += deferred_flows.functions(plan)

@@ -3,7 +3,8 @@ the compiler evaluates.
 
 A scene file imports its names from this package:
 ``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``. Scenes with
-large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and ``full``.
+large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and ``full``; chains
+and lattices use ``SiteScene``, ``neighbour``, ``left`` and ``right``.
 """
 
 from __future__ import annotations
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
     from codegen.scene.parameters import param as param
     from codegen.scene.parameters import signal as signal
     from codegen.scene.problem import Problem as Problem
+    from codegen.scene.site_scene import SiteScene as SiteScene
+    from codegen.scene.sites import left as left
+    from codegen.scene.sites import neighbour as neighbour
+    from codegen.scene.sites import right as right
     from codegen.scene.stiefel_scene import StiefelScene as StiefelScene
     from codegen.scene.tables import table as table
 
@@ -34,10 +39,14 @@ __all__ = [
     "LargeLinearScene",
     "LinearScene",
     "Problem",
+    "SiteScene",
     "StiefelScene",
     "banded",
     "full",
+    "left",
+    "neighbour",
     "param",
+    "right",
     "signal",
     "table",
     "unknown",
@@ -52,6 +61,8 @@ lazy(
     matrix_formula=("banded", "full", "unknown"),
     parameters=("Parameter", "Signal", "param", "signal"),
     problem=("Problem",),
+    site_scene=("SiteScene",),
+    sites=("left", "neighbour", "right"),
     stiefel_scene=("StiefelScene",),
     tables=("table",),
 )

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from codegen.scene.evolution import Evolution
     from codegen.scene.matrix_field import MatrixField
     from codegen.scene.matrix_step import MatrixStep
+    from codegen.scene.sites import Sites
 
 TIME = "t"
 """The symbol of the time in formulas."""
@@ -76,10 +77,10 @@ class Problem:
     is the field if it is given by formulas of whole matrices; for large matrices ``roots`` is then empty.
     If ``carries_momentum`` is true, the problem is linear in (q, p), and the last coordinate is the momentum
     of the time (:mod:`codegen.scene.linear_extension`). ``steps`` are the steps that the scene states as
-    functions of matrices (:mod:`codegen.scene.matrix_step`).
-    ``derived``
-    stores the problems that families derive from this problem, by the kind of the family. A search uses each
-    of them for hundreds of methods.
+    functions of matrices (:mod:`codegen.scene.matrix_step`). If ``sites`` is given, the problem is the
+    equation of one site of a lattice, and ``roots`` also contain the coordinates of neighbours
+    (:mod:`codegen.scene.sites`). ``derived`` stores the problems that families derive from this problem, by
+    the kind of the family. A search uses each of them for hundreds of methods.
     """
 
     name: str
@@ -108,6 +109,7 @@ class Problem:
     flows: Mapping[str, Flow] = field(default_factory=dict)
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     steps: Mapping[str, MatrixStep] = field(default_factory=dict)
+    sites: Sites | None = None
     derived: dict[str, Problem] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property

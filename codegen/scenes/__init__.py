@@ -32,6 +32,10 @@ from orderconds.input_file import read_bytes
 
 GALLERY = (
     "actuated_rigid_body",
+    "allen_cahn",
+    "body_in_fluid",
+    "circle",
+    "coupled_rigid_bodies",
     "dipole",
     "driven_spin",
     "duffing",
@@ -45,9 +49,18 @@ GALLERY = (
     "free_rigid_body_quaternion",
     "free_rigid_body_s3",
     "heavy_top",
+    "independent_components",
+    "inertial_navigation",
     "linear_oscillator",
     "linear_oscillator_sl2",
+    "lyapunov_exponents",
+    "planar_body_in_fluid",
+    "principal_components",
+    "satellite",
     "stiff_driven_spin",
+    "toda_lattice",
+    "torus_gradient_flow",
+    "wilson_flow",
 )
 
 EXTENDED = "+u"

@@ -19,13 +19,9 @@ the file and not from its decimals:
 ``spelling``     coefficients that are formulas in other coefficients define a sub-family, in which some of
                  the conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-2N schemes. A stage computes K_j = A_j K_{j-1} + F(Y_j) and Y_{j+1} = exp(h B_j K_j) Y_j. Let y_j, k_j, f_j be
-the values of Y_j, h K_j, h F(Y_j) on a word or tree. On single trees, k_j = A_j k_{j-1} + f_j and y_{j+1} =
-y_j + B_j k_j. Let D_j = y_j(t) k_j(u) - y_j(u) k_j(t). Replacing y_j by y_{j+1} does not change D_j, so D_j =
-A_j D_{j-1} + y_j(t) f_j(u) - y_j(u) f_j(t). This is the recursion of k_j on a combination of trees. Hence
-y(tu) - y(ut), the sum of B_j D_j, is a linear combination of values on single trees. The combination is the
-same for every scheme and for the exact flow. By ranks modulo primes, the tests confirm that longer words add
-no conditions: a 2N scheme has as many independent conditions as there are rooted trees.
+2N schemes. The module :mod:`orderconds.series.two_registers` states the theorem and names the rooted trees
+whose conditions are independent for these schemes. From order 6 on, these are not all rooted trees: 18 of 20
+at order 6.
 """
 
 from __future__ import annotations
@@ -49,10 +45,6 @@ from orderconds.tableau.properties import properties
 from orderconds.tableau.simplifying import simplifying, simplifying_order
 from orderconds.tableau.unknowns import Proof, RootedRing
 
-LOW_STORAGE_ORDER = 5
-"""The highest order for which the tests of the project confirm that 2N schemes have only the conditions of
-rooted trees."""
-
 
 @dataclass(frozen=True)
 class Equations:
@@ -65,7 +57,7 @@ class Equations:
     """The largest letter in the words that index independent conditions, for a Magnus method on Gauss nodes;
     None for other methods."""
     kept: tuple[OrderCondition, ...] | None = None
-    """The independent conditions if the file requests the reduction called ``spelling``; otherwise None."""
+    """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
@@ -153,14 +145,21 @@ def equations(tableau: Tableau) -> Equations:
         if not any(place.startswith("low_storage.") for place in proof.symbolic.expressions):
             raise NotProved("reduction: the file has no table low_storage")
         implied = families.get(proof.conditions).low_storage
-        if not implied or proof.order > LOW_STORAGE_ORDER:
-            raise NotProved(
-                f'reduction: low-storage requires conditions = "rk" up to order {LOW_STORAGE_ORDER}'
-            )
-        return Equations(tableau, proof, tuple((label, proof.order) for label in implied))
+        if not implied:
+            raise NotProved('reduction: low-storage requires conditions = "rk"')
+        facts = tuple((label, proof.order) for label in implied)
+        return Equations(tableau, proof, facts, kept=_two_registers(proof))
     fact = (families.get(proof.conditions).label(), proof.order)
     kept = _independent(tableau, proof) if proof.reduction == "spelling" else None
     return Equations(tableau, proof, (fact,), kept=kept)
+
+
+def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
+    """Return the conditions of rooted trees that are independent for 2N schemes."""
+    from orderconds.series.two_registers import independent_trees
+
+    trees = {tree for n in range(1, proof.order + 1) for tree in independent_trees(n)}
+    return tuple(c for c in _up_to(proof.conditions, proof.order, 1, None) if c.key in trees)
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:

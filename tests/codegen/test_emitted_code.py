@@ -18,7 +18,7 @@ from sympy import Matrix, cos, exp, sin, symbols
 
 from codegen.build import CompileError, Compiler, build, compile_files
 from codegen.emitter import emit
-from codegen.groups import SO3, Rotation
+from codegen.groups import SO3, LeftMultiplication, Rn, Rotation
 from codegen.integrator import Statistics, Status, StepFailed
 from codegen.loader import load
 from codegen.prefix import prefix_of
@@ -401,3 +401,15 @@ def test_a_coordinate_that_is_not_read_must_be_a_number_all_the_same(target, bad
         spoilt = [bad if i == place else x for i, x in enumerate(state)]
         with pytest.raises(StepFailed):
             integrator.step(spoilt, 1e-3)
+
+
+def test_a_long_initial_state_is_left_to_the_manifest_and_the_module_compiles():
+    n, y = 80, symbols("y0:80", real=True)
+    start = [Fraction(k + 1, 8) for k in range(n)]
+    turned = [y[(k + 1) % n] for k in range(n)]
+    scene = FieldScene(
+        group=Rn(n), action=LeftMultiplication(), y=y, f=turned, y0=start, span=(0, 1), name="long"
+    )
+    emission = emit(scene, "rkmk(0):euler", "c")
+    after = load(emission).step(emission.manifest["initial"], 0.5)
+    assert after == [(k + 1) / 8 + (k + 2) / 16 if k + 1 < n else n / 8 + 1 / 16 for k in range(n)]

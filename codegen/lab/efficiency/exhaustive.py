@@ -94,7 +94,7 @@ def exhaust(
     done = Exhausted(known, len(recipes), {error: [] for error in known})
     done.refused = sum(bool(predictions[_key(r)].failure) for r in recipes)
     open_ = [r for r in recipes if not predictions[_key(r)].failure]
-    ratios = {r: least_ratio(predictions[_key(r)], limits) for r in open_}
+    ratios = {r: least_ratio(predictions[_key(r)], limits, r.adaptive) for r in open_}
     ordered = sorted(open_, key=lambda r: (math.isinf(ratios[r]), ratios[r]))
     kept = [r for r in ordered if ratios[r] <= 1.0]
     above = [r for r in ordered if ratios[r] > 1.0]
@@ -134,22 +134,26 @@ def _key(recipe: Recipe) -> Key:
     return recipe.method, recipe.form
 
 
-def least_ratio(prediction: Prediction, limits: Mapping[float, float]) -> float:
+def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
     """Return the least ratio, over all errors, of the predicted time to the limit for the error. If the ratio
     is above 1, the recipe is excluded.
 
-    A recipe whose interpreted runs fail is not excluded (ratio 0), because emitted code, which solves
-    equations by Newton's method, may succeed. Such a recipe is excluded only if a single step exceeds all
-    limits.
+    Three kinds of recipes are not excluded (ratio 0), unless a single step exceeds all limits: recipes whose
+    interpreted runs fail, because emitted code, which solves equations by Newton's method, may succeed;
+    implicit recipes with rough predictions, for the same reason; and recipes with step-size control
+    (``adaptive``) and rough predictions, because these are predictions for equal steps.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
     100.0
     >>> least_ratio(replace(slow, error=math.inf), {1e-4: 1e-2})
     0.0
+    >>> least_ratio(replace(slow, rough=True), {1e-4: 1e-2}, adaptive=True)
+    0.0
     """
     step = 1e-9 * (CALL + prediction.outside + FEWEST_SWEEPS * prediction.sweep)
-    if not math.isfinite(prediction.error):
+    unknown = prediction.rough and (adaptive or not prediction.explicit)
+    if unknown or not math.isfinite(prediction.error):
         longest = max(limits.values())
         return step / longest if step > longest else 0.0
     return min(prediction.seconds(error) / limit for error, limit in limits.items())

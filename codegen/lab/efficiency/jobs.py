@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict, deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
 
 from codegen.lab.efficiency.candidates import Recipe
 from codegen.lab.efficiency.goal import Goal
-from codegen.lab.efficiency.prediction import Bar, Prediction
+from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 
 MARGIN = 5.0
 """The prediction of a recipe ends when the recipe is certain to take more than MARGIN times the least time
@@ -43,9 +45,9 @@ def usual_order(error: float) -> float:
     return 2 - math.log10(error) / 2
 
 
-Kind = tuple[str, str, bool]
-"""A kind of recipe: family, form, and True if the tableau is explicit. Recipes of one kind have similar
-costs.
+Kind = tuple[str, str, bool, bool]
+"""A kind of recipe: family, form, True if the tableau is explicit, and True if it has an error estimate for
+step-size control. Recipes of one kind have similar costs.
 """
 
 Queue = tuple[Kind, int]
@@ -62,24 +64,34 @@ class Jobs(Sequence[Job]):
     A job is created only when a worker process is free, so its bars use all predictions up to this time. The
     queues take turns, and queues of orders that are usual for an error are first. If a kind of recipe is
     predicted to be slower than another kind, its queues have a delay, the logarithm of the ratio of the
-    times.
+    times. ``controlled`` contains the recipes that can also run with step-size control, each with the goals
+    for which it can do so.
     """
 
-    def __init__(self, goals: Mapping[Recipe, Iterable[Goal]]) -> None:
+    def __init__(
+        self,
+        goals: Mapping[Recipe, Iterable[Goal]],
+        controlled: Mapping[Recipe, Collection[Goal]] = MappingProxyType({}),
+    ) -> None:
+        self.controlled = controlled
         self.goals = {recipe: tuple(dict.fromkeys(own)) for recipe, own in goals.items()}
         self.given: list[Recipe] = []
         self.known: dict[Goal, list[Prediction]] = defaultdict(list)
         self.fastest: dict[tuple[Goal, Kind], float] = {}
         self.least: dict[Goal, float] = {}
-        self.bars: dict[tuple[Goal, int], tuple[int, Bar]] = {}
+        self.bars: dict[tuple[Goal, int, bool], tuple[int, Bar]] = {}
         self.usual = {usual_order(goal.error) for own in self.goals.values() for goal in own}
         self.queues: dict[Queue, deque[Recipe]] = defaultdict(deque)
         self.turns: dict[Queue, int] = defaultdict(int)
         for recipe in sorted(self.goals, key=lambda r: r.stages):
-            self.queues[kind_of(recipe), recipe.order].append(recipe)
+            self.queues[self.kind(recipe), recipe.order].append(recipe)
 
     def __len__(self) -> int:
         return len(self.goals)
+
+    def kind(self, recipe: Recipe) -> Kind:
+        """Return the kind of a recipe."""
+        return recipe.family, recipe.form, recipe.explicit, bool(self.controlled.get(recipe))
 
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
         """Return the next job. The caller must read the jobs in the order 0, 1, 2, ..., each job once. After
@@ -91,8 +103,9 @@ class Jobs(Sequence[Job]):
         self.turns[queue] += 1
         recipe = self.queues[queue].popleft()
         self.given.append(recipe)
-        bars = (self._bar(goal, recipe.order) for goal in self.goals[recipe])
-        return recipe, tuple(bar for bar in bars if not bar.hopeless(recipe.family))
+        bars = (self._bar(goal, recipe) for goal in self.goals[recipe])
+        job = replace(recipe, adaptive=bool(self.controlled.get(recipe)))
+        return job, tuple(bar for bar in bars if not bar.hopeless(recipe.family))
 
     def _place(self, queue: Queue) -> float:
         """Return a number that is small for queues with a fast family, few turns and a usual order. The queue
@@ -121,27 +134,30 @@ class Jobs(Sequence[Job]):
         """Use a prediction for later jobs."""
         if prediction.failure:
             return
+        recipe = replace(recipe, adaptive=False)
         for goal in self.goals[recipe]:
             if prediction.explicit or not goal.explicit:
                 self.known[goal].append(prediction)
-                key, seconds = (goal, kind_of(recipe)), prediction.seconds(goal.error)
+                key, seconds = (goal, self.kind(recipe)), prediction.seconds(goal.error)
+                if prediction.controlled is not None and goal in self.controlled.get(recipe, ()):
+                    seconds = min(seconds, prediction.controlled.seconds(goal.error))
                 self.fastest[key] = min(self.fastest.get(key, math.inf), seconds)
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
-    def _bar(self, goal: Goal, order: int) -> Bar:
-        """Return the bar that methods of this order must reach for a goal. The bar may ignore the most recent
-        predictions."""
-        known = self.known[goal]
-        age, bar = self.bars.get((goal, order), (0, None))
+    def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
+        """Return the bar that a recipe must reach for a goal. The bar may ignore the most recent predictions.
+
+        For a recipe that can run with step-size control, rough predictions for equal steps are not used.
+        """
+        controlled = goal in self.controlled.get(recipe, ())
+        known, key = self.known[goal], (goal, recipe.order, controlled)
+        age, bar = self.bars.get(key, (0, None))
         if bar is None or len(known) >= age + 1 + age // FRESH:
-            bar = bar_of(goal, order, known, self.least.get(goal, math.inf))
-            self.bars[goal, order] = len(known), bar
+            if controlled:
+                known = [p.controlled or p for p in known if p.controlled or not p.rough]
+            bar = bar_of(goal, recipe.order, known, self.least.get(goal, math.inf))
+            self.bars[key] = len(self.known[goal]), bar
         return bar
-
-
-def kind_of(recipe: Recipe) -> Kind:
-    """Return the kind of a recipe."""
-    return recipe.family, recipe.form, recipe.explicit
 
 
 def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: float) -> Bar:
@@ -151,7 +167,7 @@ def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: f
         return Bar(goal.error, explicit=goal.explicit)
     # On a scene with fast motion all methods need short steps. Therefore the first run of a method has at
     # least as many steps as the earlier prediction with the fewest steps.
-    steps = min(p.steps for p in known if math.isfinite(p.error))
+    steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:
         if order < p.order <= order + 2:

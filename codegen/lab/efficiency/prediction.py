@@ -12,25 +12,23 @@ from __future__ import annotations
 import math
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from codegen.ir.domain import FloatDomain
+from codegen.error_estimate import order_of_estimate
 from codegen.ir.expr import Expr, walk
-from codegen.ir.interpret import flatten, interpret
 from codegen.ir.program import Assign, Program, Solve
 from codegen.ir.values import Var
 from codegen.ir.vector_calls import component
 from codegen.lab.efficiency.equations import Equations
+from codegen.lab.efficiency.interpreted_runs import controlled_run, run
 from codegen.lab.efficiency.numeric_program import NumericPrograms, symbolic
-from codegen.lab.number_types import Scalar, Vector
 from codegen.lab.reference import Reference
-from codegen.lab.runner import split_state
 from codegen.lower import lower, lower_composed, problem_for
 from codegen.method import Method
 from codegen.passes import plain_passes
 from codegen.run.step_cost import WEIGHTS, Amounts
-from codegen.scene.problem import TIME, Problem
+from codegen.scene.problem import Problem
 
 FEW_STEPS, MANY_STEPS = 8, 1024
 """The number of steps is doubled from FEW_STEPS to MANY_STEPS until the error is small."""
@@ -53,17 +51,14 @@ TRIES = 3
 kind are interpreted on the first part only.
 """
 
-MOST_SWEEPS = 40
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
 """The smallest and the usual number of sweeps (iterations) over an implicit block. If a method is too slow
 with USUAL_SWEEPS sweeps, it is not interpreted.
 """
 
-SETTLED = 1e-9
-"""The iteration of an interpreted implicit block ends when the relative change is at most SETTLED. The error
-of a method is much larger.
-"""
+TOLERANCES = (1, 3, 5, 7, 9, 11)
+"""The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
 """Methods do not come close to an error if their least error is more than FAR times as large."""
@@ -84,7 +79,10 @@ class Prediction:
     A step takes ``outside`` + ``sweeps`` * ``sweep`` nanoseconds: ``sweep`` is the time of one iteration over
     all implicit blocks, ``sweeps`` the average number of iterations, ``outside`` the time of the remaining
     operations. ``explicit`` is True if no equation is solved. If the interpreted runs failed, ``error`` is
-    infinite. ``failure`` is the reason if the scene or the family does not accept the method.
+    infinite. ``rough`` is True if no interpreted run on the whole span had a small error, for example because
+    the motion is fast in a part of the span. Step-size control may then save a large part of the time;
+    ``controlled`` is the prediction with step-size control, if a run with it succeeded.
+    ``failure`` is the reason if the scene or the family does not accept the method.
     """
 
     method: str
@@ -96,6 +94,8 @@ class Prediction:
     sweeps: float = 0.0
     steps: int = FEW_STEPS
     error: float = math.inf
+    rough: bool = False
+    controlled: Prediction | None = None
     failure: str = ""
 
     def count(self, error: float) -> float:
@@ -122,21 +122,6 @@ class Prediction:
         """
         steps = seconds / (1e-9 * (CALL + self.outside + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
         return self.error * math.pow(self.steps / steps, self.order) if steps >= 1 else math.inf
-
-
-class _Counted(FloatDomain):
-    """Double precision arithmetic that counts the sweeps (iterations) over implicit blocks."""
-
-    def __init__(self, h: float) -> None:
-        super().__init__(h)
-        # Substeps copy the domain. The counter is a list, so that all copies share the counter.
-        self.swept = [0]
-
-    def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return True if the relative change is at most SETTLED, and the change. The sweep is counted."""
-        self.swept[0] += 1
-        done, change = super().settled(old, new, previous)
-        return done or change <= SETTLED * max(map(abs, old), default=0.0), change
 
 
 @dataclass(frozen=True)
@@ -183,29 +168,26 @@ class Predictor:
 
     ``beginning`` returns the equations on the first of :data:`PARTS` parts of the span, with the reference at
     its end. ``failures`` counts, for each kind of method (family, explicit or not), the methods whose runs on
-    the whole span failed since the last success.
+    the whole span failed since the last success; ``uncontrolled`` counts the failed runs with step-size
+    control.
     """
 
     equations: Equations
     exact: Reference
     beginning: Callable[[], tuple[Equations, Reference]] | None = None
     failures: Counter[tuple[str, bool]] = field(default_factory=Counter)
+    uncontrolled: Counter[tuple[str, bool]] = field(default_factory=Counter)
     costs: dict[str, tuple[float, tuple[int, ...]]] = field(default_factory=dict)
     numeric: NumericPrograms = field(default_factory=NumericPrograms)
 
-    def predict(self, method: Method, order: int, *bars: Bar) -> Prediction:
+    def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
         """Return the prediction for a method of the given order; raise InputError if the scene does not
-        accept the method.
+        accept the method. ``controlled`` is the same method with step-size control.
 
         A bar is an error and a time. If the method cannot reach any bar, no step is interpreted and the error
         is infinite.
         """
-        scene = self.equations.problem
-        problem = problem_for(scene, method)
-        program = lower_composed(scene, method) or lower(scene, method)
-        for each in plain_passes(problem):
-            program = each.run(program)
-        widths = widths_of_inputs(program, problem)
+        problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
         explicit = not any(isinstance(s, Solve) for s in program.body)
         step = 1e-9 * (outside + USUAL_SWEEPS * sweep)
@@ -219,6 +201,7 @@ class Predictor:
             end = time.process_time() + PATIENCE
             reached = _reached(numeric, problem, self.equations, self.exact, first, most, end)
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
+        rough = reached[1] > SMALL * size_of(self.exact)
         if self.beginning is not None and not math.isfinite(reached[1]):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -226,7 +209,54 @@ class Predictor:
             steps, error, sweeps = _reached(numeric, part, equations, exact, FEW_STEPS, MANY_STEPS, end)
             reached = PARTS * steps, PARTS * error, sweeps
         steps, error, sweeps = reached
-        return Prediction(method.label, order, method.family, explicit, outside, sweep, sweeps, steps, error)
+        amounts = (outside, sweep, sweeps, steps, error)
+        known = Prediction(method.label, order, method.family, explicit, *amounts, rough)
+        if controlled is None or not rough:
+            return known
+        return replace(known, controlled=self.controlled(controlled, known, min(bar.error for bar in bars)))
+
+    def controlled(self, method: Method, equal: Prediction, target: float) -> Prediction | None:
+        """Return the prediction for a method with step-size control; None if no interpreted run succeeds.
+
+        ``equal`` is the prediction for equal steps. The tolerance is reduced until the error is below
+        ``target`` or the time for interpreted runs is used.
+        """
+        kind = (method.family, equal.explicit)
+        if method.embedded() is None or self.uncontrolled[kind] >= TRIES:
+            return None
+        problem, program, widths = self._program(method)
+        outside, sweep = self.cost(program, problem, widths)
+        outside += sum(matrix(s, widths, sweep) for s in program.body if isinstance(s, Solve))
+        numeric = self.numeric.of(program, problem, widths)
+        order = order_of_estimate(method, self.equations.problem)
+        known = replace(equal, outside=outside, sweep=sweep, error=math.inf, controlled=None)
+        start = time.process_time()
+        end = start + PATIENCE / 2
+        for exponent in TOLERANCES:
+            try:
+                state, steps, sweeps = controlled_run(numeric, problem, order, 10.0**-exponent, end)
+                error = self.equations.error(state, self.exact)
+            except (ArithmeticError, ValueError):
+                break
+            if error < known.error:
+                known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False)
+            # The next run has a smaller tolerance and takes longer than all runs so far.
+            if error <= target or 2 * time.process_time() > start + end:
+                break
+        reached = math.isfinite(known.error)
+        self.uncontrolled[kind] = 0 if reached else self.uncontrolled[kind] + 1
+        return known if reached else None
+
+    def _program(self, method: Method) -> tuple[Problem, Program, dict[Var, int]]:
+        """Return the scene in the form that the method integrates, the step program after all passes, and the
+        numbers of components of its inputs.
+        """
+        scene = self.equations.problem
+        problem = problem_for(scene, method)
+        program = lower_composed(scene, method) or lower(scene, method)
+        for each in plain_passes(problem):
+            program = each.run(program)
+        return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
         """Return two times in nanoseconds: the operations of a step outside of implicit blocks, and one sweep
@@ -275,7 +305,7 @@ def _reached(
     The number of steps is doubled up to ``most``, and until the process has used ``end`` CPU seconds. The
     error is infinite if all runs failed.
     """
-    size = max(1.0, math.hypot(*map(float, exact.state)))
+    size = size_of(exact)
     best = FEW_STEPS, math.inf, 0.0
     while steps <= most and time.process_time() < end:
         try:
@@ -289,6 +319,22 @@ def _reached(
             break
         steps *= 2
     return best
+
+
+def matrix(block: Solve, widths: Mapping[Var, int], sweep: float) -> float:
+    """Return the time in nanoseconds for the matrix of Newton's method and its inversion.
+
+    ``sweep`` is the time of one evaluation of the equations. The equations of different stages contain the
+    derivatives of the same field at different states. The derivatives with respect to one vector of unknowns
+    therefore give the whole matrix.
+    """
+    own = [widths[u] for u in block.unknowns]
+    return max(own) * sweep + WEIGHTS.arithmetic * sum(own) ** 2 + WEIGHTS.cubes * sum(own) ** 3
+
+
+def size_of(exact: Reference) -> float:
+    """Return the size of the final state, at least 1."""
+    return max(1.0, math.hypot(*map(float, exact.state)))
 
 
 def widths_of_inputs(program: Program, problem: Problem) -> dict[Var, int]:
@@ -318,29 +364,3 @@ def amounts(roots: Sequence[Expr]) -> Amounts:
         else:
             calls += node.op == "call"
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
-
-
-def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Return the state at the end of the span after equal steps, and the average number of sweeps of a step.
-
-    Implicit blocks are solved by fixed-point iteration only, because the difference quotients of Newton's
-    method would take too long. Raises ArithmeticError if the run is not finished when the process has used
-    ``end`` CPU seconds.
-    """
-    first, last = problem.span
-    domain = _Counted(float((last - first) / steps))
-    state = problem.initial(domain)
-    solutions: dict[Var, Scalar] = {}
-    for k in range(steps):
-        values: dict[str, Scalar] = {TIME: float(first) + k * domain.h, **split_state(problem, state)}
-        inputs = {v.name: values[v.name] for v in program.inputs}
-        ends = interpret(
-            program, problem, domain, inputs, limit=MOST_SWEEPS, newton=False, solutions=solutions
-        )
-        state = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
-        if not all(map(math.isfinite, state)):
-            raise ArithmeticError("a number is not finite")
-        if time.process_time() > end:
-            raise ArithmeticError("the run takes too long")
-    blocks = sum(isinstance(s, Solve) for s in program.body) * max(1, len(program.substeps))
-    return state, 2 * domain.swept[0] / steps / max(1, blocks)

@@ -42,6 +42,12 @@ UNSEEN = 4.0
 LEADERS, CLOSE = 4, 1.4
 """At most LEADERS recipes are timed again. Their times are at most CLOSE times the best time."""
 
+CONTROLLED = 100.0
+"""The additional safety factor for a kind of recipe with step-size control of which no recipe was measured
+yet, if equal steps have large errors. On stiff scenes, equal steps can take some hundred times as long as
+controlled steps.
+"""
+
 ROUND = 6
 """The number of recipes that are emitted between two corrections of the predictions."""
 
@@ -124,7 +130,8 @@ class Search:
         methods: dict[Recipe, list[Goal]] = defaultdict(list)
         for recipe, suited in self.suited.items():
             methods[replace(recipe, adaptive=False)] += suited
-        jobs = Jobs(methods)
+        controlled = {replace(r, adaptive=False): suited for r, suited in self.suited.items() if r.adaptive}
+        jobs = Jobs(methods, controlled)
         for k, prediction in enumerate(in_processes(partial(predicted, self.task), jobs)):
             if k % GROUP == 0:
                 self.progress(f"{self.problem.name}: predicting method {k + 1} of {len(jobs)}")
@@ -140,7 +147,7 @@ class Search:
         """Return the predicted time of a recipe for an error in seconds, corrected by the ratio for its kind
         of recipe.
         """
-        prediction = self.predictions.get((recipe.method, recipe.form))
+        prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
             return math.inf
         seconds, kind = prediction.seconds(error), self.kind(recipe)
@@ -148,7 +155,13 @@ class Search:
             return seconds * self._corrections[kind, error] / self.safety
         if kind in self._of_kind:
             return seconds * self._of_kind[kind] / self.safety
-        return seconds * self._least / UNSEEN
+        gained = CONTROLLED if recipe.adaptive and prediction.rough else 1.0
+        return seconds * self._least / (UNSEEN * gained)
+
+    def prediction(self, recipe: Recipe) -> Prediction | None:
+        """Return the prediction for a recipe with equal steps or with step-size control."""
+        known = self.predictions.get((recipe.method, recipe.form))
+        return known.controlled or known if known is not None and recipe.adaptive else known
 
     def _correct(self) -> None:
         """Compute the corrections of predictions from the ratios of measured to predicted times."""
@@ -251,7 +264,8 @@ class Search:
         to predicted times.
         """
         racer = self.racers[recipe]
-        prediction = self.predictions[recipe.method, recipe.form]
+        prediction = self.prediction(recipe)
+        assert prediction is not None  # Only predicted recipes are raced.
         met = [goal for goal in self.suited[recipe] if goal.met(racer.entry.features)]
         for error in sorted({goal.error for goal in met}, reverse=True):
             worst = max(self.best(goal) for goal in met if goal.error == error)

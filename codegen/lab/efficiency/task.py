@@ -94,15 +94,17 @@ def _beginning(task: Task, form: str) -> tuple[Equations, Reference]:
 def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:
     """Return the prediction of a recipe for the bars of its goals; runs in a worker process.
 
-    None is returned if there is no bar.
+    The prediction is for equal steps. If the recipe has step-size control, the prediction with step-size
+    control is added where it is needed. None is returned if there is no bar.
     """
     recipe, bars = job
     if not bars:
         return None
     problem = task.problem()
     try:
-        method = replace(method_of(recipe, problem), adaptive=False)
-        return _predictor(task, recipe.form).predict(method, recipe.order, *bars)
+        method = method_of(recipe, problem)
+        equal, controlled = replace(method, adaptive=False), method if recipe.adaptive else None
+        return _predictor(task, recipe.form).predict(equal, recipe.order, *bars, controlled=controlled)
     except (InputError, ArithmeticError) as error:
         return Prediction(recipe.method, recipe.order, failure=str(error))
 

@@ -57,7 +57,7 @@ class FunctionPrinter:
         # The changed parameters are found once for each function, because the search follows calls through
         # the whole unit.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
-        self.batch = BATCH in unit.parts
+        self.batch = BATCH in unit.parts or any(f.near for f in unit.functions)
 
     def called(self, name: str, near: bool = False) -> str:
         """Return the name of a function in C; ``near`` selects the form without branches."""
@@ -66,8 +66,8 @@ class FunctionPrinter:
 
     def forms(self, name: str, near: bool = False) -> str:
         """Return the name of the form of a function that a caller uses."""
-        # In a module with a batch, scalar functions use the polynomials of the loop over lanes where these
-        # are valid, so that both have the same roundings.
+        # In a module with loops over lanes or sites, scalar functions use the polynomials of these loops
+        # where they are valid, so that both have the same roundings.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)

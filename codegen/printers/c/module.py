@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from codegen.errors import SceneError
 from codegen.ir.angle_depth import chain
@@ -10,6 +10,7 @@ from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
 from codegen.ir.precision import DOUBLE
 from codegen.kernel.operations import costs
 from codegen.printers.c.functions import FunctionPrinter
+from codegen.printers.c.lattice import lattice_usage
 from codegen.printers.c.terms import literal
 from codegen.printers.c.text import comment
 from codegen.printers.c.words import RESERVED
@@ -77,7 +78,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         widest=max((len(loop.unknowns) for loop in kernel.loops if loop.newton is not None), default=0),
         chain=chain(kernel),
         prefix=interface.prefix,
-        batch=interface.batch,
+        batch=interface.batch or bool(interface.dimension),
     )
     public = {f.name: f for f in unit.functions if f.public}
     # The width is 96, because the comment adds a star and spaces to each line, and lines have at most 100
@@ -86,7 +87,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     variables: dict[str, object] = {
         # Titles and names come from users: an end of a comment in them must not end the header.
         "recipe": [comment(line) for line in comments],
-        "usage": usage(interface, recipe),
+        "usage": example(interface, recipe),
         "module": interface.module,
         "prefix": interface.prefix,
         "upper": interface.prefix.upper(),
@@ -99,8 +100,10 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "statuses": statuses(unit),
         "adaptive": interface.adaptive,
         "batch": interface.batch,
-        "vectorised": LANES in unit.parts,
-        "optimised": " ".join(VECTOR_FLAGS) if interface.batch else "-O2",
+        "vectorised": LANES in unit.parts or bool(interface.dimension),
+        "optimised": " ".join(VECTOR_FLAGS) if interface.batch or interface.dimension else "-O2",
+        "dimension": interface.dimension,
+        "workspace": interface.workspace,
         "variations": interface.variations,
         "integrated": interface.integrated,
         "controlled": interface.controlled,
@@ -113,10 +116,16 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "heads": {name: printer.head(function, header=True) for name, function in public.items()},
         "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
+    return _rendered(interface, variables)
+
+
+def _rendered(interface: Interface, variables: Mapping[str, object]) -> dict[str, str]:
+    """Return the texts of the header and of the source."""
     env = environment("c")
+    head = "lattice.h.j2" if interface.dimension else "module.h.j2"
     return {
-        f"{interface.module}.{kind}": env.get_template(f"module/module.{kind}.j2").render(variables)
-        for kind in ("h", "c")
+        f"{interface.module}.{kind}": env.get_template(f"module/{template}").render(variables)
+        for kind, template in (("h", head), ("c", "module.c.j2"))
     }
 
 
@@ -150,7 +159,8 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 def helpers(unit: Unit) -> list[str]:
     """Return the helpers and library functions that a unit calls, sorted."""
-    names = _forms(unit) if BATCH in unit.parts else set(functions_of(unit))
+    vector = BATCH in unit.parts or any(f.near for f in unit.functions)
+    names = _forms(unit) if vector else set(functions_of(unit))
     names |= {"isfinite"}
     for function in unit.functions:
         for term in terms(function.body):
@@ -300,6 +310,11 @@ def example_input(interface: Interface) -> list[str]:
     ]
 
 
+def example(interface: Interface, recipe: Recipe) -> list[str]:
+    """Return the lines of a program that uses the module."""
+    return lattice_usage(interface, recipe) if interface.dimension else usage(interface, recipe)
+
+
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
     """Return the lines of a program that runs the step from the scene's initial state."""
     real = interface.format
@@ -312,10 +327,10 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     initial, entries = ", ".join(map(number, recipe.initial)), entries_set(recipe.initial)
     declared = [f"    {real.c_type} state[{interface.size}] = {{{initial}}};"]
     if entries is not None:
-        # The example is part of a comment, which must not contain the beginning of another one.
         declared = [
             f"    static {real.c_type} state[{interface.size}];",
             *(f"    state[{place}] = {number(x)};" for place, x in entries),
+            # The example is part of a block comment, so it contains only line comments.
             *(() if entries else (f"    // {IN_MANIFEST}",)),
         ]
     # The example starts at t = 0. The arguments have the same order as the parameters of the emitted ``run``.

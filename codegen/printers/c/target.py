@@ -15,4 +15,5 @@ TARGET = Target(
     compiler="codegen.build:compile_seconds",
     stack=r"stack: +at most (\d+) bytes",
     batches=True,
+    lattice_loader="codegen.loader:load_compiled_lattice",
 )

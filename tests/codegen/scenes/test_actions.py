@@ -27,15 +27,16 @@ from codegen.loader import load as load_module
 from codegen.lower import families_for, lower, problem_for
 from codegen.method import parse
 from codegen.scene import FieldScene
-from codegen.scenes import load
+from codegen.scenes import GALLERY, load
 from orderconds.ring import QQ
 
 FOLDER = Path(__file__).parents[2] / "valid" / "scenes"
+"""Scenes of tests; all other names are names of the gallery."""
 
 NAMES = (
-    "toda_isospectral",
+    "toda_lattice",
     "pca_flow",
-    "lie_poisson_se2",
+    "planar_body_in_fluid",
     "lie_poisson_so3",
     "semilinear",
     "frame_and_trajectory",
@@ -46,7 +47,7 @@ RITZ = (1.44869057, 12.34353752)
 
 @cache
 def scene(name, coordinates="exp"):
-    found = load(str(FOLDER / f"{name}.py"))
+    found = load(name if name in GALLERY else str(FOLDER / f"{name}.py"))
     return replace(found, coordinates=coordinate_map(coordinates, found.group, name))
 
 
@@ -90,7 +91,7 @@ def test_the_order_on_the_orbit_is_the_order_of_the_method(name, label):
 class TestToda:
     @pytest.mark.parametrize("label", ["rkmk:rk4", pytest.param("cf:cf4", marks=pytest.mark.slow)])
     def test_emitted_steps_keep_the_eigenvalues(self, label):
-        module = load_module(emit(scene("toda_isospectral"), label, "c"))
+        module = load_module(emit(scene("toda_lattice"), label, "c"))
         start = np.array(module.initial).reshape(3, 3)
         after = np.array(module.run(module.initial, 0.01, 100_000)).reshape(3, 3)
         gap = np.linalg.eigvalsh((after + after.T) / 2) - np.linalg.eigvalsh(start)
@@ -98,7 +99,7 @@ class TestToda:
         assert np.abs(after - after.T).max() < 1e-12
 
     def test_the_limit_is_diagonal_with_sorted_eigenvalues(self):
-        module = load_module(emit(scene("toda_isospectral"), "rkmk:rk4", "c"))
+        module = load_module(emit(scene("toda_lattice"), "rkmk:rk4", "c"))
         start = np.array(module.initial).reshape(3, 3)
         after = np.array(module.run(module.initial, 0.01, 5000)).reshape(3, 3)
         assert np.abs(after - np.diag(np.linalg.eigvalsh(start)[::-1])).max() < 1e-12
@@ -160,13 +161,13 @@ class TestPrincipalComponents:
         assert np.abs(X.T @ X - np.eye(2)).max() < 1e-12
 
 
-@pytest.mark.parametrize("name", ["lie_poisson_se2", "lie_poisson_so3"])
+@pytest.mark.parametrize("name", ["planar_body_in_fluid", "lie_poisson_so3"])
 @pytest.mark.parametrize("label", ["rkmk:rk4", pytest.param("cf:cf4", marks=pytest.mark.slow)])
 def test_emitted_steps_keep_the_casimir_function(name, label):
     module = load_module(emit(scene(name), label, "c"))
 
     def casimir(y):
-        return sum(x * x for x in (y[1:] if name == "lie_poisson_se2" else y))
+        return sum(x * x for x in (y[1:] if name == "planar_body_in_fluid" else y))
 
     after = module.run(module.initial, 0.05, 2000)
     assert abs(casimir(after) - casimir(module.initial)) < 1e-13

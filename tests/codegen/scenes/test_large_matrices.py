@@ -53,9 +53,7 @@ def slow(*values):
 
 @cache
 def principal_components():
-    X = unknown(5, 2)
-    A = full(5, 5, lambda i, j: sympy.Min(i, j) + 1)
-    return StiefelScene(x=X, velocity=A @ X - X @ X.T @ A @ X, span=(0, 1), name="principal")
+    return load("principal_components")
 
 
 @cache
@@ -341,12 +339,12 @@ class TestRefusals:
             emit(tridiagonal(900), QUICK, "c")
 
     def test_the_derivative_of_a_step_is_refused(self):
-        with pytest.raises(MethodError, match="--jacobian .* large matrices"):
+        with pytest.raises(MethodError, match=r"--jacobian .* large matrices"):
             compile_method(tridiagonal(40), "rkmk:rk4", jacobian=True)
 
     @pytest.mark.parametrize("option", ["integrate", "dense", "compensate"])
     def test_a_run_to_an_end_time_and_compensated_summation_are_refused(self, option):
-        with pytest.raises(MethodError, match=f"--{option} .* large matrices"):
+        with pytest.raises(MethodError, match=rf"--{option} .* large matrices"):
             compile_method(tridiagonal(40), "rkmk:rk4", **{option: True})
 
     @pytest.mark.parametrize("command", ["stability", "localerror", "bench"])

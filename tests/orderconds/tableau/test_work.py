@@ -25,12 +25,12 @@ from orderconds.tableau.work import Work
         ("rk4", "rk", None, Work(4)),
         ("magnus2", "magnus", None, Work(1, 1, 0)),
         ("magnus4", "magnus", None, Work(2, 1, 1)),
-        ("magnus6", "magnus", None, Work(3, 1, 4)),  # Blanes, Casas, Oteo and Ros 2009: four commutators
+        ("magnus6", "magnus", None, Work(3, 1, 3)),  # Blanes, Casas, Oteo and Ros 2009: three commutators
         ("magnus8", "magnus", None, Work(4, 1, 6)),  # and six
         ("fer4", "fer", None, Work(2, 2, 2)),
         ("cf_magnus6", "cf_magnus", None, Work(3, 5, 0)),
         ("cf_magnus8_11", "cf_magnus", None, Work(4, 11, 0)),
-        ("cayley6", "cayley", None, Work(3, 1, 4)),
+        ("cayley6", "cayley", None, Work(3, 1, 3)),
     ],
 )
 def test_counts(name: str, family: str, cutoff: int | None, expected: Work) -> None:

@@ -18,12 +18,13 @@ from codegen.ir.program import Solve
 from codegen.lab import reference as references
 from codegen.lab import timing
 from codegen.lab.distance import distance
-from codegen.lab.efficiency import race, search
+from codegen.lab.efficiency import prediction, race, search
 from codegen.lab.efficiency.candidates import Recipe, candidates
 from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.goal import Goal, possible, possible_needs
+from codegen.lab.efficiency.interpreted_runs import run
 from codegen.lab.efficiency.jobs import Jobs
-from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor, run, widths_of_inputs
+from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor, widths_of_inputs
 from codegen.lab.efficiency.race import Entry, Racer, Result, entry
 from codegen.lab.efficiency.recommend import Recommendation, Request, recommend
 from codegen.lab.efficiency.search import Search
@@ -241,6 +242,71 @@ def test_jobs_of_slow_families_wait() -> None:
         jobs.add(recipe, Prediction(recipe.method, 4, recipe.family, error=1e-6, outside=outside))
     assert order.index("fast:m5") < order.index("slow:m1")
     assert sorted(order) == sorted(r.method for r in recipes)
+
+
+def test_methods_with_an_error_estimate_have_an_early_turn() -> None:
+    """In a slow kind, the first method with step-size control is predicted before most other methods."""
+    recipes = [Recipe(f"{f}:m{k}", 4, k, f"m{k}") for f in ("slow", "fast") for k in range(9)]
+    jobs = Jobs({recipe: [Goal(1e-6)] for recipe in recipes}, {recipes[8]: [Goal(1e-6)]})
+    order = []
+    for k in range(len(jobs)):
+        recipe, _ = jobs[k]
+        order.append(recipe.method)
+        outside = 1e3 if recipe.family == "slow" else 1.0
+        jobs.add(recipe, Prediction(recipe.method, 4, recipe.family, error=1e-6, outside=outside))
+    assert order.index("slow:m8") < 3
+    assert order.index("slow:m1") > 8
+
+
+def test_a_prediction_is_rough_if_no_run_on_the_whole_span_is_accurate(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = scenes.load("free_rigid_body")
+    method = parse("ambient:explicit_midpoint", families_for(problem))
+
+    def rough() -> bool:
+        predictor = Predictor(Equations(problem), cached_reference(problem))
+        return predictor.predict(method, 2, Bar(1e-9)).rough
+
+    assert not rough()
+    monkeypatch.setattr(prediction, "MANY_STEPS", prediction.FEW_STEPS)
+    monkeypatch.setattr(prediction, "SMALL", 1e-9)
+    assert rough()
+
+
+@pytest.mark.parametrize("rough", [False, True])
+def test_step_size_control_is_tried_if_equal_steps_have_large_errors(rough: bool) -> None:
+    """One method with step-size control is measured although equal steps are predicted to be slow."""
+    goal = Goal(1e-6)
+    search = Search(Task(SCENE, tableaux=("rk4", "dormand_prince5")), (goal,))
+    for recipe in search.suited:
+        slow = 100.0 if recipe.tableau == "dormand_prince5" else 1.0
+        known = Prediction(recipe.method, 4, recipe.family, outside=1e3 * slow, error=1e-6, rough=rough)
+        search.predictions[recipe.method, recipe.form] = known
+    search._correct()
+    chosen = search._next()
+    assert not any(r.tableau == "dormand_prince5" and not r.adaptive for r in chosen)
+    kinds = [search.kind(r) for r in chosen if r.adaptive]
+    assert bool(kinds) == rough
+    assert len(set(kinds)) == len(kinds)
+
+
+@pytest.mark.slow  # a search in the whole library
+def test_methods_with_step_size_control_are_found_on_a_stiff_scene() -> None:
+    """Most of the steps of these methods are spent in the first thousandth of the span."""
+    request = Request("stiff_driven_spin", 1e-8)
+    found = recommend(request)
+    task = request.task
+    recipe = next(r for r in task.recipes() if r.label == "adaptive ambient:lobatto3a4")
+    known = emitted(task, recipe)
+    assert isinstance(known, Entry)
+    exact = cached_reference(task.problem())
+    racers = [Racer(task.equations(e.recipe.form), exact, e) for e in (found.places[0].entry, known)]
+    controls = [racer.reach(1e-8).control for racer in racers]
+    # The two runs are timed in turns, so that the load of the machine affects both.
+    times = [[r.seconds(c) for r, c in zip(racers, controls, strict=True)] for _ in range(5)]
+    best, lobatto = map(min, zip(*times, strict=True))
+    assert best <= 1.25 * lobatto
 
 
 def test_functions_of_doubles_agree_with_the_operations_that_they_replace() -> None:

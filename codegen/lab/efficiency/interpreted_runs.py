@@ -1,0 +1,138 @@
+"""Interpreted runs of a step program over the span: with equal steps, and with step-size control.
+
+Runs with equal steps solve implicit blocks by fixed-point iteration, because the difference quotients of
+Newton's method take long. Runs with step-size control solve implicit blocks by Newton's method, because they
+are used for stiff scenes, where fixed-point iteration does not converge in long steps. The step sizes are
+chosen as in emitted code (:mod:`codegen.run.step_control`), but the factor depends on the last step only.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+
+from codegen.ir.domain import FloatDomain
+from codegen.ir.interpret import flatten, interpret
+from codegen.ir.program import EMBEDDED, Program, Solve
+from codegen.ir.values import Var
+from codegen.lab.number_types import Scalar, Vector
+from codegen.lab.runner import split_state
+from codegen.run.step_control import FIRST, LEAST, MOST, SAFETY
+from codegen.scene.problem import TIME, Problem
+
+MOST_SWEEPS, MOST_NEWTON = 40, 15
+"""The largest number of sweeps over an implicit block, for fixed-point iteration and for Newton's method."""
+
+SETTLED = 1e-9
+"""The iteration of an interpreted implicit block ends when the relative change is at most SETTLED. The error
+of a method is much larger.
+"""
+
+
+class CountingDomain(FloatDomain):
+    """Double precision arithmetic that counts the sweeps (iterations) over implicit blocks."""
+
+    def __init__(self, h: float) -> None:
+        super().__init__(h)
+        # Substeps copy the domain. The counter is a list, so that all copies share the counter.
+        self.swept = [0]
+
+    def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
+        """Return True if the relative change is at most SETTLED, and the change. The sweep is counted."""
+        self.swept[0] += 1
+        done, change = super().settled(old, new, previous)
+        return done or change <= SETTLED * max(map(abs, old), default=0.0), change
+
+
+class NewtonDomain(CountingDomain):
+    """A counting domain in which Newton's method solves implicit blocks from the first sweep."""
+
+    patience = 0
+
+
+def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
+    """Return the state at the end of the span after equal steps, and the average number of sweeps of a step.
+
+    Raises ArithmeticError if the run is not finished when the process has used ``end`` CPU seconds.
+    """
+    first, last = problem.span
+    domain = CountingDomain(float((last - first) / steps))
+    state = problem.initial(domain)
+    solutions: dict[Var, Scalar] = {}
+    for k in range(steps):
+        inputs = _inputs(program, problem, state, float(first) + k * domain.h)
+        ends = interpret(
+            program, problem, domain, inputs, limit=MOST_SWEEPS, newton=False, solutions=solutions
+        )
+        state = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
+        if not all(map(math.isfinite, state)):
+            raise ArithmeticError("a number is not finite")
+        if time.process_time() > end:
+            raise ArithmeticError("the run takes too long")
+    # An emitted program solves its equations to twice as many digits.
+    return state, 2 * domain.swept[0] / steps / _blocks(program)
+
+
+def controlled_run(
+    program: Program, problem: Problem, order: int, tolerance: float, end: float = math.inf
+) -> tuple[Vector, int, float]:
+    """Return the state at the end of the span after a run with step-size control, the number of tried steps,
+    and the average number of sweeps of a step.
+
+    The program has an embedded solution; ``order`` is the power of h in its error estimate. ``tolerance`` is
+    both the relative and the absolute tolerance. Raises ArithmeticError if steps become too short, or if the
+    run is not finished when the process has used ``end`` CPU seconds.
+    """
+    now, last = map(float, problem.span)
+    domain = NewtonDomain((last - now) / FIRST)
+    state, tried, most = problem.initial(domain), 0, FIRST
+    while now < last:
+        if time.process_time() > end:
+            raise ArithmeticError("the run takes too long")
+        length = min(domain.h, last - now)
+        if not now + length > now:
+            raise ArithmeticError("the steps become too short")
+        domain.h, tried = length, tried + 1
+        try:
+            inputs = _inputs(program, problem, state, now)
+            ends = interpret(program, problem, domain, inputs, limit=MOST_NEWTON)
+            new = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
+            norm = weighted(state, new, ends[EMBEDDED], tolerance)
+        except (ArithmeticError, ValueError):
+            # A shorter step may succeed.
+            norm = math.inf
+        if norm <= 1.0:
+            state, now = new, last if length >= last - now else now + length
+        else:
+            most = SAFETY
+        factor = SAFETY * math.pow(norm, -1 / order) if norm > 0.0 else most
+        domain.h = length * max(LEAST, min(most, factor))
+        # After a rejection the next step is not longer.
+        most = MOST if norm <= 1.0 else 1.0
+    return state, tried, domain.swept[0] / tried / _blocks(program)
+
+
+def weighted(
+    before: Sequence[float], after: Sequence[float], lower: Sequence[float], tolerance: float
+) -> float:
+    """Return the norm of an error estimate, the difference of the results ``after`` and ``lower`` of a step
+    from ``before``; infinity if a number is not finite.
+
+    >>> round(weighted([1.0, 0.0], [1.0, 0.0], [1.0 + 2e-3, 1e-3], 1e-3), 9)
+    1.0
+    """
+    total = 0.0
+    for old, new, other in zip(before, after, lower, strict=True):
+        total += ((new - other) / (tolerance + tolerance * max(abs(old), abs(new)))) ** 2
+    return math.sqrt(total / len(after)) if math.isfinite(total) else math.inf
+
+
+def _inputs(program: Program, problem: Problem, state: Vector, now: float) -> dict[str, Scalar]:
+    values: dict[str, Scalar] = {TIME: now, **split_state(problem, state)}
+    return {v.name: values[v.name] for v in program.inputs}
+
+
+def _blocks(program: Program) -> int:
+    """Return the number of implicit blocks in a step, at least 1."""
+    return max(1, sum(isinstance(s, Solve) for s in program.body) * max(1, len(program.substeps)))

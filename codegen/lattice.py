@@ -1,0 +1,148 @@
+"""Emitted modules for chains and lattices, called from Python."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from codegen import lanes
+from codegen.argument import count, described, real
+from codegen.arrival import Status
+from codegen.artifact import Artifact
+from codegen.printers.interface import Interface
+from codegen.run.status import reason
+from orderconds.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class LatticeRun:
+    """The result of a run: the last good states, of shape (n1, ..., nd, size), the status, and the number of
+    completed steps."""
+
+    states: Floats
+    status: Status
+    completed: int
+    reason: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """True if no step failed."""
+        return self.status == Status.OK
+
+
+class Lattice(ABC):
+    """An emitted module for a chain or lattice of any number of sites."""
+
+    artifact: Artifact
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
+        self.interface, self.defaults = interface, dict(defaults)
+
+    def run(self, states: object, h: float, steps: int, t: float = 0.0, **parameters: object) -> LatticeRun:
+        """Return the states of all sites after ``steps`` steps of size h from time t.
+
+        ``states`` has the shape (n1, ..., nd, size): one state for each site of the lattice. If a step fails,
+        no error is raised: the result contains the status and the last good states. ValueError is raised for
+        an array of another shape or type, for states that are not finite and for a lattice that is too small,
+        TypeError for unknown parameters, and InputError if there is not enough memory.
+        """
+        import numpy as np
+
+        interface = self.interface
+        table = self._table(states)
+        shape = tuple(int(n) for n in table.shape[1:])
+        h, t, steps = real(h, "h"), real(t, "t"), count(steps, "steps")
+        pairs = lanes.chosen(interface.parameters, self.defaults, parameters)
+        values = [real(x, name) for name, x in pairs]
+        finite = np.isfinite(table).all(axis=0)
+        if not finite.all():
+            place = tuple(int(i) for i in np.argwhere(~finite)[0])
+            state = table[(slice(None), *place)].tolist()
+            raise ValueError(f"expected finite numbers, found the state {state} of site {place}")
+        try:
+            work = np.empty(interface.workspace * finite.size, table.dtype)
+        except MemoryError:
+            raise InputError(
+                f"{finite.size} sites, each with {interface.workspace} numbers of workspace",
+                expected="enough memory",
+                hint="use fewer sites",
+            ) from None
+        status, completed = self._call(shape, table, (t, h, steps), values, work)
+        if status == Status.BAD_SHAPE:
+            raise ValueError(
+                f"expected more sites, found a lattice of shape {shape}: {reason(status.name, '', h)}"
+            )
+        why = "" if status == Status.OK else reason(status.name, "", h)
+        return LatticeRun(np.moveaxis(table, 0, -1), status, completed, why)
+
+    def _table(self, states: object) -> Any:
+        """Return the states as a new array of shape (size, n1, ..., nd)."""
+        import numpy as np
+
+        n, size = self.interface.dimension, self.interface.size
+        kind = np.dtype({"double": np.float64, "float": np.float32}[self.interface.format.c_type])
+        try:
+            given = np.asarray(states)
+        except ValueError:
+            raise ValueError("expected an array of states, found rows of different lengths") from None
+        if given.dtype.kind not in "fiub":
+            raise ValueError(f"expected real numbers, found {described(states)}")
+        if given.ndim != n + 1 or given.shape[-1] != size or 0 in given.shape:
+            expected = ", ".join([*(f"n{k + 1}" for k in range(n)), str(size)])
+            raise ValueError(
+                f"expected an array of shape ({expected}), found an array of shape {given.shape}"
+            )
+        return np.array(np.moveaxis(given, -1, 0), dtype=kind, order="C")
+
+    @abstractmethod
+    def _call(
+        self,
+        shape: Sequence[int],
+        table: Any,
+        moment: tuple[float, float, int],
+        values: Sequence[float],
+        work: Any,
+    ) -> tuple[Status, int]:
+        """Run the steps in place; return the status and the number of completed steps."""
+
+
+class CompiledLattice(Lattice):
+    """An emitted C module for a lattice, in a shared object."""
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:
+        from cffi import FFI
+
+        from codegen.printers.c.lattice import lattice_prototypes
+
+        super().__init__(interface, defaults)
+        self._ffi = FFI()
+        self._ffi.cdef(lattice_prototypes(interface))
+        self._library = self._ffi.dlopen(str(path))
+        self._run = getattr(self._library, f"{interface.prefix}run")
+
+    def _call(
+        self,
+        shape: Sequence[int],
+        table: Any,
+        moment: tuple[float, float, int],
+        values: Sequence[float],
+        work: Any,
+    ) -> tuple[Status, int]:
+        (t, h, steps), kind = moment, self.interface.format.c_type
+        completed = self._ffi.new("size_t *")
+
+        def pointer(array: Any) -> Any:
+            return self._ffi.cast(f"{kind} *", self._ffi.from_buffer(array))
+
+        time = [t] if self.interface.time else []
+        arguments = [list(shape), pointer(table), *time, h, steps, *values, pointer(work), completed]
+        return Status(self._run(*arguments)), completed[0]

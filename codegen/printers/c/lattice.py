@@ -1,0 +1,63 @@
+"""The interface of a C module for a lattice: an example and declarations for cffi."""
+
+from __future__ import annotations
+
+from codegen.ir.precision import DOUBLE
+from codegen.printers.c.terms import literal
+from codegen.printers.interface import Interface
+from codegen.printers.recipe import Recipe
+
+SIDES = {1: 1000, 2: 64, 3: 16}
+"""The number of sites in each dimension in the example, by the dimension of the lattice."""
+
+
+def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
+    """Return the lines of a program that runs the lattice, with the same state at all sites."""
+    real, prefix, n = interface.format, interface.prefix, interface.dimension
+    wide = "" if real is DOUBLE else "(double)"
+
+    def number(x: float) -> str:
+        return literal(real, real.round(float(x)))
+
+    side = SIDES.get(n, 8)
+    total = side**n
+    arguments = ["shape", "state", *([number(0.0)] if interface.time else []), number(recipe.h)]
+    arguments += [str(recipe.steps), *(number(recipe.defaults.get(p, 0.0)) for p in interface.parameters)]
+    initial = ", ".join(map(number, recipe.initial))
+    return [
+        f'#include "{interface.module}.h"',
+        "#include <stdio.h>",
+        "",
+        f"enum {{ SITES = {total} }};",
+        f"static {real.c_type} state[{interface.size} * SITES], work[{interface.workspace} * SITES];",
+        "",
+        "int main(void)",
+        "{",
+        f"    const size_t shape[{n}] = {{{', '.join([str(side)] * n)}}};",
+        f"    const {real.c_type} first[{interface.size}] = {{{initial}}};",
+        f"    for (size_t k = 0; k < {interface.size}; k++) {{",
+        "        for (size_t i = 0; i < SITES; i++) {",
+        "            state[k * SITES + i] = first[k];",
+        "        }",
+        "    }",
+        "    size_t completed;",
+        f"    const int status = {prefix}run({', '.join(arguments)}, work, &completed);",
+        '    printf("status %d after %zu steps\\n", status, completed);',
+        f"    for (size_t k = 0; k < {interface.size}; k++) {{",
+        f'        printf("%.{real.digits}g\\n", {wide}state[k * SITES]);',
+        "    }",
+        "    return status;",
+        "}",
+    ]
+
+
+def lattice_prototypes(interface: Interface) -> str:
+    """Return declarations of a lattice module's functions in the form that cffi reads."""
+    prefix, real = interface.prefix, interface.format.c_type
+    time = f"{real} t, " if interface.time else ""
+    parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
+    return (
+        f"size_t {prefix}workspace(const size_t *shape);\n"
+        f"int {prefix}run(const size_t *shape, {real} *state, {time}{real} h, size_t steps, {parameters}"
+        f"{real} *work, size_t *completed);\n"
+    )

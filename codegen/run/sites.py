@@ -1,0 +1,400 @@
+"""Steps and runs of a lattice (:mod:`codegen.ir.site_step`) as functions of a unit.
+
+The number of sites in each dimension is an argument, ``shape``, so the text does not depend on it. Arrays are
+structures of arrays: row k contains number k of all sites. In a row the last index of a site changes fastest.
+
+For each sweep there are three functions. ``sweep_K`` computes adjacent sites whose neighbours all exist, in a
+loop without branches, which compilers turn into vector instructions. ``site_K`` computes one site at the
+boundary. ``pass_K`` calls them for all sites. The loop evaluates sines and Stumpff functions near zero only;
+elsewhere they return NaN. If the new state is not finite at some site, the step is repeated with ``site_K``
+for all sites, whose functions accept all arguments. Where the loop succeeds, both have the same roundings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import reduce
+
+from codegen.ir.kernel import Kernel
+from codegen.ir.site_step import OWN, RESULT, STATE, WORK, Load, Row, SiteStep, Sweep
+from codegen.kernel.schedule import Simple, arrange
+from codegen.run.batch import VECTORISED, called_by
+from codegen.run.language import (
+    Assign,
+    Call,
+    For,
+    Function,
+    If,
+    Return,
+    Statement,
+    While,
+    assigned,
+    reads,
+)
+from codegen.run.plan import STEP, STEPS, TIME, Plan, symbols_of
+from codegen.run.step import exact_time
+from codegen.run.terms import (
+    BAD_SHAPE,
+    BAD_STEP,
+    NOT_FINITE,
+    OK,
+    STATUS,
+    Kind,
+    Term,
+    both,
+    code,
+    count,
+    either,
+    flag,
+    given,
+    is_finite,
+    negated,
+    number,
+    own,
+    paired,
+    real,
+    select,
+    value,
+    whole,
+)
+from codegen.run.values import simple
+
+SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
+"""The number of all sites, the number of sites of a row of the lattice, the index of a site in its row, and
+the number of its first site."""
+
+_SITE, _NUMBER, _PLACE, _INDEX = count("site"), count("number"), count("place"), count("i")
+_BAD, _PART, _INNER, _LEAD, _WHOLE = count("bad"), count("part"), count("inner"), count("lead"), flag("whole")
+_DONE, _COMPLETED = count("done"), count("completed", 1, optional=True, cell=True)
+_STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
+_ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
+
+ADVANCE = "advance"
+
+
+def functions(plan: Plan, step: SiteStep) -> list[Function]:
+    """Return the functions of a lattice, callees first."""
+    loops = [_Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
+    listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
+    shape = _shape(step)
+    size = Return(step.workspace * _product(shape, step.dimension))
+    workspace = Function("workspace", "", (shape,), (size,), Kind.COUNT, public=True)
+    return [*listed, workspace, _advance(plan, step, loops), _run(plan, step, loops)]
+
+
+def _shape(step: SiteStep) -> Term:
+    return count("shape", step.dimension)
+
+
+def _product(shape: Term, dimension: int) -> Term:
+    return reduce(lambda a, b: a * b, (shape[k] for k in range(dimension)))
+
+
+def _split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
+    """Return the statements of a kernel that read only ``shared`` scalars, all others, and the outputs."""
+    before: list[Statement] = []
+    inside: list[Statement] = []
+    known = set(shared)
+    arranged = arrange(kernel)
+    for statement in arranged.statements:
+        assert isinstance(statement, Simple)
+        for single in simple(statement):
+            if all(term.text in known for term in reads(single)):
+                before.append(single)
+                known |= {term.text for term in assigned(single)}
+            else:
+                inside.append(single)
+    return before, inside, [value(x) for x in arranged.outputs]
+
+
+@dataclass(frozen=True)
+class _Loop:
+    """The functions of one sweep."""
+
+    plan: Plan
+    step: SiteStep
+    own: Sweep
+    index: int
+
+    @property
+    def last(self) -> bool:
+        """True if the sweep stores the new state."""
+        return any(row.array == RESULT for row in self.own.stores)
+
+    @property
+    def near(self) -> bool:
+        """True if all functions that the sweep calls have a form without branches."""
+        before, inside, _ = _split(self.own.kernel, set())
+        called = called_by([*before, *inside])
+        return all(name in VECTORISED or name.startswith("stumpff_") for name in called)
+
+    @property
+    def neighbours(self) -> tuple[int, ...]:
+        """The indices of the offsets that the sweep reads."""
+        return self.own.neighbours
+
+    @property
+    def arrays(self) -> tuple[Term, ...]:
+        """The arrays that the sweep reads or changes."""
+        used = {load.row.array for load in self.own.loads} | {row.array for row in self.own.stores}
+        return tuple(array for name, array in _ARRAYS.items() if name in used)
+
+    @property
+    def scalars(self) -> tuple[Term, ...]:
+        """The time, the step size and the parameters that the sweep reads."""
+        read = {s for kernel in self.own.kernels for s in kernel.used_scalars()}
+        return tuple(x for x in (TIME, STEP, *self.plan.parameters) if x.text in read)
+
+    @property
+    def shared(self) -> set[str]:
+        """The names of these scalars."""
+        return {x.text for x in self.scalars}
+
+    def entry(self, row: Row, place: Term) -> Term:
+        """Return an entry of a row of an array."""
+        number = row.number + (self.step.size if row.array == WORK else 0)
+        array = _ARRAYS[row.array]
+        if not number:
+            return array[place]
+        return array[(number * SITES if number > 1 else SITES) + place]
+
+    def loaded(self, load: Load, place: Term, around: dict[int, Term]) -> Term:
+        """Return the entry that a load reads."""
+        return self.entry(load.row, place if load.neighbour == OWN else around[load.neighbour])
+
+    def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
+        """Return the statements that store the results at a site, and count sites that are not finite."""
+        body: list[Statement] = []
+        tested = []
+        for row, end in zip(self.own.stores, ends, strict=True):
+            if row.array == RESULT:
+                name = own(f"new {self.plan.symbols[row.number]}")
+                body.append(Assign(name, end))
+                tested.append(name)
+                end = name
+            body.append(Assign(self.entry(row, place), end))
+        if tested:
+            check = real("check")
+            body += [Assign(check, paired([x - x for x in tested]))]
+            body.append(Assign(_BAD, _BAD + select(check.equals(number(0.0)), whole(0), whole(1))))
+        return body
+
+    def function(
+        self, name: str, about: str, parameters: tuple[Term, ...], body: list[Statement]
+    ) -> Function:
+        """Return a function of the sweep; in the last sweep it returns the number of bad sites."""
+        if self.last:
+            body = [Assign(_BAD, whole(0)), *body, Return(_BAD)]
+        kind = Kind.COUNT if self.last else None
+        vector = name == self.name("sweep") and self.near
+        return Function(name, about, parameters, tuple(body), kind, often=True, near=vector)
+
+    def name(self, of: str) -> str:
+        """Return the name of a function of the sweep."""
+        return f"{of}_{self.index}"
+
+    def sweep(self) -> Function:
+        """Return the function for adjacent sites whose neighbours exist."""
+        before, inside, ends = _split(self.own.kernel, self.shared)
+        starts = [count(f"start_{k}") for k in self.neighbours]
+        nears = {k: start + _INDEX for k, start in zip(self.neighbours, starts, strict=True)}
+        loads = [Assign(own(x.symbol), self.loaded(x, _PLACE, nears)) for x in self._read()]
+        body: list[Statement] = [Assign(_PLACE, _SITE + _INDEX), *loads, *inside]
+        body += self.stored(ends, _PLACE)
+        loop = For(_INDEX, _NUMBER, tuple(body), independent=True)
+        parameters = (_SITE, _NUMBER, *starts, SITES, *self.arrays, *self.scalars)
+        about = f"Sweep {self.index} over adjacent sites with all neighbours: {self.own.about}."
+        return self.function(self.name("sweep"), about, parameters, [*before, loop])
+
+    def _read(self) -> list[Load]:
+        """Return the loads of the sweep's own kernel."""
+        read = symbols_of(self.own.kernel)
+        return [load for load in self.own.loads if load.symbol in read]
+
+    def site(self) -> Function:
+        """Return the function for one site, which may be at the boundary."""
+        before, inside, ends = _split(self.own.kernel, self.shared)
+        column: list[Statement] = [Assign(_PLACE, ROW + COLUMN)]
+        nears: dict[int, Term] = {}
+        exist: dict[int, Term] = {}
+        for k in self.neighbours:
+            offset = self.step.offsets[k][-1]
+            nears[k] = count(f"near_{k}")
+            there, moved = _moved(COLUMN, offset, COLUMNS, self.step.periodic)
+            column.append(Assign(nears[k], count(f"row_{k}") + moved))
+            if not self.step.periodic:
+                exist[k] = flag(f"exists_{k}")
+                outer = [flag(f"inside_{k}")] if self.step.dimension > 1 else []
+                tests = [*outer, *([there] if there is not None else [])]
+                column.append(Assign(exist[k], both(*tests)))
+        body = [*column, *self._loads_of_site(nears, exist), *before, *inside]
+        body += self.stored(ends, _PLACE)
+        parameters = (COLUMN, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
+        about = f"Sweep {self.index} at one site, which may be at the boundary."
+        return self.function(self.name("site"), about, parameters, body)
+
+    def _loads_of_site(self, nears: dict[int, Term], exist: dict[int, Term]) -> list[Statement]:
+        """Return the statements that load all numbers at one site."""
+        first = [load for load in self.own.loads if load.neighbour == OWN]
+        body: list[Statement] = [Assign(own(x.symbol), self.loaded(x, _PLACE, nears)) for x in first]
+        around = [load for load in self._read() if load.neighbour != OWN]
+        if self.own.outside is None:
+            return [*body, *(Assign(own(x.symbol), self.loaded(x, _PLACE, nears)) for x in around)]
+        before, inside, ghosts = _split(self.own.outside, set())
+        body += [*before, *inside]
+        for load, ghost in zip(around, ghosts, strict=True):
+            there = self.loaded(load, _PLACE, nears)
+            body.append(Assign(own(load.symbol), select(exist[load.neighbour], there, ghost)))
+        return body
+
+    def rows(self) -> tuple[Term, ...]:
+        """Return the first sites of the rows of a site and its neighbours, and, at an open boundary, whether
+        these rows exist."""
+        starts = [count(f"row_{k}") for k in self.neighbours]
+        flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
+        return (ROW, *starts, *(flag(f"inside_{k}") for k in flags))
+
+    def all_sites(self) -> Function:
+        """Return the function for all sites."""
+        body = self._row()
+        step, shape = self.step, _shape(self.step)
+        outer = [count(f"i{e}") for e in range(step.dimension - 1)]
+        for e in range(step.dimension - 2, -1, -1):
+            body = [For(outer[e], shape[e], tuple(body))]
+        parameters = (_WHOLE, shape, SITES, *self.arrays, *self.scalars)
+        about = f"Sweep {self.index} over all sites; if whole is true, each site is computed alone."
+        first = [Assign(COLUMNS, shape[step.dimension - 1])]
+        return self.function(self.name("pass"), about, parameters, [*first, *body])
+
+    def _row(self) -> list[Statement]:
+        """Return the statements for one row of the lattice."""
+        step, shape = self.step, _shape(self.step)
+        outer = [count(f"i{e}") for e in range(step.dimension - 1)]
+        body: list[Statement] = [Assign(ROW, _first(outer, shape))]
+        for k in self.neighbours:
+            moved = []
+            tests = []
+            for e, index in enumerate(outer):
+                there, place = _moved(index, step.offsets[k][e], shape[e], step.periodic)
+                moved.append(place)
+                tests += [there] if there is not None else []
+            body.append(Assign(count(f"row_{k}"), _first(moved, shape)))
+            if outer and not step.periodic:
+                inside = both(*tests) if tests else Term("number", (), Kind.FLAG, number=1)
+                body.append(Assign(flag(f"inside_{k}"), inside))
+        lasts = [step.offsets[k][-1] for k in self.neighbours]
+        low, high = max([0, *(-x for x in lasts)]), max([0, *lasts])
+        flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
+        regular = both(negated(_WHOLE), COLUMNS > low + high, *flags)
+        body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
+        body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
+        body.append(self._peeled(_LEAD, _INDEX))
+        starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
+        arguments = (_plus(ROW, low), _INNER, *starts, SITES, *self.arrays, *self.scalars)
+        body.append(If(_INNER > 0, tuple(self._called("sweep", arguments))))
+        body.append(self._peeled(COLUMNS - _LEAD - _INNER, _LEAD + _INNER + _INDEX))
+        return body
+
+    def _peeled(self, number: Term, column: Term) -> For:
+        """Return the loop over some sites that are computed alone."""
+        arguments = (column, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
+        return For(_INDEX, number, tuple(self._called("site", arguments)))
+
+    def _called(self, of: str, arguments: tuple[Term, ...]) -> list[Statement]:
+        if not self.last:
+            return [Call(self.name(of), arguments)]
+        return [Call(self.name(of), arguments, (_PART,)), Assign(_BAD, _BAD + _PART)]
+
+
+def _plus(x: Term, n: int) -> Term:
+    return x + n if n else x
+
+
+def _first(indices: Sequence[Term], shape: Term) -> Term:
+    """Return the number of the first site of a row of the lattice with these outer indices."""
+    if not indices:
+        return whole(0)
+    total = indices[0]
+    for e, index in enumerate(indices[1:], 1):
+        total = total * shape[e] + index
+    return total * COLUMNS
+
+
+def _moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
+    """Return the test that a neighbour exists (None if it always does), and its index.
+
+    In a periodic lattice the index is reduced once, since the shape exceeds every offset. If the neighbour
+    does not exist, the index is that of the site itself.
+    """
+    if not offset:
+        return None, index
+    far = abs(offset)
+    there = index + far < size if offset > 0 else index >= far
+    moved = index + far if offset > 0 else index - far
+    wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index
+    return there, select(there, moved, wrapped)
+
+
+def _advance(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
+    """Return the function that makes one step without a test of the shape."""
+    body: list[Statement] = []
+    for loop in loops:
+        arguments = (_WHOLE, _shape(step), SITES, *loop.arrays, *loop.scalars)
+        body.append(Call(loop.name("pass"), arguments, (_BAD,) if loop.last else ()))
+    about = "One step of all sites; return the number of sites whose new state is not finite."
+    return Function(ADVANCE, about, _advance_parameters(plan, step), (*body, Return(_BAD)), Kind.COUNT)
+
+
+def _advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
+    return (_WHOLE, _shape(step), SITES, _STATE, _WORK, _RESULT, *plan.moment(), *plan.parameters)
+
+
+def _too_small(step: SiteStep) -> Term:
+    """Return the test that the lattice has too few sites in some dimension."""
+    shape, tests = _shape(step), []
+    for e in range(step.dimension):
+        far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
+        tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
+    return either(*tests)
+
+
+def _run(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
+    """Return the public function, which makes some steps of equal size."""
+    later = exact_time(TIME, _DONE, STEP)
+
+    def advance(old: Term, new: Term, separately: bool) -> Call:
+        every = Term("number", (), Kind.FLAG, number=int(separately))
+        moment = plan.moment(later)
+        return Call(
+            ADVANCE, (every, _shape(step), SITES, old, _WORK, new, *moment, *plan.parameters), (_BAD,)
+        )
+
+    def tried(old: Term, new: Term) -> tuple[Statement, ...]:
+        again = If(_BAD > 0, (advance(old, new, True),))
+        return (advance(old, new, False), *((again,) if any(loop.near for loop in loops) else ()))
+
+    even = (_DONE % 2).equals(whole(0))
+    # The old state stays in its array until the new state is known to be finite. The two arrays then exchange
+    # their roles, so no state is copied.
+    body = (
+        If(even, tried(_STATE, _WORK), tried(_WORK, _STATE)),
+        If(_BAD > 0, (Assign(STATUS, code(NOT_FINITE)),), (Assign(_DONE, _DONE + 1),)),
+    )
+    place = count("place")
+    copied = For(place, step.size * SITES, (Assign(_STATE[place], _WORK[place]),))
+    statements: tuple[Statement, ...] = (
+        If(given(_COMPLETED), (Assign(_COMPLETED[0], whole(0)),)),
+        If(_too_small(step), (Return(code(BAD_SHAPE)),)),
+        If(both(STEPS > 0, negated(is_finite(STEP))), (Return(code(BAD_STEP)),)),
+        Assign(SITES, _product(_shape(step), step.dimension)),
+        Assign(STATUS, code(OK)),
+        Assign(_DONE, whole(0)),
+        While(both(_DONE < STEPS, STATUS.equals(code(OK))), body),
+        If(negated((_DONE % 2).equals(whole(0))), (copied,)),
+        If(given(_COMPLETED), (Assign(_COMPLETED[0], _DONE),)),
+        Return(STATUS),
+    )
+    time = (TIME,) if plan.time else ()
+    parameters = (_shape(step), _STATE, *time, STEP, STEPS, *plan.parameters, _WORK, _COMPLETED)
+    return Function("run", "", parameters, statements, Kind.STATUS, public=True)

@@ -1,0 +1,166 @@
+"""Site scenes: chains and lattices of equal sites, y_i' = f(y_i, neighbours of y_i).y_i."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from codegen.errors import SceneError
+from codegen.groups.actions import Action
+from codegen.groups.base import LieGroup
+from codegen.ir.domain import FloatDomain
+from codegen.ir.expr import Expr
+from codegen.ir.number import Number
+from codegen.ir.values import Kind
+from codegen.scene.arguments import check_group, check_points, read_span
+from codegen.scene.consistency import check_action, check_problem
+from codegen.scene.formulas import Reader
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem, StateField
+from codegen.scene.sites import Offset, Sites, neighbour, offset_of
+
+if TYPE_CHECKING:
+    import sympy
+
+PERIODIC, OPEN = "periodic", "open"
+"""The possible boundaries of a lattice."""
+
+Outside = Mapping[Sequence[int], Sequence["sympy.Expr"]]
+
+
+def SiteScene(
+    *,
+    group: LieGroup,
+    action: Action,
+    y: Sequence[sympy.Symbol],
+    f: Sequence[sympy.Expr],
+    y0: Sequence[sympy.Expr],
+    span: tuple[sympy.Expr, sympy.Expr],
+    boundary: str = PERIODIC,
+    outside: Sequence[sympy.Expr] | Outside | None = None,
+    invariants: Mapping[str, sympy.Expr] | None = None,
+    name: str = "scene",
+    title: str = "",
+) -> Problem:
+    """Return the scene of a chain or lattice of equal sites. Emitted code accepts any number of sites.
+
+    ``y`` are the coordinates of the state of a site, on which ``group`` acts. ``f`` is a column of
+    ``group.dim`` formulas in these coordinates, the coordinates of neighbours
+    (:func:`codegen.scene.sites.neighbour`), the time t and parameters. All offsets have as many entries as
+    the lattice has dimensions. ``y0`` is the initial state of every site; emitted code also accepts an array
+    of initial states. ``invariants`` are functions of the state of one site that are constant.
+
+    The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the state of a neighbour
+    that does not exist: a column of formulas in ``y``, t and parameters, or a mapping from each offset to
+    such a column. Zeros describe a free end for forces that are linear in the neighbours, ``y`` itself a free
+    end for forces that depend on differences, constants a clamped end, and formulas in t a driven end.
+    :class:`SceneError` is raised for the errors of a field scene, for offsets of different lengths, and for a
+    neighbour outside an open boundary without a formula.
+    """
+    check_group(name, group)
+    reader = Reader(name, list(y))
+    check_points(reader, group, action)
+    offsets = _offsets(name, f, reader.coordinates)
+    symbols = tuple(tuple(str(s.name) for s in neighbour(y, offset)) for offset in offsets)
+    known = tuple(s for column in symbols for s in column)
+    roots = reader.column(f, group.dim, "f", more=known)
+    start = reader.column(y0, len(y), "y0", constant=True)
+    sites = Sites(len(offsets[0]), offsets, symbols, _outside(reader, boundary, outside, offsets))
+    if reader.signals:
+        raise SceneError("a signal in the field of a site", where=name, expected="formulas in t")
+    laws = {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
+    state = (StateField("y", Kind.POINT, tuple(reader.coordinates), start),)
+    problem = Problem(
+        *(name, title or name, group, action, state, roots, None, laws, read_span(name, span)),
+        reader.parameters(),
+        sites=sites,
+    )
+    frozen = with_frozen_neighbours(problem)
+    check_action(orbit_of(frozen))
+    check_problem(frozen, {})
+    return problem
+
+
+def with_frozen_neighbours(scene: Problem) -> Problem:
+    """Return the problem of one site whose neighbours do not move: their coordinates are parameters.
+
+    The values of these parameters are near the initial state of a site. They are used where formulas are
+    compared; emitted code reads the states of the neighbours.
+    """
+    sites = scene.sites
+    assert sites is not None
+    start = [Fraction(float(x)).limit_denominator(1000) for x in scene.initial(FloatDomain(0.0))]
+    values = dict(scene.parameters)
+    for number, column in enumerate(sites.symbols, 1):
+        # The neighbours differ from each other and from the site, so that no difference of states vanishes.
+        shifted = [x + Fraction((7 * k + 3 * number) % 11 - 5, 97) for k, x in enumerate(start)]
+        values |= {
+            s: Number.rational(x.numerator, x.denominator) for s, x in zip(column, shifted, strict=True)
+        }
+    runtime = (*scene.runtime, *sites.names)
+    return replace(scene, parameters=values, runtime=runtime)
+
+
+def _offsets(name: str, f: Sequence[sympy.Expr], coordinates: Sequence[str]) -> tuple[Offset, ...]:
+    """Return the offsets of the neighbours in the formulas, sorted."""
+    try:
+        entries = list(f)
+    except TypeError:
+        raise SceneError(f"f is {f}", where=name, expected="a column of formulas") from None
+    symbols = {str(s) for entry in entries for s in getattr(entry, "free_symbols", ())}
+    offsets = {offset for s in symbols if (offset := offset_of(s, coordinates)) is not None}
+    if not offsets:
+        raise SceneError(
+            "a field that reads no neighbour",
+            where=name,
+            expected="formulas in neighbour(y, offset)",
+            hint="use FieldScene, and emit --batch for many independent systems",
+        )
+    lengths = {len(offset) for offset in offsets}
+    if len(lengths) > 1:
+        raise SceneError(
+            f"offsets of the lengths {', '.join(map(str, sorted(lengths)))}",
+            where=name,
+            expected="offsets with one entry for each dimension of the lattice",
+        )
+    return tuple(sorted(offsets))
+
+
+def _outside(
+    reader: Reader,
+    boundary: str,
+    outside: Sequence[sympy.Expr] | Outside | None,
+    offsets: tuple[Offset, ...],
+) -> tuple[tuple[Expr, ...], ...]:
+    """Return the formulas for the states of neighbours that do not exist, one column for each offset."""
+    if boundary not in (PERIODIC, OPEN):
+        raise SceneError(f"the boundary {boundary!r}", where=reader.name, expected=f"{PERIODIC} or {OPEN}")
+    if boundary == PERIODIC:
+        if outside is not None:
+            raise SceneError(
+                "states outside a periodic lattice",
+                where=reader.name,
+                expected=f'no argument outside, or boundary = "{OPEN}"',
+            )
+        return ()
+    columns = outside if isinstance(outside, Mapping) else dict.fromkeys(offsets, outside)
+    given = {tuple(offset): column for offset, column in columns.items() if column is not None}
+    size, listed = len(reader.coordinates), []
+    for offset in offsets:
+        if offset not in given:
+            raise SceneError(
+                f"no state for the neighbour {offset} outside the open boundary",
+                where=reader.name,
+                expected="a column of formulas in the argument outside",
+                hint="zeros, the coordinates y themselves, constants, or formulas in t",
+            )
+        listed.append(reader.column(given.pop(offset), size, f"outside {offset}"))
+    if given:
+        raise SceneError(
+            f"a state outside for the offset {next(iter(given))}, which the field does not read",
+            where=reader.name,
+            expected=f"the offsets {', '.join(map(str, offsets))}",
+        )
+    return tuple(listed)

@@ -1,0 +1,114 @@
+"""Sites: the points of a chain or lattice, each with a state of its own, and the neighbours of a site.
+
+The equation of a site contains the coordinates of its own state and those of some neighbours. A neighbour is
+named by its offset, the difference of the indices: ``(1,)`` is the right neighbour in a chain, ``(0, -1)`` a
+neighbour in a plane lattice.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
+
+import sympy
+
+from codegen.errors import SceneError
+from codegen.ir.expr import Expr
+
+MOST_DIMENSIONS, MOST_DISTANCE = 4, 8
+"""The largest dimension of a lattice, and the largest difference of an index between neighbours."""
+
+Offset = tuple[int, ...]
+
+
+def offset_text(offset: Offset) -> str:
+    """Return an offset as a part of a name.
+
+    >>> offset_text((1,)), offset_text((0, -1))
+    ('at_p1', 'at_0_m1')
+    """
+    return "at_" + "_".join(f"{'p' if x > 0 else 'm' if x < 0 else ''}{abs(x)}" for x in offset)
+
+
+_NEIGHBOUR = re.compile(r"(.+)_at_((?:0|[pm][1-9])(?:_(?:0|[pm][1-9]))*)")
+
+
+def offset_of(symbol: str, coordinates: Collection[str]) -> Offset | None:
+    """Return the offset of the neighbour to which a symbol belongs; None for any other symbol. The
+    ``coordinates`` are those of a site.
+
+    >>> offset_of("S0_at_0_m1", ["S0"]), offset_of("S0", ["S0"])
+    ((0, -1), None)
+    """
+    match = _NEIGHBOUR.fullmatch(symbol)
+    if match is None or match[1] not in coordinates:
+        return None
+    return tuple(int(x.replace("p", "").replace("m", "-")) for x in match[2].split("_"))
+
+
+def neighbour(y: Iterable[sympy.Symbol], offset: Sequence[int]) -> sympy.Matrix:
+    """Return the column of the coordinates of a neighbour's state; ``y`` are the coordinates of a site.
+
+    ``offset`` contains an integer for each dimension of the lattice. :class:`SceneError` is raised for
+    another offset, and for the offset of the site itself.
+
+    >>> S = sympy.Matrix(sympy.symbols("S0:3", real=True))
+    >>> neighbour(S, (1,)).T
+    Matrix([[S0_at_p1, S1_at_p1, S2_at_p1]])
+    """
+    try:
+        values = tuple(int(x) for x in offset)
+        exact = values == tuple(offset)
+    except (TypeError, ValueError):
+        values, exact = (), False
+    far = max(map(abs, values), default=0)
+    if not exact or not 1 <= far <= MOST_DISTANCE or len(values) > MOST_DIMENSIONS:
+        raise SceneError(
+            f"a neighbour with the offset {offset!r}",
+            expected=f"one to {MOST_DIMENSIONS} integers between -{MOST_DISTANCE} and {MOST_DISTANCE}, "
+            "not all zero, such as (1,) or (0, -1)",
+        )
+    return sympy.Matrix([sympy.Symbol(f"{symbol.name}_{offset_text(values)}", real=True) for symbol in y])
+
+
+def left(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
+    """Return the column of the coordinates of the left neighbour in a chain."""
+    return neighbour(y, (-1,))
+
+
+def right(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
+    """Return the column of the coordinates of the right neighbour in a chain."""
+    return neighbour(y, (1,))
+
+
+@dataclass(frozen=True)
+class Sites:
+    """The lattice of a scene: its dimension, the offsets of the neighbours that the field reads, and the
+    symbols of their coordinates.
+
+    If the lattice is not periodic, ``outside`` contains the formulas for the states of neighbours that do not
+    exist, one column for each offset, in the coordinates of the site itself, the time and parameters.
+    """
+
+    dimension: int
+    offsets: tuple[Offset, ...]
+    symbols: tuple[tuple[str, ...], ...]
+    outside: tuple[tuple[Expr, ...], ...] = ()
+
+    @property
+    def periodic(self) -> bool:
+        """True if the first and the last sites of each row are neighbours."""
+        return not self.outside
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The symbols of all coordinates of neighbours."""
+        return tuple(name for column in self.symbols for name in column)
+
+    def text(self) -> str:
+        """Describe the lattice in a header."""
+        kind = "chain" if self.dimension == 1 else f"lattice of dimension {self.dimension}"
+        ends = "periodic" if self.periodic else "open, with given states outside"
+        listed = ", ".join(str(o[0]) if len(o) == 1 else str(o).replace(" ", "") for o in self.offsets)
+        return f"{kind}, {ends}; the field of a site reads the neighbours {listed}"

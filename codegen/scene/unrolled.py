@@ -1,0 +1,78 @@
+"""A chain or lattice of few sites as one system: the product of the groups of all sites."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product
+from math import prod
+
+from codegen.errors import SceneError
+from codegen.groups.actions import FactorwiseAction
+from codegen.groups.product import Product
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, Space, evaluate
+from codegen.scene.problem import TIME, Problem, StateField
+from codegen.scene.sites import Offset, Sites
+
+MOST_SITES = 64
+"""The largest number of sites of an unrolled lattice: its formulas contain the state of every site."""
+
+
+def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
+    """Return a lattice of the given shape as a field on the product of the groups of its sites.
+
+    The coordinates of site 0 come first; the last index of a site changes fastest. Every site has the initial
+    state of the scene. :class:`SceneError` is raised for a scene without sites, for a shape of another
+    dimension, and for too few or too many sites.
+    """
+    sites = scene.sites
+    if sites is None:
+        raise SceneError("a scene without sites", where=scene.name, expected="a SiteScene")
+    far = [max(abs(o[e]) for o in sites.offsets) if sites.periodic else 0 for e in range(sites.dimension)]
+    if len(shape) != sites.dimension or any(n <= d for n, d in zip(shape, far, strict=True)):
+        least = ", ".join(str(d + 1) for d in far)
+        raise SceneError(f"the shape {tuple(shape)}", where=scene.name, expected=f"at least ({least}) sites")
+    number = prod(shape)
+    if number > MOST_SITES:
+        raise SceneError(f"{number} sites", where=scene.name, expected=f"at most {MOST_SITES} sites")
+    space = Space()
+    domain = ExprDomain(space)
+    symbols = [tuple(f"{s}_s{i}" for s in scene.symbols) for i in range(number)]
+    coordinates = [tuple(map(space.sym, names)) for names in symbols]
+    shared = {name: space.sym(name) for name in (TIME, *scene.parameters)}
+    roots: list[Expr] = []
+    for place, index in enumerate(product(*map(range, shape))):
+        values = shared | dict(zip(scene.symbols, coordinates[place], strict=True))
+        for k, offset in enumerate(sites.offsets):
+            there = neighbour_place(sites, index, offset, shape)
+            state = (
+                tuple(evaluate(list(sites.outside[k]), domain, values))
+                if there is None
+                else coordinates[there]
+            )
+            values |= dict(zip(sites.symbols[k], state, strict=True))
+        roots += evaluate(list(scene.roots), domain, values)
+    first = tuple(e for block in scene.state for e in block.initial)
+    flat = tuple(s for names in symbols for s in names)
+    state = (replace(scene.state[0], symbols=flat, initial=first * number),)
+    assert isinstance(state[0], StateField)
+    return replace(
+        scene,
+        group=Product(*[scene.group] * number),
+        action=FactorwiseAction(*[scene.action] * number),
+        state=state,
+        roots=tuple(roots),
+        invariants={},
+        sites=None,
+    )
+
+
+def neighbour_place(sites: Sites, index: Sequence[int], offset: Offset, shape: Sequence[int]) -> int | None:
+    """Return the number of a neighbour of a site; None if the neighbour does not exist."""
+    place = 0
+    for i, d, n in zip(index, offset, shape, strict=True):
+        if not sites.periodic and not 0 <= i + d < n:
+            return None
+        place = place * n + (i + d) % n
+    return place

@@ -1,0 +1,38 @@
+"""The Allen-Cahn equation u_t = eps u_xx + u - u^3 on six points, by the action of affine maps.
+
+H. Marthinsen's thesis, section 2.2.2: u' = L u + N(u). The group consists of the maps u -> exp(t L) u + c,
+and f(u) = (1, N(u)). Lie-Euler is the exponential Euler method exp(h L) u + h phi(h L) N(u) with phi(z) =
+(exp(z) - 1)/z, and the other methods are exponential integrators. L is the second difference on points at
+the distance 1/7, with u = 0 at both ends. The bracket of (L1, c1) and (L2, c2) has the translation L1 c2 -
+L2 c1; section 2.2.2 prints an additional c1.
+"""
+
+from sympy import Matrix, Rational, symbols
+
+from codegen.groups import AffineAction, MatrixGroup
+from codegen.scene import FieldScene
+
+n, eps = 6, Rational(1, 10)
+L = eps * (n + 1) ** 2 * Matrix(n, n, lambda i, j: {0: -2, 1: 1}.get(abs(i - j), 0))
+u = Matrix(symbols(f"u0:{n}", real=True))
+N = u - u.applyfunc(lambda x: x**3)
+
+
+def affine(linear: Matrix, translation: Matrix) -> Matrix:
+    """Return the matrix [[linear, translation], [0, 0]]."""
+    return Matrix.vstack(linear.row_join(translation), Matrix.zeros(1, n + 1))
+
+
+unit, zero = Matrix.eye(n), Matrix.zeros(n, n)
+basis = [affine(L, zero[:, 0]), *(affine(zero, unit[:, k]) for k in range(n))]
+
+scene = FieldScene(
+    title="Allen-Cahn equation on six points, affine maps",
+    group=MatrixGroup("maps exp(t L) u + c", [matrix.tolist() for matrix in basis]),
+    action=AffineAction(),
+    y=u,
+    f=[1, *N],
+    y0=[Rational(1, 2), 1, Rational(-1, 4), Rational(-3, 4), Rational(1, 2), Rational(3, 4)],
+    span=(0, 1),
+    velocity=L * u + N,
+)

@@ -1,0 +1,27 @@
+"""A point on a circle: SO(2) acts by rotation; Euler's method leaves the circle, and Lie-Euler stays on it.
+
+H. Marthinsen's thesis, Figure 1.1. z' = (w + a x) J z for z = (x, y), where J is the rotation by a right
+angle. The angular velocity w + a x depends on the point, so that both methods have errors. Compare the
+methods ``rkmk(0):euler`` and ``ambient:euler``.
+"""
+
+from sympy import Rational, symbols
+
+from codegen.groups import SO2, LeftMultiplication
+from codegen.scene import FieldScene, param
+
+x, y = symbols("x y", real=True)
+w, a = param("w", 1), param("a", Rational(1, 2))
+f = w + a * x
+
+scene = FieldScene(
+    title="Point on a circle, SO(2)",
+    group=SO2(),
+    action=LeftMultiplication(),
+    y=[x, y],
+    f=[f],
+    y0=[1, 0],
+    span=(0, 3),
+    velocity=[-f * y, f * x],
+    invariants={"radius": x**2 + y**2},
+)

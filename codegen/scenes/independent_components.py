@@ -1,0 +1,73 @@
+"""Independent components: a flow of W in SO(3) that separates three mixed signals by their kurtosis.
+
+H. Marthinsen's thesis, section 2.4.3. The sources are drawn with a fixed seed: random signs, uniform numbers,
+and sines of random angles. All have a negative kurtosis. They are mixed and whitened, so that the covariance
+matrix of the signals x is 1. The flow is the gradient flow of sum_i E[y_i^4]/4 for y = W x, which minimises
+the kurtosis: W' = Omega W with Omega_ij = E[y_i y_j^3] - E[y_i^3 y_j]. The rows of W tend to the directions
+of the sources, in some order and with some signs. The field contains the data as moments E[x_a x_b x_c x_d].
+"""
+
+from itertools import combinations_with_replacement, product
+from math import fsum, prod, sin, sqrt, tau
+from operator import mul
+from random import Random
+
+from sympy import Expr, Matrix, Rational, eye
+
+from codegen.groups import SO3, LeftMultiplication
+from codegen.scene import FieldScene
+
+SAMPLES, PLACES = 2000, range(3)
+MIXING = ((0.8, 0.5, -0.4), (-0.5, 0.9, 0.3), (0.4, -0.2, 0.7))
+
+draw = Random(2013)
+sources = [
+    [draw.choice((-1.0, 1.0)) for _ in range(SAMPLES)],
+    [draw.uniform(-1, 1) for _ in range(SAMPLES)],
+    [sin(draw.uniform(0, tau)) for _ in range(SAMPLES)],
+]
+mixed = [[sum(map(mul, row, sample)) for sample in zip(*sources, strict=True)] for row in MIXING]
+
+
+def mean(*factors: list[float]) -> float:
+    """Return the mean of the product of signals."""
+    return fsum(map(prod, zip(*factors, strict=True))) / SAMPLES
+
+
+signals: list[list[float]] = []  # by the method of Gram and Schmidt
+for signal in mixed:
+    rest = [a - mean(signal) for a in signal]
+    for other in signals:
+        share = mean(rest, other)
+        rest = [a - share * b for a, b in zip(rest, other, strict=True)]
+    length = sqrt(mean(rest, rest))
+    signals.append([a / length for a in rest])
+
+# Twelve decimals of the moments are the same on every machine.
+moments: dict[tuple[int, ...], Rational] = {
+    places: Rational(f"{mean(*(signals[k] for k in places)):.12f}")
+    for places in combinations_with_replacement(PLACES, 4)
+}
+
+G = SO3()
+W = G.point("w")
+
+
+def cubic(i: int, d: int) -> Expr:
+    """Return E[y_i^3 x_d]."""
+    terms = product(PLACES, repeat=3)
+    return sum(W[i, a] * W[i, b] * W[i, c] * moments[*sorted((a, b, c, d))] for a, b, c in terms)
+
+
+cubics = Matrix(3, 3, cubic) * W.T  # E[y_i^3 y_j]
+Omega = cubics.T - cubics
+
+scene = FieldScene(
+    title="Independent components by kurtosis, SO(3)",
+    group=G,
+    action=LeftMultiplication(),
+    y=W,
+    f=[Omega[2, 1], Omega[0, 2], Omega[1, 0]],
+    y0=eye(3),
+    span=(0, 2),
+)

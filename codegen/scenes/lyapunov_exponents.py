@@ -1,0 +1,44 @@
+"""Lyapunov exponents of Lorenz's system: frame, trajectory and integrals in one scene on St(3, k).
+
+H. Marthinsen's thesis, section 2.4.4 (the method of L. Dieci and E. Van Vleck). x' = F(x) with the Jacobian
+A, and Q has k orthonormal columns. With P = Q Q^T the generator of the frame is (1 - P) A P - P A^T (1 - P)
++ Q S Q^T, where S is skew and equals Q^T A Q below the diagonal. In (2.24) the generator is printed as A - Q
+Q^T A + Q S Q^T, which is not skew for k < 3. The integral of the i-th diagonal entry of Q^T A Q, divided by
+the time, tends to the i-th exponent: 0.9056, 0 and -14.5723 (J. C. Sprott, Chaos and Time-Series Analysis,
+Oxford 2003). SO(3) turns the frame, and R^(3 + k) translates trajectory and integrals.
+"""
+
+from sympy import Matrix, Rational, Symbol, eye, symbols
+
+from codegen.groups import SO3, FactorwiseAction, LeftMultiplication, Product, Rn, Stiefel
+from codegen.scene import FieldScene, param
+from codegen.scene.problem import Problem
+
+sigma, rho, beta = param("sigma", 10), param("rho", 28), param("beta", Rational(8, 3))
+x = Matrix(symbols("x0:3", real=True))
+F = Matrix([sigma * (x[1] - x[0]), x[0] * (rho - x[2]) - x[1], x[0] * x[1] - beta * x[2]])
+A = F.jacobian(x)
+
+
+def lyapunov(k: int) -> Problem:
+    """Return the scene for the k largest exponents, k = 1, 2 or 3."""
+    Q = Matrix(3, k, symbols(f"q0:3(0:{k})", real=True))
+    integrals = [Symbol(f"s{i}", real=True) for i in range(k)]
+    B = Q.T * A * Q
+    S = Matrix(k, k, lambda i, j: B[i, j] if i > j else -B[j, i] if i < j else 0)
+    outside = eye(3) - Q * Q.T if k < 3 else Matrix.zeros(3, 3)
+    tilt = outside * A * Q
+    W = tilt * Q.T - Q * tilt.T + Q * S * Q.T
+    rates = [B[i, i] for i in range(k)]
+    return FieldScene(
+        title="Lyapunov exponents of Lorenz's system, a frame with its trajectory",
+        group=Product(SO3(), Rn(3 + k)),
+        action=FactorwiseAction(Stiefel(k), LeftMultiplication()),
+        y=[*Q, *x, *integrals],
+        f=[W[2, 1], W[0, 2], W[1, 0], *F, *rates],
+        y0=[*eye(3)[:, :k], 1, 1, 20, *(0 for _ in rates)],
+        span=(0, 1),
+    )
+
+
+scene = lyapunov(3)

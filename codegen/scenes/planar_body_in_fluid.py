@@ -1,0 +1,29 @@
+"""Body in a planar ideal fluid: Kirchhoff's equations on se(2)*, under the coadjoint action of SE(2).
+
+The impulse of the body with the fluid, seen from the body, is (m, p, r): the angular impulse and the linear
+impulse. H = m^2/(2 J) + p^2/(2 A) + r^2/(2 B) + D m p, where A and B contain the added masses of the fluid.
+mu' = ad*_{dH} mu (H. Lamb, Hydrodynamics, 6th edition, section 124; H. Marthinsen's thesis, section 2.2.2).
+Every step keeps the Casimir function p^2 + r^2 up to rounding. ``body_in_fluid`` is the body in space.
+"""
+
+from sympy import Matrix, Rational, symbols
+
+from codegen.groups import SE2, CoadjointAction
+from codegen.scene import FieldScene, param
+
+m, p, r = symbols("m p r", real=True)
+J, A, B, D = param("J", 1), param("A", Rational(1, 3)), param("B", 2), param("D", Rational(1, 4))
+H = m**2 / (2 * J) + p**2 / (2 * A) + r**2 / (2 * B) + D * m * p
+w, u, v = (H.diff(x) for x in (m, p, r))
+
+scene = FieldScene(
+    title="Body in a planar ideal fluid, Kirchhoff's equations on se(2)*",
+    group=SE2(),
+    action=CoadjointAction(),
+    y=[m, p, r],
+    f=Matrix([-w, -u, -v]),
+    y0=[1, Rational(1, 2), Rational(-2, 3)],
+    span=(0, 4),
+    velocity=[p * v - r * u, r * w, -p * w],
+    invariants={"energy": H, "casimir": p**2 + r**2},
+)

@@ -1,0 +1,35 @@
+"""Satellite with gravity gradient and reaction wheels on a circular orbit, T*SO(3); the wheels are signals.
+
+g rotates from the body to space, and mu is the total angular momentum in space, that of the wheels included.
+The wheels carry the momenta h0, h1, h2 about the axes of the body: J w = g^T mu - h. Their motors exert
+internal torques only, so h changes w but not mu. The gravity gradient exerts the torque 3 n^2 r x I r, where
+r turns from the Earth to the satellite once an orbit, with the rate n (P. C. Hughes, Spacecraft Attitude
+Dynamics, 1986, chapters 6 and 8). The unit of time is 1/n. The formulas below are the defaults of the
+momenta: emitted code uses them for signals that are not supplied at run time.
+"""
+
+from sympy import Matrix, Rational, Symbol, cos, eye, sin
+
+from codegen.groups import SO3
+from codegen.scene import HamiltonianScene, signal
+
+G = SO3()
+g, mu, t = G.point("g"), G.dual("mu"), Symbol("t")
+J = Matrix([[12, 1, -1], [1, 10, 1], [-1, 1, 8]]) / 10
+h = Matrix([signal("h0", sin(t) / 5), signal("h1", cos(t) / 10), signal("h2", Rational(1, 5))])
+P = g.T * mu - h
+r = g.T * Matrix([cos(t), sin(t), 0])
+w, torque = g * J.inv() * P, 3 * g * r.cross(J * r)
+
+scene = HamiltonianScene(
+    title="Satellite with gravity gradient and reaction wheels, T*SO(3)",
+    group=G,
+    q=g,
+    mu=mu,
+    H=P.dot(J.inv() * P) / 2 + Rational(3, 2) * r.dot(J * r),
+    q0=eye(3),
+    mu0=[Rational(1, 2), Rational(-1, 4), 1],
+    span=(0, 3),
+    xi=w,
+    n=mu.cross(w) + torque,
+)

@@ -1,0 +1,29 @@
+"""Gradient flow on a torus: SO(2) x SO(2) acts on pairs of points of circles, x' = -grad phi.
+
+H. Marthinsen's thesis, section 2.4.1 and Figure 2.5. phi = (y - 8)^2 with y = (1 + cos theta) sin varphi is
+the squared distance of a point of the torus from the plane y = 8. The minimum 36 is at theta = 0 and varphi =
+pi/2. The points are (cos theta, sin theta) and (cos varphi, sin varphi). The printed phi is |y - 8|; the
+printed gamma and delta belong to the square, and they are the gradient, so the flow has the opposite sign.
+"""
+
+from sympy import Matrix, Rational, symbols
+
+from codegen.groups import SO2, LeftMultiplication, Product
+from codegen.scene import FieldScene
+
+a = Matrix(symbols("a0:2", real=True))
+b = Matrix(symbols("b0:2", real=True))
+C = 2 * ((1 + a[0]) * b[1] - 8)
+gamma, delta = -C * a[1] * b[1], C * (1 + a[0]) * b[0]
+
+scene = FieldScene(
+    title="Gradient flow on a torus, SO(2) x SO(2)",
+    group=Product(SO2(), SO2()),
+    action=LeftMultiplication(),
+    y=[*a, *b],
+    f=[-gamma, -delta],
+    y0=[0, 1, Rational(3, 5), Rational(-4, 5)],
+    span=(0, Rational(1, 2)),
+    velocity=[gamma * a[1], -gamma * a[0], delta * b[1], -delta * b[0]],
+    invariants={"first_radius": a.dot(a), "second_radius": b.dot(b)},
+)

@@ -1,0 +1,63 @@
+"""Wilson flow of a plaquette, the smallest lattice gauge field: SU(3)^4 acts on four link matrices.
+
+V' = -g0^2 (dS(V)) V with the Wilson action g0^2 S = 2 Re tr(1 - P), P = V0 V1 V2^H V3^H (M. Luescher,
+Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, section 2; the Runge-Kutta method
+of appendix C is the tableau ``luescher3``). For the loop P that begins with a link, the generator of the link
+is the anti-Hermitian part of -P without its trace. S decreases to 0. The links at the start are products of
+elements of SU(2) in three subgroups, drawn with a fixed seed. A link is a 6 x 3 matrix: Re V above Im V.
+"""
+
+from random import Random
+
+from sympy import Expr, Matrix, Rational, eye, symbols
+
+from codegen.groups import SU, Columns, FactorwiseAction, Product
+from codegen.scene import FieldScene
+
+draw = Random(1006)
+
+
+def full(c: Matrix) -> Matrix:
+    """Return the 6 x 6 matrix of a link; its transpose is the conjugate transpose of the link."""
+    return c.row_join(Matrix.vstack(-c[3:, :], c[:3, :]))
+
+
+def start() -> Matrix:
+    """Return a product of random elements of SU(2) in three subgroups of SU(3)."""
+    link = full(Matrix.vstack(eye(3), Matrix.zeros(3, 3)))
+    for j, k in ((0, 1), (0, 2), (1, 2)):
+        a, b, c, d = (draw.choice((-1, 1)) * Rational(x, 5) for x in draw.sample((1, 2, 2, 4), 4))
+        X, Y = eye(3), Matrix.zeros(3, 3)
+        X[j, j], X[j, k], X[k, j], X[k, k] = a, c, -c, a
+        Y[j, j], Y[j, k], Y[k, j], Y[k, k] = b, d, d, -b
+        link = link * full(Matrix.vstack(X, Y))
+    return link[:, :3]
+
+
+def generator(loop: Matrix) -> list[Expr]:
+    """Return the coordinates of the anti-Hermitian part of -P without its trace, for the loop P."""
+    X, Y = loop[:3, :], loop[3:, :]
+    pairs = [(0, 1), (0, 2), (1, 2)]
+    above = [x for j, k in pairs for x in ((X[k, j] - X[j, k]) / 2, -(Y[j, k] + Y[k, j]) / 2)]
+    mean = Y.trace() / 3
+    return [*above, mean - Y[0, 0], Y[2, 2] - mean]
+
+
+V = [Matrix(6, 3, symbols(f"v{k}_0:6(0:3)", real=True)) for k in range(4)]
+A, B, C, D = map(full, V)
+loops = [
+    A * (B * (C.T * D.T[:, :3])),
+    B * (C.T * (D.T * V[0])),
+    C * (B.T * (A.T * V[3])),
+    D * (C * (B.T * A.T[:, :3])),
+]
+
+scene = FieldScene(
+    title="Wilson flow of one plaquette of a lattice gauge field, SU(3)^4",
+    group=Product(*(SU(3) for _ in V)),
+    action=FactorwiseAction(*(Columns(3) for _ in V)),
+    y=[x for link in V for x in link],
+    f=[x for loop in loops for x in generator(loop)],
+    y0=[x for _ in V for x in start()],
+    span=(0, 1),
+)

@@ -1,0 +1,208 @@
+"""The series of schemes with two registers (2N), on a group and on a vector space.
+
+A stage computes k <- A_i k + h f(y), y <- exp(B_i k) y, from k = 0. On functions of (y, k) a step is a
+product of exponentials of two vector fields. The kick K is the derivative along dk = f(y). The drift D is the
+derivative along dy = k y. The step is therefore a sum over words in K and D. A word is an operator whose last
+letter acts first. At k = 0 only those words count that contain as many K as D and have no suffix with more K
+than D.
+
+The page docs/explanation/two_registers.md proves that the same linear combinations of words vanish on every
+group and on vector spaces. The values of a scheme on ordered forests are therefore linear combinations of its
+values on rooted forests, and the coefficients do not depend on the scheme. The order of a 2N scheme on a
+group is its order on a vector space. This module computes the coefficients, and the rooted trees whose
+conditions are independent for 2N schemes.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterator, Mapping
+from fractions import Fraction
+from functools import lru_cache
+from itertools import combinations_with_replacement
+from typing import TypeAlias
+
+from orderconds.ring.rational_matrix import kernel
+from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_vertex, symmetry, trees_of
+from orderconds.trees.rooted import rooted_trees
+
+Operator: TypeAlias = "tuple[Operator | None, ...]"
+"""A product of derivatives of a function, the leftmost first: None is the derivative along k, and a tuple is
+the derivative along the elementary differential of f with the derivatives in the tuple."""
+
+Combination = dict[Operator, int]
+
+
+def words(order: int) -> tuple[str, ...]:
+    """Return the words in K and D that have ``order`` letters each and in which no suffix contains more K
+    than D.
+
+    >>> words(2)
+    ('KKDD', 'KDKD')
+    """
+
+    def extend(suffix: str, drifts: int, kicks: int) -> Iterator[str]:
+        if drifts == kicks == order:
+            yield suffix
+        if drifts < order:
+            yield from extend("D" + suffix, drifts + 1, kicks)
+        if kicks < drifts:
+            yield from extend("K" + suffix, drifts, kicks + 1)
+
+    return tuple(extend("", 0, 0))
+
+
+def on_group(word: str) -> dict[Forest, int]:
+    """Return the operator of a word on a group, as a combination of ordered forests.
+
+    >>> from orderconds.trees.levels import text
+    >>> {text(forest): n for forest, n in on_group("KDKD").items()}
+    {'. .': 1, '[.]': 1}
+    """
+    return {_levels(product): n for product, n in _applied(word, True).items()}
+
+
+def on_vector_space(word: str) -> dict[Forest, int]:
+    """Return the operator of a word on a vector space, as a combination of forests of rooted trees. The trees
+    are canonical, and the forest contains them in descending order.
+
+    >>> from orderconds.trees.levels import text
+    >>> {text(forest): n for forest, n in on_vector_space("KDKDKD").items()}
+    {'. . .': 1, '[.] .': 3, '[..]': 1, '[[.]]': 1}
+    """
+    return {unordered(_levels(product)): n for product, n in _applied(word, False).items()}
+
+
+def unordered(forest: Forest) -> Forest:
+    r"""Return the forest of canonical rooted trees, in descending order, that an ordered forest becomes if
+    the order of branches and of trees is forgotten.
+
+    >>> unordered(b"\0\0\1")
+    b'\x00\x01\x00'
+    """
+    return b"".join(sorted(map(canonical, trees_of(forest)), reverse=True))
+
+
+def rooted_forests(order: int) -> tuple[Forest, ...]:
+    """Return the forests of rooted trees with ``order`` vertices, from many trees to one tree.
+
+    >>> from orderconds.trees.levels import text
+    >>> [text(forest) for forest in rooted_forests(3)]
+    ['. . .', '[.] .', '[[.]]', '[..]']
+    """
+
+    def extend(left: int, largest: int) -> Iterator[Forest]:
+        if left == 0:
+            yield b""
+        for vertices in range(min(left, largest), 0, -1):
+            trees = tuple(rooted_trees(vertices))
+            for count in range(left // vertices, 0, -1):
+                for chosen in combinations_with_replacement(trees, count):
+                    for rest in extend(left - count * vertices, vertices - 1):
+                        yield b"".join(chosen) + rest
+
+    forests = {unordered(forest): None for forest in extend(order, order)}
+    return tuple(sorted(forests, key=lambda forest: -len(trees_of(forest))))
+
+
+@lru_cache(maxsize=16)
+def independent_trees(order: int) -> tuple[Tree, ...]:
+    """Return rooted trees with ``order`` vertices on which the values of 2N schemes are independent: together
+    with the values on smaller trees they determine the values on all trees with ``order`` vertices.
+
+    >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
+    ([1, 1, 2, 4, 9], 9)
+    """
+    forests = rooted_forests(order)
+    rows = [[operator.get(u, 0) for u in forests] for operator in map(on_vector_space, words(order))]
+    dependent = {vector[0][0] for vector in kernel(rows, len(forests))}
+    trees = {u for place, u in enumerate(forests) if place not in dependent and len(trees_of(u)) == 1}
+    return tuple(tree for tree in rooted_trees(order) if tree in trees)
+
+
+@lru_cache(maxsize=16)
+def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
+    """Return the value of a 2N scheme on each ordered forest with ``order`` vertices as a combination of its
+    values on rooted forests, {ordered forest: {rooted forest: coefficient}}.
+
+    The value on a rooted forest is the product of the elementary weights of its trees. The result holds for
+    every 2N scheme and for the exact flow. Raises ValueError if an ordered forest is no such combination; by
+    the theorem this does not happen.
+
+    >>> from orderconds.trees.levels import text
+    >>> {text(w): {text(u): str(x) for u, x in row.items()} for w, row in in_rooted_forests(2).items()}
+    {'[.]': {'[.]': '1'}, '. .': {'. .': '1/2'}}
+    """
+    from orderconds.trees.ordered import ordered_forests
+
+    rooted, ordered, both = rooted_forests(order), tuple(ordered_forests(order)), words(order)
+    left, right = [on_vector_space(word) for word in both], [on_group(word) for word in both]
+    rows = [
+        [*(x.get(u, 0) for u in rooted), *(y.get(w, 0) for w in ordered)]
+        for x, y in zip(left, right, strict=True)
+    ]
+    relations: dict[Forest, dict[Forest, Fraction]] = {}
+    for (place, _), *rest in kernel(rows, len(rooted) + len(ordered)):
+        if place >= len(rooted):
+            if any(pivot >= len(rooted) for pivot, _ in rest):
+                raise ValueError(f"an ordered forest of order {order} is no combination of rooted forests")
+            relations[ordered[place - len(rooted)]] = {rooted[p]: -x / _symmetry(rooted[p]) for p, x in rest}
+    if len(relations) < len(ordered):
+        raise ValueError(f"only {len(relations)} of {len(ordered)} ordered forests are combinations")
+    return {forest: relations[forest] for forest in ordered}
+
+
+def _symmetry(forest: Forest) -> int:
+    """Return the order of the symmetry group of a forest: the value of a method on the forest divided by
+    this number is the coefficient of the elementary differential operator."""
+    return symmetry(rooted_at_new_vertex(forest))
+
+
+@lru_cache(maxsize=1 << 12)
+def _applied(word: str, ordered: bool) -> Combination:
+    """Return the operator of a word. The last letter acts first."""
+    result: dict[Operator, int] = defaultdict(int)
+    if not word:
+        return {(): 1}
+    act = _drift if word[0] == "D" else _kick
+    for product, n in _applied(word[1:], ordered).items():
+        for image, m in act(product, ordered).items():
+            result[image] += n * m
+    return dict(result)
+
+
+@lru_cache(maxsize=1 << 16)
+def _drift(product: Operator, ordered: bool) -> Combination:
+    """Differentiate along k: the new derivative acts last on the function, or on one of the fields f."""
+    result = Counter({_arranged((None, *product), ordered): 1})
+    result.update(_within(product, _drift, ordered))
+    return dict(result)
+
+
+@lru_cache(maxsize=1 << 16)
+def _kick(product: Operator, ordered: bool) -> Combination:
+    """Replace each k in turn by f."""
+    result: Counter[Operator] = Counter()
+    for place, factor in enumerate(product):
+        if factor is None:
+            result[_arranged((*product[:place], (), *product[place + 1 :]), ordered)] += 1
+    result.update(_within(product, _kick, ordered))
+    return dict(result)
+
+
+def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
+    """Apply a letter inside each factor that is a derivative along an elementary differential."""
+    result: Counter[Operator] = Counter()
+    for place, factor in enumerate(product):
+        if factor is not None:
+            for image, n in act(factor, ordered).items():
+                result[_arranged((*product[:place], image, *product[place + 1 :]), ordered)] += n
+    return result
+
+
+def _arranged(product: Operator, ordered: bool) -> Operator:
+    return product if ordered else tuple(sorted(product, key=repr))
+
+
+def _levels(product: Operator) -> Forest:
+    return b"".join(rooted_at_new_vertex(_levels(factor)) for factor in product if factor is not None)

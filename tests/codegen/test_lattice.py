@@ -1,0 +1,273 @@
+"""Chains and lattices: emitted C against the product of all sites, orders, boundaries, errors."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from functools import cache
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from codegen import emit, load, load_lattice
+from codegen.arrival import Status
+from codegen.emitter import compile_method
+from codegen.errors import MethodError, SceneError
+from codegen.ir.domain import PreciseDomain
+from codegen.ir.interpret import interpret
+from codegen.ir.precision import DOUBLE
+from codegen.lower import lower, method_for
+from codegen.printers.c.module import FLAGS, VECTOR_FLAGS
+from codegen.run.execute import Machine
+from codegen.run.plan import Plan
+from codegen.run.unit import unit_of
+from codegen.scene import SiteScene, neighbour
+from codegen.scene.unrolled import unrolled
+from orderconds.cli import program
+from orderconds.errors import InputError
+from tests.codegen.chains import START, S, chain, open_chain, open_plane, oscillators, plane
+
+SCENES = {"chain": chain, "open_chain": open_chain, "plane": plane, "open_plane": open_plane}
+SHAPES = {1: (4,), 2: (2, 3)}
+
+
+@cache
+def module(name, method):
+    scene = {**SCENES, "oscillators": oscillators}[name]()
+    return load_lattice(emit(scene, method, target="c"))
+
+
+def states(shape, seed=1, size=3):
+    found = np.random.default_rng(seed).normal(size=(*shape, size))
+    return found / np.linalg.norm(found, axis=-1, keepdims=True)
+
+
+@pytest.mark.parametrize(
+    ("name", "method", "shape"),
+    [
+        pytest.param("chain", "cf:cf4", (4,), marks=pytest.mark.slow),
+        pytest.param("chain", "cf:cf4", (2,), marks=pytest.mark.slow),
+        pytest.param("chain", "rkmk:rk4", (4,), marks=pytest.mark.slow),
+        pytest.param("chain", "cg:cg3", (4,), marks=pytest.mark.slow),
+        pytest.param("chain", "ambient:rk4", (4,), marks=pytest.mark.slow),
+        pytest.param("open_chain", "cf:cf4", (4,), marks=pytest.mark.slow),
+        pytest.param("open_chain", "cf:cf4", (1,), marks=pytest.mark.slow),
+        pytest.param("plane", "cf:cf4", (2, 3), marks=pytest.mark.slow),
+        pytest.param("plane", "rkmk(0):euler", (2, 6), marks=pytest.mark.slow),
+        pytest.param("open_plane", "rkmk:rk4", (3, 4), marks=pytest.mark.slow),
+        pytest.param("oscillators", "rk:rk4", (4,), marks=pytest.mark.slow),
+    ],
+)
+def test_a_lattice_is_the_product_of_its_sites(name, method, shape):
+    lattice = module(name, method)
+    whole = load(emit(unrolled({**SCENES, "oscillators": oscillators}[name](), shape), method, target="c"))
+    start = states(shape, size=lattice.interface.size)
+    for h, steps in ((0.1, 7), (0.7, 2)):
+        found = lattice.run(start, h, steps, t=0.3)
+        expected = whole.run(start.ravel().tolist(), h, steps, t=0.3)
+        assert (found.status, found.completed) == (Status.OK, steps)
+        assert np.abs(found.states.ravel() - expected).max() < 2e-14
+
+
+def test_a_step_in_forty_digits_is_the_step_of_the_product():
+    scene, method = open_chain(), "rkmk(2):rk4"
+    plan, domain = Plan(compile_method(scene, method).kernel, DOUBLE), PreciseDomain(0, 40)
+    machine, whole = Machine(unit_of(plan), domain), unrolled(scene, (3,))
+    start = [domain.rational(k * k % 7 - 3, 5) for k in range(9)]
+    h, t = domain.rational(1, 7), domain.rational(1, 3)
+    rows = [start[3 * i + k] for k in range(3) for i in range(3)]
+    assert plan.kernel.sites is not None
+    work = [domain.rational(0)] * (3 * plan.kernel.sites.workspace)
+    assert machine.call("run", [3], rows, t, h, 1, work, [0]) == Status.OK
+    program = lower(whole, method_for(whole, method))
+    expected = interpret(program, whole, replaced(domain, h), {"y": tuple(start), "t": t})["y"]
+    errors = [abs(rows[3 * k + i] - expected[3 * i + k]) for k in range(3) for i in range(3)]
+    # The coefficients of a kernel are exact, so all forty digits agree.
+    assert max(errors) < domain.rational(1, 10**36)
+
+
+def replaced(domain, h):
+    """Return a domain in which the step size is h."""
+    return PreciseDomain(h, 40)
+
+
+@pytest.mark.parametrize(
+    ("name", "method", "order"),
+    [
+        ("chain", "cf:cf4", 4),
+        pytest.param("open_chain", "cg:cg3", 3, marks=pytest.mark.slow),
+        pytest.param("open_plane", "rkmk(0):euler", 1, marks=pytest.mark.slow),
+    ],
+)
+def test_the_order_is_seen_from_below_and_above(name, method, order):
+    lattice, reference = module(name, method), module(name, "cf:cf4")
+    start = states(SHAPES[lattice.interface.dimension])
+    exact = reference.run(start, 1 / 1024, 1024, t=0.2).states
+    counts = (32, 64) if order > 1 else (512, 1024)
+    errors = [np.abs(lattice.run(start, 1 / n, n, t=0.2).states - exact).max() for n in counts]
+    slope = np.log2(errors[0] / errors[1])
+    assert order - 0.15 < slope < order + 0.35
+
+
+def test_loops_over_many_sites_have_the_bits_of_single_sites():
+    # In a chain of four sites, two are computed by the loop; in a long chain nearly all.
+    lattice = module("chain", "cf:cf4")
+    start = states((4,))
+    short = lattice.run(start, 0.1, 5).states
+    tiled = lattice.run(np.tile(start, (1000, 1)), 0.1, 5).states
+    assert np.array_equal(tiled, np.tile(short, (1000, 1)))
+
+
+def test_large_angles_use_the_complete_functions():
+    lattice = module("chain", "cf:cf4")
+    result = lattice.run(states((5,)), 40.0, 3)
+    assert result.ok
+    assert np.abs(np.linalg.norm(result.states, axis=-1) - 1).max() < 1e-14
+
+
+def test_a_failed_step_leaves_the_last_good_state():
+    lattice = module("oscillators", "rk:rk4")
+    start = states((5,), size=2)
+    result = lattice.run(start, 1e150, 9)
+    assert (result.status, result.ok) == (Status.NOT_FINITE, False)
+    assert result.completed < 9
+    assert np.isfinite(result.states).all()
+    assert "not finite" in result.reason
+    if result.completed == 0:
+        assert np.array_equal(result.states, start)
+    assert lattice.run(start, np.inf, 1).status == Status.BAD_STEP
+
+
+@pytest.mark.slow
+def test_a_million_spins_run():
+    lattice = module("plane", "cf:cf4")
+    result = lattice.run(states((1000, 1000)), 0.05, 3)
+    assert result.ok
+    assert np.abs(np.linalg.norm(result.states, axis=-1) - 1).max() < 1e-14
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (np.zeros((0, 3)), r"expected an array of shape \(n1, 3\), found an array of shape \(0, 3\)"),
+        (np.zeros((4, 2)), r"expected an array of shape \(n1, 3\)"),
+        (np.zeros(3), r"expected an array of shape \(n1, 3\)"),
+        ([[1, 2, 3], [4, 5]], "rows of different lengths"),
+        (np.array([["a"] * 3] * 4), "expected real numbers"),
+        (np.ones((1, 3)), r"expected more sites, found a lattice of shape \(1,\)"),
+        ([[1, 0, 0], [np.nan, 0, 0], [0, 0, 1]], r"found the state \[nan, 0.0, 0.0\] of site \(1,\)"),
+    ],
+)
+def test_states_of_another_form_are_refused(given, message):
+    with pytest.raises(ValueError, match=message):
+        module("chain", "cf:cf4").run(given, 0.1, 1)
+
+
+def test_more_sites_than_memory_are_refused():
+    import codegen.lattice as lattices
+
+    class Short(lattices.CompiledLattice):
+        def _call(self, *arguments):
+            raise AssertionError("not reached")
+
+    lattice = module("chain", "cf:cf4")
+    narrow = object.__new__(Short)
+    narrow.interface = type(lattice.interface)(**{**vars(lattice.interface), "workspace": 2**50})
+    narrow.defaults = {}
+    with pytest.raises(InputError, match="numbers of workspace"):
+        narrow.run(states((4,)), 0.1, 1)
+
+
+def test_arguments_are_named_in_errors():
+    lattice = module("chain", "cf:cf4")
+    with pytest.raises(TypeError, match="unknown parameter nu"):
+        lattice.run(states((4,)), 0.1, 1, nu=1.0)
+    with pytest.raises(TypeError, match="steps"):
+        lattice.run(states((4,)), 0.1, 1.5)
+
+
+def test_parameters_are_arguments_at_run_time():
+    free = load_lattice(emit(chain(), "cf:cf4", target="c", parameters=["K"]))
+    fixed = module("chain", "cf:cf4")
+    start = states((4,))
+    assert np.array_equal(free.run(start, 0.1, 5).states, fixed.run(start, 0.1, 5).states)
+    assert not np.allclose(free.run(start, 0.1, 5, K=2.0).states, fixed.run(start, 0.1, 5).states)
+
+
+def site_scene(**options):
+    given = {"group": chain().group, "action": chain().action, "y": S, "f": neighbour(S, (1,)), "y0": START}
+    return SiteScene(**(given | {"span": (0, 1)} | options))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"f": S}, "a field that reads no neighbour"),
+        ({"f": neighbour(S, (1,)) + neighbour(S, (1, 0))}, "offsets of the lengths 1, 2"),
+        ({"f": 1}, "f is 1"),
+        ({"boundary": "closed"}, "the boundary 'closed'"),
+        ({"outside": [0, 0, 0]}, "states outside a periodic lattice"),
+        ({"boundary": "open"}, r"no state for the neighbour \(1,\) outside the open boundary"),
+        ({"boundary": "open", "outside": {(-1,): [0, 0, 0]}}, r"no state for the neighbour \(1,\)"),
+        ({"boundary": "open", "outside": {(1,): S, (2,): S}}, r"the offset \(2,\), which the field"),
+        ({"boundary": "open", "outside": [0, 0]}, "has 2 components"),
+        ({"y0": [1, 1]}, "y0 has 2 components"),
+        ({"invariants": {"first": S[0]}}, "the invariant first changes"),
+    ],
+)
+def test_contradictory_scenes_are_refused(options, message):
+    with pytest.raises(SceneError, match=message):
+        site_scene(**options)
+
+
+@pytest.mark.parametrize("offset", [(0,), (0, 0), (9,), (1.5,), "a", (), (1, 0, 0, 0, 0), 3])
+def test_impossible_offsets_are_refused(offset):
+    with pytest.raises(SceneError, match="a neighbour with the offset"):
+        neighbour(S, offset)
+
+
+def test_other_methods_and_targets_are_refused():
+    with pytest.raises(MethodError, match="implicit stages"):
+        emit(chain(), "rkmk:gauss2", target="c")
+    with pytest.raises(MethodError, match="an error estimate for a chain or lattice"):
+        emit(chain(), "cf:cf43", target="c", adaptive=True)
+    with pytest.raises(InputError, match="target with chains and lattices"):
+        emit(chain(), "cf:cf4", target="python")
+    with pytest.raises(InputError, match="load_lattice"):
+        load(emit(chain(), "cf:cf4", target="c"))
+    with pytest.raises(InputError, match="single system"):
+        load_lattice(emit("free_rigid_body", "cf:cf4", target="c"))
+    with pytest.raises(SceneError, match="at least"):
+        unrolled(chain(), (1,))
+    with pytest.raises(SceneError, match="at most"):
+        unrolled(chain(), (65,))
+
+
+def test_explain_shows_the_loops_and_the_memory_traffic(tmp_path):
+    from pathlib import Path
+
+    file = Path(__file__).parents[2] / "examples" / "lattice" / "spin_lattice.py"
+    answer = CliRunner().invoke(program, ["emit", str(file), "-m", "cf:cf4", "--explain"])
+    assert answer.exit_code == 0
+    assert "loop 4: f4 = field(Y4)" in answer.output
+    assert "workspace: 18 numbers for each site, 144 bytes" in answer.output
+    assert "264 bytes read and 168 bytes written for each site and step" in answer.output
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+def test_loops_become_vector_instructions(tmp_path, compiler):
+    if shutil.which(compiler) is None:
+        pytest.skip(f"{compiler} is missing")
+    artifact = emit(chain(), "cf:cf4", target="c")
+    artifact.write(tmp_path)
+    report = {"gcc": ["-fopt-info-vec-optimized"], "clang": ["-Rpass=loop-vectorize"]}[compiler]
+    source = next(name for name in artifact.files if name.endswith(".c"))
+    command = [compiler, *FLAGS, *VECTOR_FLAGS, *report, "-c", source, "-o", "out.o"]
+    answer = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    found = {int(x.split(":")[1]) for x in answer.stderr.splitlines() if "vectorized" in x and source in x}
+    lines = artifact.files[source].splitlines()
+    loops = [k + 1 for k, x in enumerate(lines) if "i < number" in x]
+    assert len(loops) == 4
+    assert set(loops) <= found
