@@ -42,8 +42,8 @@ class TimeMatrix:
     @cached_property
     def offsets(self) -> tuple[int, ...]:
         """The offsets of the diagonals of a banded matrix; the main diagonal comes first."""
-        found = {d.offset for _, matrix in self.terms for d in matrix.diagonals}
-        return tuple(sorted(found, key=lambda x: (abs(x), x)))
+        offsets = {d.offset for _, matrix in self.terms for d in matrix.diagonals}
+        return tuple(sorted(offsets, key=lambda x: (abs(x), x)))
 
     @property
     def filled(self) -> int:

@@ -118,11 +118,11 @@ class _Step:
         return tuple(map(self.letter, sorted(self._letters(element))))
 
     def _letters(self, element: Element) -> set[int]:
-        found = set() if element.letter is None else {element.letter}
+        numbers = set() if element.letter is None else {element.letter}
         for _, number_of in element.commutators:
             for part in self.step.commutators[number_of]:
-                found |= self._letters(part)
-        return found
+                numbers |= self._letters(part)
+        return numbers
 
     def name(self, element: Element) -> str:
         """Return the name of the function that applies an element with commutators."""

@@ -114,12 +114,12 @@ class StoredMatrix(ABC):
 
     def before(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term) -> list[Statement]:
         """Return the statements that compute the indices as numbers, as far as the entries read them."""
-        found: dict[str, Statement] = {}
+        indices: dict[str, Statement] = {}
         for _, given, table in entries:
             for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
                 assert isinstance(statement, Assign)
-                found.setdefault(statement.target.text, statement)
-        return list(found.values())
+                indices.setdefault(statement.target.text, statement)
+        return list(indices.values())
 
     def hoist(self, given: Entry) -> Entry:
         """Return an entry with names for its parts without indices."""
