@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 import sympy
 from click.testing import CliRunner
+from scipy.linalg import expm
 
 from codegen.certify import certified_order
 from codegen.emitter import compile_method, emit
@@ -228,6 +229,22 @@ class TestLargeMatrices:
         for n in (300, 900):
             files = emit(tridiagonal(n), label, target, prefix="columns").files
             texts.append([re.sub(r"\d+", "#", line) for text in files.values() for line in text.splitlines()])
+        assert texts[0] == texts[1]
+
+    @pytest.mark.slow
+    def test_rotations_are_square_matrices_and_their_text_does_not_depend_on_the_size(self):
+        texts = []
+        for n in (8, 12):
+            X, A = unknown(n, n), banded(n, {-1: -1, 1: 1})
+            # V = Omega X with the skew matrix Omega = A + X A X^T
+            scene = StiefelScene(x=X, velocity=A @ X + X @ A, span=(0, 1), name="turns")
+            artifact = emit(scene, QUICK, "c", prefix="turns")
+            source = artifact.files["turns.c"].partition("*/")[2]
+            texts.append([re.sub(r"\d+", "#", line) for line in source.splitlines()])
+            start = np.linalg.qr(np.random.default_rng(n).normal(size=(n, n)))[0]
+            a = np.diag([1] * (n - 1), 1) - np.diag([1] * (n - 1), -1)
+            after = np.array(load_module(artifact).step(start.ravel().tolist(), 0.125)).reshape(n, n)
+            assert np.abs(after - expm(0.125 * (a + start @ a @ start.T)) @ start).max() < 1e-14
         assert texts[0] == texts[1]
 
     @pytest.mark.parametrize("label", ["rkmk(0):euler", "rkmk:rk4", "cf:cf4"])
