@@ -168,7 +168,6 @@ def test_json_of_a_report_has_the_documented_keys() -> None:
         "orders",
         "properties",
         "work",
-        "low_storage",
     ]
     (found,) = record["orders"].values()  # type: ignore[attr-defined]
     assert list(found) == ["claimed", "order", "verdict", "certificate", "failing", "error_norm"]
