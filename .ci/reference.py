@@ -24,7 +24,16 @@ GROUPS = {
     "Conditions and trees": ("derive", "trees", "series", "modified"),
     "Tableaux": ("check", "solve", "extend", "refine", "construct", "convert", "table", "list", "cite"),
     "Integrators": ("emit", "regenerate"),
-    "Measurements": ("converge", "localerror", "bench", "longrun", "stability", "recommend", "report"),
+    "Measurements": (
+        "converge",
+        "localerror",
+        "bench",
+        "longrun",
+        "stability",
+        "recommend",
+        "report",
+        "figure",
+    ),
 }
 """The chapters of the page of commands. Other commands form the last chapter."""
 

@@ -8,7 +8,8 @@ integrators run in every form, too, with the loosest tolerance that reaches the 
 timed in turns by the same protocol (:func:`codegen.lab.timing.span_times`), and the least CPU time counts: a
 short run is continued over several spans, and the overhead of a call from Python is subtracted. A
 ratio above 1 means that the emitted method is faster. With -o the table is also written to decades.md and
-decades.json. Progress is written to stderr. A scene takes about 80 seconds.
+decades.json. If all scenes and all decades are measured, the table is written to README.md. Progress is
+written to stderr. A scene takes about 80 seconds.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import json
 import math
 import sys
 import time
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import SimpleNamespace
@@ -35,6 +37,7 @@ from codegen.lab.reference import Reference
 from codegen.lab.timing import Overhead
 from orderconds.errors import InputError
 
+MARK, END = "<!-- decades.py writes what follows -->", "<!-- up to here -->"
 PEERS = ("heyoka", "c-dop853")
 DECADES = tuple(range(3, 13))
 QUICK = (4, 8, 12)
@@ -147,6 +150,49 @@ def line(row: dict[str, object]) -> str:
     return f"| {' | '.join(cells)} |"
 
 
+INTRODUCTION = """\
+## The fastest emitted method at each decade
+
+`decades.py` searches the library for the fastest emitted method on every scene of the gallery, for each error
+at the end of the span, as `orderconds recommend` does. It compares this method with heyoka and with DOP853 in
+C. All of them run in every classical form of the equations, and the fastest form counts. The fastest runs are
+timed in turns.
+
+- *µs*: the least CPU time of the emitted method in microseconds.
+- *its time / ours*: the CPU time of the peer divided by the time of the emitted method. Above 1, the emitted
+  method is faster. Ratios below 1 are bold.
+- *not reached*: no run has an error that is small enough.
+"""
+
+
+def verdict(rows: Sequence[Mapping[str, object]]) -> str:
+    """Return sentences: in how many rows the emitted method is the fastest, and which rows are lost."""
+
+    def named(chosen: list[Mapping[str, object]]) -> str:
+        return ", ".join(f"{row['scene']} at {row['error']:.0e}" for row in chosen)
+
+    def lost(row: Mapping[str, object]) -> bool:
+        ratios = [row[f"{name} ratio"] for name in PEERS]
+        return any(isinstance(x, float) and x < 1 for x in ratios)
+
+    slower = [row for row in rows if row["seconds"] is not None and lost(row)]
+    missed = [row for row in rows if row["seconds"] is None]
+    won = len(rows) - len(slower) - len(missed)
+    lines = [f"The emitted method is at least as fast as the peers in {won} of {len(rows)} cases."]
+    lines += [f"A peer is faster: {named(slower)}."] if slower else []
+    lines += [f"No emitted method reaches the error: {named(missed)}."] if missed else []
+    return "\n".join(lines)
+
+
+def write(rows: Sequence[dict[str, object]], page: Path) -> None:
+    """Write the table to the page, in place of the earlier table."""
+    before, _, after = page.read_text(encoding="utf-8").partition(MARK)
+    rest = after.partition(END)[2]
+    table = "\n".join([*HEAD, *map(line, rows)])
+    text = f"{MARK}\n{INTRODUCTION}\n{table}\n\n{verdict(rows)}\n\n{END}"
+    page.write_text(f"{before.rstrip()}\n\n{text}{rest or chr(10)}", encoding="utf-8")
+
+
 HEAD = (
     "| scene | error | emitted method | µs | heyoka | its time / ours | DOP853 in C | its time / ours |",
     "|---|---|---|---|---|---|---|---|",
@@ -188,6 +234,8 @@ def main() -> int:
         (arguments.output / "decades.json").write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
         text = "\n".join([*HEAD, *map(line, rows)]) + "\n"
         (arguments.output / "decades.md").write_text(text, encoding="utf-8")
+    if arguments.scenes == list(scenes.names()) and not arguments.quick and not failed:
+        write(rows, Path(__file__).with_name("README.md"))
     ratios = [row[f"{name} ratio"] for row in rows for name in PEERS]
     return int(failed > 0 or any(isinstance(x, float) and x < 1 for x in ratios))
 

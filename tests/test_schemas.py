@@ -62,6 +62,7 @@ SLOW = [
     ("localerror", "dipole --method cf:cf4"),
     ("bench", "free_rigid_body --method cf:cf4 --adaptive ambient:dop853 --against c --budget 0.001"),
     ("longrun", "dipole --method vcg:midpoint --steps 400"),
+    ("figure", "duffing frozen -o frozen.svg"),
     ("stability", "driven_spin --method cf:cf4 --quick"),
     ("recommend", "free_rigid_body --error 1e-4 --tableau cf4 --budget 5"),
     ("recommend", "free_rigid_body --error 1e-30 --tableau cf4 --budget 5"),

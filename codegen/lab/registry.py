@@ -20,6 +20,7 @@ AnyMeasurement: TypeAlias = Measurement[Any]
 
 BUILT_IN = (
     "codegen.lab.measurements.advice:Advice",
+    "codegen.lab.measurements.figures:Figures",
     "codegen.lab.measurements.orders:Orders",
     "codegen.lab.measurements.cost:Cost",
     "codegen.lab.measurements.stability:StabilityTests",

@@ -40,6 +40,7 @@ from codegen.scene.values import Bindings
 
 if TYPE_CHECKING:
     from codegen.scene.evolution import Evolution
+    from codegen.scene.figure import Figure
     from codegen.scene.matrix_field import MatrixField
     from codegen.scene.matrix_step import MatrixStep
     from codegen.scene.sites import Sites
@@ -79,7 +80,8 @@ class Problem:
     of the time (:mod:`codegen.scene.linear_extension`). ``steps`` are the steps that the scene states as
     functions of matrices (:mod:`codegen.scene.matrix_step`). If ``sites`` is given, the problem is the
     equation of one site of a lattice, and ``roots`` also contain the coordinates of neighbours
-    (:mod:`codegen.scene.sites`). ``derived`` stores the problems that families derive from this problem, by
+    (:mod:`codegen.scene.sites`). ``figures`` are the figures that the file of the scene declares
+    (:mod:`codegen.scene.figure`). ``derived`` stores the problems that families derive from this problem, by
     the kind of the family. A search uses each of them for hundreds of methods.
     """
 
@@ -110,6 +112,7 @@ class Problem:
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     steps: Mapping[str, MatrixStep] = field(default_factory=dict)
     sites: Sites | None = None
+    figures: tuple[Figure, ...] = field(default=(), repr=False, compare=False)
     derived: dict[str, Problem] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property

@@ -22,6 +22,7 @@ from pathlib import Path
 
 from codegen.errors import SceneError
 from codegen.scene.extended_phase_space import extended
+from codegen.scene.figure import read_figures
 from codegen.scene.problem import Problem
 from codegen.scene.run_time import with_runtime
 from codegen.scene.stiff_variant import StiffVariant
@@ -164,8 +165,9 @@ def file_stem(scene: Problem) -> str:
 
 def _load(name: str) -> Problem:
     if name in GALLERY:
-        scene: Problem = import_module(f"codegen.scenes.{name}").scene
-        return replace(scene, name=name)
+        module = import_module(f"codegen.scenes.{name}")
+        scene: Problem = module.scene
+        return replace(scene, name=name, figures=read_figures(name, vars(module).get("figures", ())))
     if name in _REGISTERED:
         return _REGISTERED[name][0]
     path = Path(name)
@@ -213,6 +215,7 @@ def _run(name: str, path: Path) -> Problem:
         raise SceneError(
             "no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)"
         )
+    scene = replace(scene, figures=read_figures(name, names.get("figures", ())))
     return _named(scene, path.stem, names.get("__doc__") or "")
 
 

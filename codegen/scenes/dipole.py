@@ -13,6 +13,7 @@ from sympy import Matrix, Rational, diag, sqrt
 
 from codegen.groups import SO3
 from codegen.scene import HamiltonianScene, param
+from codegen.scene.figure import Deviation, Orders, Run
 from codegen.scene.run_time import with_runtime
 from codegen.scene.stiff_variant import StiffVariant
 
@@ -37,6 +38,41 @@ scene = HamiltonianScene(
     mu0=g0 * I * g0.T * e2,
     span=(0, Rational(1, 2)),
 )
+
+figures = [
+    Orders(
+        name="orders",
+        title="Errors on the dipole against the step size",
+        caption="The error is |mu - mu_ref| + |g - g_ref| at t = 1/2, with the spectral norm of the matrix.",
+        source="Fig. 3.2 of the thesis",
+        halvings=5,
+        orders=(2, 3, 4, 6),
+        runs=(
+            Run("vrkmk(0):gauss1", 0.1, 0),
+            Run("vrkmk(1):kutta3", 0.1, 0),
+            Run("vrkmk(2):gauss2", 0.1, 0),
+            Run("vrkmk(4):gauss3", 0.1, 0),
+            Run("vcg:midpoint", 0.1, 0),
+            Run("vcg:triple_jump", 0.1, 0),
+            Run("vcg:yoshida6", 0.1, 0),
+        ),
+    ),
+    Deviation(
+        name="energy",
+        title="Energy error on the dipole over 100 000 steps",
+        caption="Steps of size 0.01. Each point is the maximum of 1000 steps.",
+        source="Fig. 3.3 of the thesis",
+        quantity="energy",
+        axis="largest energy error",
+        window=1000,
+        runs=(
+            Run("vrkmk(0):gauss1", 0.01, 100_000),
+            Run("vcg:midpoint", 0.01, 100_000),
+            Run("vrkmk(2):gauss2", 0.01, 100_000),
+            Run("vcg:triple_jump", 0.01, 100_000),
+        ),
+    ),
+]
 
 
 def stiff_variants() -> list[StiffVariant]:

@@ -14,6 +14,7 @@ from sympy import Expr, Matrix, Rational
 
 from codegen.groups import Action, LeftMultiplication, LieGroup, Rn
 from codegen.scene import FieldScene
+from codegen.scene.figure import PlaneCurves, Run, Sweep
 from codegen.scene.problem import Problem
 
 z = Rn(2).point("z")
@@ -39,3 +40,22 @@ def duffing(frame: str, group: LieGroup, action: Action, f: Sequence[Expr]) -> P
 
 
 scene = duffing("translations of the plane", Rn(2), LeftMultiplication(), field)
+
+step_sizes = Sweep("h", 0.0, 20.0, 800)
+figures = [
+    PlaneCurves(
+        name="frozen",
+        title="Flows of the frozen fields of Duffing's equation",
+        caption="One step of Lie-Euler of each size up to 20. The reference is the exact solution.",
+        source="Fig. 2.1 of the thesis",
+        point=(x, y),
+        panels=True,
+        bounds=(-1.9, 1.9, -1.9, 1.9),
+        runs=(
+            Run("rkmk(0):euler", 0.0, 1, "translations", sweep=step_sizes),
+            Run("rkmk(0):euler", 0.0, 1, "SL(2)", scene="duffing_sl2", sweep=step_sizes),
+            Run("rkmk(0):euler", 0.0, 1, "SE(2)", scene="duffing_se2", sweep=step_sizes),
+        ),
+        reference=Run("rkmk:butcher6", 0.02, 300),
+    ),
+]

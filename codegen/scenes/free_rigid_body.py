@@ -8,6 +8,7 @@ from sympy import Matrix, Rational, cos, diag, sin
 
 from codegen.groups import SO3, Rotation
 from codegen.scene import FieldScene, param
+from codegen.scene.figure import Run, Scan, SphereCurves, Sweep
 from codegen.scene.stiff_variant import RADIANS, StiffVariant
 
 G = SO3()
@@ -26,6 +27,32 @@ scene = FieldScene(
     span=(0, 2),
     invariants={"radius": m.dot(m), "energy": m.dot(I.inv() * m) / 2},
 )
+
+isotropy = Run("rkmk(0):euler", 1.0, 1, "Lie-Euler, alpha from 0 to 25", sweep=Sweep("alpha", 0.0, 25.0, 400))
+exact = Run("rkmk:butcher6", 0.01, 100)
+figures = [
+    SphereCurves(
+        name="isotropy",
+        title="The isotropy alpha moves the end of a step of Lie-Euler on the sphere",
+        caption="One step of size 1 for each alpha. The reference is the exact solution up to t = 1.",
+        source="Fig. 2.2 of the thesis",
+        point=tuple(m),
+        axes=("m₁", "m₂", "m₃"),
+        direction=(40.0, 35.0),
+        panels=False,
+        runs=(isotropy,),
+        reference=exact,
+    ),
+    Scan(
+        name="best_isotropy",
+        title="Error of one step of Lie-Euler against the isotropy alpha",
+        caption="One step of size 1.",
+        source="Fig. 2.2 of the thesis",
+        runs=(isotropy,),
+        reference=exact,
+        axis="distance from the exact solution",
+    ),
+]
 
 
 def stiff_variants() -> list[StiffVariant]:

@@ -9,6 +9,7 @@ from sympy import Matrix, diag, eye
 
 from codegen.groups import SO3
 from codegen.scene import HamiltonianScene
+from codegen.scene.figure import Run, SphereCurves
 
 G = SO3()
 g, mu = G.point("g"), G.dual("mu")
@@ -29,3 +30,19 @@ scene = HamiltonianScene(
     span=(0, 1),
     invariants={"momentum_about_body_axis": mu.dot(g * e3)},
 )
+
+figures = [
+    SphereCurves(
+        name="centre",
+        title="Centre of mass of the heavy top, four theta-methods",
+        caption="5000 steps of size 0.01. The symplectic (SLGI) methods stay in narrow bands.",
+        source="Fig. 2.6 of the thesis",
+        point=tuple(g * e3),
+        runs=(
+            Run("rkmk(0):euler", 0.01, 5000, "RKMK, theta = 0"),
+            Run("rkmk(0):midpoint", 0.01, 5000, "RKMK, theta = 1/2"),
+            Run("slgi:euler", 0.01, 5000, "SLGI, theta = 0"),
+            Run("slgi:midpoint", 0.01, 5000, "SLGI, theta = 1/2"),
+        ),
+    ),
+]

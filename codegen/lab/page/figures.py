@@ -6,29 +6,18 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias, TypedDict
+from typing import TYPE_CHECKING, TypeAlias
 
 from markupsafe import Markup
 
+from codegen.lab.page.axes import annotate, appearance, label_axes, legend, log_ticks, new_figure
 from codegen.lab.page.formatting import power_of_ten, scientific, seconds, superscript
 from codegen.lab.page.series_style import Style
-from codegen.lab.page.svg import INK, MUTED, PLACEHOLDERS, RULE, STYLE, Point, Text, svg_element
+from codegen.lab.page.svg import MUTED, Point, Text, svg_element
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
-
-SIZE = (4.7, 3.9)
-"""Width and height in inches. A phone shows the figure at about this size, so the text of the figure is
-readable.
-"""
-
-LINE = 0.175
-"""Height of a line of labels in inches. The figure becomes higher by LINE for each line after the third."""
-
-LONG_LABEL = 27
-"""If a label is longer than this number of characters, the legend has one column."""
 
 MARKS = 9
 """The number of markers on a line that has no measured points, such as a computed boundary."""
@@ -52,16 +41,6 @@ class Curve:
     upper: tuple[float, ...] = ()
 
 
-class _Appearance(TypedDict):
-    """The keyword arguments of Matplotlib for a style."""
-
-    color: str
-    marker: str
-    markerfacecolor: str
-    linestyle: str | tuple[float, tuple[float, ...]]
-    linewidth: float
-
-
 @dataclass
 class _Drawing:
     """A figure under construction: its axes, and the texts of the markers of each series."""
@@ -75,7 +54,7 @@ class _Drawing:
         number, style = len(self.values), curve.style
         x, y = zip(*curve.points, strict=True)
         (line,) = self.axes.plot(
-            x, y, label=curve.label, clip_on=False, markevery=list(marks), **_appearance(style)
+            x, y, label=curve.label, clip_on=False, markevery=list(marks), **appearance(style)
         )
         line.set_gid(f"series:{number}")
         self.values[number] = [f"{curve.label}: {value(*curve.points[k])}" for k in marks]
@@ -88,19 +67,19 @@ class _Drawing:
 
     def finish(self, name: str, title: str, description: str) -> Markup:
         """Add the legend and return the SVG element."""
-        _legend(self.figure, self.axes)
+        legend(self.figure, [self.axes])
         return svg_element(self.figure, Text(name, title, description, self.values))
 
 
 def convergence_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
     """Return a log-log diagram of error against step size, with a dashed line for each stated order."""
-    drawing = _canvas()
+    drawing = _drawing()
     for order in sorted({c.order for c in curves if c.order is not None}):
         _reference_line(drawing.axes, order, next(c for c in curves if c.order == order))
     for curve in curves:
         drawing.draw(curve, lambda h, e: f"h = {scientific(h, 3)}, error {scientific(e)}", _all(curve))
-    _label(drawing.axes, "step size h", error_label)
-    _ticks(drawing.axes.xaxis, lambda x: f"{x:g}")
+    label_axes(drawing.axes, "step size h", error_label)
+    log_ticks(drawing.axes.xaxis, lambda x: f"{x:g}")
     return drawing.finish(name, title, _description("step size", "error", curves))
 
 
@@ -114,7 +93,7 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 
     With a method of order p and equal steps, the error is proportional to the time to the power -p.
     """
-    drawing = _canvas()
+    drawing = _drawing()
     for curve in curves:
         upper = dict(zip(curve.points, curve.upper, strict=False))
 
@@ -124,8 +103,8 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 
         drawing.draw(curve, value, _all(curve))
     _slopes(drawing.axes, [p for c in curves for p in c.points])
-    _label(drawing.axes, "CPU time of the run", error_label)
-    _ticks(drawing.axes.xaxis, seconds)
+    label_axes(drawing.axes, "CPU time of the run", error_label)
+    log_ticks(drawing.axes.xaxis, seconds)
     return drawing.finish(name, title, _description("CPU time in seconds", "error", curves))
 
 
@@ -133,7 +112,7 @@ def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) ->
     """Return a log-log diagram of the largest deviation up to each time, with dotted lines for t^1/2 and
     t.
     """
-    drawing = _canvas()
+    drawing = _drawing()
     axes = drawing.axes
     for number, curve in enumerate(curves):
         marks = spread([math.log(t) for t, _ in curve.points], MARKS, number / max(1, len(curves)))
@@ -144,10 +123,10 @@ def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) ->
         ends = (left * 1.3, right / 1.3)
         values = [low * 3 * (x / ends[0]) ** exponent for x in ends]
         axes.plot(ends, values, color=MUTED, linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
-        _annotate(axes, text, (ends[1], values[1]), (2, 0), "left")
+        annotate(axes, text, (ends[1], values[1]), (2, 0), "left")
     axes.set_ylim(low, high)
-    _label(axes, "time", label)
-    _ticks(axes.xaxis, power_of_ten)
+    label_axes(axes, "time", label)
+    log_ticks(axes.xaxis, power_of_ten)
     return drawing.finish(name, title, _description("time", "deviation", curves))
 
 
@@ -174,12 +153,12 @@ def region_figure(name: str, title: str, functions: Sequence[Function]) -> Marku
     ``functions`` contains triples: label, style and stability function R of a method. The markers of
     different methods are at different points, so that two methods with the same boundary are both visible.
     """
-    drawing, plane = _canvas(log=False), _Plane.containing([f for _, _, f in functions])
+    drawing, plane = _drawing(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes
     axes.axhline(0.0, color=MUTED, linewidth=0.6)
     axes.axvline(0.0, color=MUTED, linewidth=0.6)
     for number, (label, style, value) in enumerate(functions):
-        looks, grid = _appearance(style), (plane.xs, plane.ys, plane.sizes(value))
+        looks, grid = appearance(style), (plane.xs, plane.ys, plane.sizes(value))
         fill = axes.contourf(*grid, levels=[-1.0, 1.0], colors=[looks["color"]], alpha=SHADE)
         line = axes.contour(*grid, levels=[1.0], colors=[looks["color"]], linewidths=1.3)
         points = _boundary(line.allsegs[0], number / len(functions))
@@ -195,7 +174,7 @@ def region_figure(name: str, title: str, functions: Sequence[Function]) -> Marku
     axes.set_xlim(plane.xs[0], plane.xs[-1])
     axes.set_ylim(plane.ys[0], plane.ys[-1])
     axes.set_aspect("equal")
-    _label(axes, "real part of hλ", "imaginary part of hλ")
+    label_axes(axes, "real part of hλ", "imaginary part of hλ")
     about = "Boundaries of the regions of linear stability of " + ", ".join(f[0] for f in functions) + "."
     return drawing.finish(name, title, about)
 
@@ -269,64 +248,12 @@ def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> li
     return points
 
 
-def _canvas(*, log: bool = True) -> _Drawing:
-    import matplotlib
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
-    from matplotlib.figure import Figure
-
-    with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=SIZE, layout="constrained")
-        FigureCanvasSVG(figure)
-        axes = figure.add_subplot()
+def _drawing(*, log: bool = True) -> _Drawing:
+    figure, (axes,) = new_figure()
     if log:
         axes.set_xscale("log")
         axes.set_yscale("log")
-    axes.grid(color=RULE, linewidth=0.5)
-    axes.set_axisbelow(True)
     return _Drawing(figure, axes)
-
-
-def _appearance(style: Style) -> _Appearance:
-    """Return the keyword arguments of Matplotlib for a style."""
-    colour = PLACEHOLDERS[style.colour]
-    return {
-        "color": colour,
-        "marker": style.marker,
-        "markerfacecolor": PLACEHOLDERS["var(--paper)"] if style.hollow else colour,
-        "linestyle": (0, style.dash) if style.dash else "-",
-        "linewidth": 0.9 if style.hollow else 1.3,
-    }
-
-
-def _label(axes: Axes, x: str, y: str) -> None:
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
-    if axes.get_yscale() == "log":
-        _ticks(axes.yaxis, power_of_ten)
-
-
-def _legend(figure: Figure, axes: Axes) -> None:
-    """Put the legend above the axes, so that it does not overlap curves."""
-    labels = axes.get_legend_handles_labels()[1]
-    if not labels:
-        return
-    width, height = SIZE
-    columns = 1 if max(map(len, labels)) > LONG_LABEL else 2
-    lines = -(-len(labels) // columns)
-    figure.set_size_inches(width, height + LINE * max(0, lines - 3))
-    legend = figure.legend(
-        loc="outside upper left",
-        ncols=columns,
-        frameon=False,
-        labelcolor=INK,
-        handlelength=2.4,
-        columnspacing=1.4,
-        borderaxespad=0.2,
-    )
-    for number, (handle, text) in enumerate(zip(legend.legend_handles, legend.get_texts(), strict=True)):
-        text.set_gid(f"key:{number}")
-        if handle is not None:
-            handle.set_gid(f"key:{number}")
 
 
 def _all(curve: Curve) -> list[int]:
@@ -352,7 +279,7 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
     finest = min(curve.points)
     y = [0.45 * finest[1] * (h / finest[0]) ** order for h in (x[0], x[-1])]
     axes.plot([x[0], x[-1]], y, color=MUTED, linewidth=0.8, linestyle=(0, (4, 3)))
-    _annotate(axes, f"h{superscript(order)}" if order > 1 else "h", (x[0], y[0]), (-2, -7), "right")
+    annotate(axes, f"h{superscript(order)}" if order > 1 else "h", (x[0], y[0]), (-2, -7), "right")
 
 
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
@@ -379,18 +306,6 @@ def _slopes(axes: Axes, points: Sequence[Point]) -> None:
         run = min(0.75 * wide, 0.8 * tall / order)
         ends = [(10**x, 10**y), (10 ** (x + run), 10 ** (y - order * run))]
         axes.plot(*zip(*ends, strict=True), color=MUTED, linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
-        _annotate(axes, f"p = {order}" if order == SLOPES[0] else str(order), ends[1], (2, -4), "left")
+        annotate(axes, f"p = {order}" if order == SLOPES[0] else str(order), ends[1], (2, -4), "left")
     axes.set_xlim(10**left, 10**right)
     axes.set_ylim(10**low, 10**high)
-
-
-def _annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
-    axes.annotate(text, at, xytext=shift, textcoords="offset points", ha=side, color=MUTED, fontsize=8)
-
-
-def _ticks(axis: Axis, text: Callable[[float], str]) -> None:
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-
-    axis.set_major_locator(LogLocator(base=10, numticks=9))
-    axis.set_major_formatter(FuncFormatter(lambda x, _: text(x)))
-    axis.set_minor_formatter(NullFormatter())

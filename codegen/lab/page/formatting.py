@@ -11,11 +11,15 @@ from markupsafe import Markup
 
 @dataclass(frozen=True)
 class Picture:
-    """An SVG picture with its caption and the command that reproduces the picture."""
+    """An SVG picture with its caption and the command that reproduces the picture.
+
+    A ``wide`` picture has the width of the page.
+    """
 
     svg: Markup
     caption: str
     command: str
+    wide: bool = False
 
 
 def superscript(n: int) -> str:

@@ -1,0 +1,134 @@
+"""Matplotlib figures for the pages: one or several axes, the look of a series, labels, ticks, the legend."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, TypedDict
+
+from codegen.lab.page.formatting import power_of_ten, scientific
+from codegen.lab.page.series_style import Style
+from codegen.lab.page.svg import INK, MUTED, PLACEHOLDERS, RULE, STYLE, Point
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
+
+SIZE = (4.7, 3.9)
+"""Width and height in inches. A phone shows the figure at about this size, so the text of the figure is
+readable.
+"""
+
+LINE = 0.175
+"""Height of a line of labels in inches. The figure becomes higher by LINE for each line after the third."""
+
+LONG_LABEL = 27
+"""If a label is longer than this number of characters, the legend has one column."""
+
+
+class Appearance(TypedDict):
+    """The keyword arguments of Matplotlib for a style."""
+
+    color: str
+    marker: str
+    markerfacecolor: str
+    linestyle: str | tuple[float, tuple[float, ...]]
+    linewidth: float
+
+
+def new_figure(
+    rows: int = 1, columns: int = 1, size: tuple[float, float] = SIZE, projection: str | None = None
+) -> tuple[Figure, tuple[Axes, ...]]:
+    """Return a figure in the style of the pages and its axes, row by row. ``size`` is in inches."""
+    import matplotlib
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+    from matplotlib.figure import Figure
+
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=size, layout="constrained")
+        FigureCanvasSVG(figure)
+        panels = tuple(
+            figure.add_subplot(rows, columns, k + 1, projection=projection) for k in range(rows * columns)
+        )
+    for axes in panels:
+        axes.grid(color=RULE, linewidth=0.5)
+        axes.set_axisbelow(True)
+    return figure, panels
+
+
+def appearance(style: Style) -> Appearance:
+    """Return the keyword arguments of Matplotlib for a style."""
+    colour = PLACEHOLDERS[style.colour]
+    return {
+        "color": colour,
+        "marker": style.marker,
+        "markerfacecolor": PLACEHOLDERS["var(--paper)"] if style.hollow else colour,
+        "linestyle": (0, style.dash) if style.dash else "-",
+        "linewidth": 0.9 if style.hollow else 1.3,
+    }
+
+
+def label_axes(axes: Axes, x: str, y: str) -> None:
+    """Write the labels of both axes, and powers of ten beside a logarithmic vertical axis."""
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    if axes.get_yscale() == "log":
+        log_ticks(axes.yaxis, power_of_ten)
+
+
+def few_decades(axes: Axes) -> None:
+    """Write more numbers beside a logarithmic vertical axis of less than two decades: 1, 2, 5, 10, ...."""
+    from matplotlib.ticker import FuncFormatter, LogLocator
+
+    low, high = axes.get_ylim()
+    if high < 100 * low:
+        axes.yaxis.set_major_locator(LogLocator(base=10, subs=(1.0, 2.0, 5.0)))
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda x, _: scientific(x, 1)))
+
+
+def log_ticks(axis: Axis, text: Callable[[float], str]) -> None:
+    """Write ``text`` of every power of ten beside an axis."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(base=10, numticks=9))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: text(x)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
+    """Write a small text near a point; ``shift`` is in printer's points."""
+    axes.annotate(text, at, xytext=shift, textcoords="offset points", ha=side, color=MUTED, fontsize=8)
+
+
+def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | None = None) -> None:
+    """Put the legend above the axes, so that it does not overlap curves. Equal labels are listed once.
+
+    ``numbers`` are the numbers of the series by label; by default the entries are numbered.
+    """
+    entries: dict[str, object] = {}
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            entries.setdefault(label, handle)
+    if not entries:
+        return
+    width, height = figure.get_size_inches()
+    # A wide figure has more columns.
+    columns = max(1, int(width / SIZE[0] * (1 if max(map(len, entries)) > LONG_LABEL else 2)))
+    lines = -(-len(entries) // columns)
+    figure.set_size_inches(width, height + LINE * max(0, lines - 3))
+    drawn = figure.legend(
+        handles=list(entries.values()),
+        labels=list(entries),
+        loc="outside upper left",
+        ncols=columns,
+        frameon=False,
+        labelcolor=INK,
+        handlelength=2.4,
+        columnspacing=1.4,
+        borderaxespad=0.2,
+    )
+    for place, (shown, text) in enumerate(zip(drawn.legend_handles, drawn.get_texts(), strict=True)):
+        number = place if numbers is None else numbers[text.get_text()]
+        text.set_gid(f"key:{number}")
+        if shown is not None:
+            shown.set_gid(f"key:{number}")

@@ -1,0 +1,171 @@
+"""The canvas of a picture: panels, series with a label, the legend, and the SVG element."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal, TypeAlias, TypedDict
+
+import numpy
+from markupsafe import Markup
+
+from codegen.lab.page.axes import SIZE, appearance, legend, new_figure
+from codegen.lab.page.series_style import Style, Styles, method_name
+from codegen.lab.page.svg import INK, Text, svg_element
+from codegen.scene.figure import Figure, Run
+from codegen.scene.problem import Problem
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawn
+
+WIDE = 7.4
+"""Width in inches of a figure with several columns of panels: the width of a page."""
+
+MARKS = 8
+"""The number of markers on a long curve."""
+
+REFERENCE = "reference"
+"""The label of a reference run."""
+
+
+class Looks(TypedDict, total=False):
+    """Keyword arguments of Matplotlib for a line."""
+
+    color: str
+    marker: str
+    markerfacecolor: str
+    linestyle: str | tuple[float, tuple[float, ...]]
+    linewidth: float
+    alpha: float
+    zorder: float
+    solid_capstyle: Literal["butt", "round"]
+
+
+Points: TypeAlias = "tuple[Sequence[float] | numpy.ndarray, Sequence[float] | numpy.ndarray]"
+"""All x and all y of a series."""
+
+
+@dataclass
+class Canvas:
+    """A picture under construction. Series with equal labels are one series with one entry in the legend.
+
+    ``titled`` are the labels of series whose panel has the label as its title; the legend omits them.
+    """
+
+    drawing: Drawn
+    panels: tuple[Axes, ...]
+    names: list[str] = field(default_factory=list)
+    texts: dict[int, list[str]] = field(default_factory=dict)
+    titled: set[str] = field(default_factory=set)
+
+    @classmethod
+    def of(
+        cls,
+        count: int = 1,
+        columns: int = 2,
+        height: float = SIZE[1],
+        *,
+        width: float = 0.0,
+        space: bool = False,
+    ) -> Canvas:
+        """Return a canvas with ``count`` panels, each of them ``height`` inches high.
+
+        ``space`` makes panels with three axes.
+        """
+        columns = min(3 if count == 3 and columns > 1 else columns, count)
+        rows = -(-count // columns)
+        size = (width or (SIZE[0] if columns == 1 else WIDE), height * rows)
+        drawing, panels = new_figure(rows, columns, size, "3d" if space else None)
+        for unused in panels[count:]:
+            unused.set_axis_off()
+        return cls(drawing, panels[:count])
+
+    def line(
+        self,
+        axes: Axes,
+        points: Points,
+        label: str,
+        style: Style,
+        marks: Sequence[int] = (),
+        texts: Sequence[str] = (),
+        looks: Looks | None = None,
+    ) -> None:
+        """Draw a series of ``points``, the pair of all x and all y.
+
+        ``marks`` are the indices of the points with markers, ``texts`` the texts of these markers. ``looks``
+        replaces entries of the style.
+        """
+        number = self.number(label)
+        listed = "_" if label in self.titled else label
+        settings: Looks = {**appearance(style), **(looks or {})}
+        x, y = points
+        (line,) = axes.plot(x, y, label=listed, markevery=list(marks), **settings)
+        line.set_gid(f"series:{number}")
+        self.texts[number] += texts
+
+    def title(self, axes: Axes, label: str) -> None:
+        """Write the label of a series above its panel."""
+        axes.set_title(label, fontsize=9, color=INK)
+        self.titled.add(label)
+
+    def number(self, label: str) -> int:
+        """Return the number of a series; a new label begins a new series."""
+        if label not in self.names:
+            self.names.append(label)
+            self.texts[len(self.names) - 1] = []
+        return self.names.index(label)
+
+    def finish(self, figure: Figure, scene: Problem, description: str) -> Markup:
+        """Return the SVG element."""
+        name = f"{scene.name} {figure.name}"
+        numbers = {name: k for k, name in enumerate(self.names)}
+        if any(name not in self.titled for name in self.names):
+            legend(self.drawing, self.panels, numbers)
+        svg = svg_element(self.drawing, Text(name, f"{figure.title}, {scene.title}", description, self.texts))
+        return Markup(_rounded(str(svg)))
+
+
+def styles(figure: Figure) -> dict[str, Style]:
+    """Return the style of each run of a figure by its name. A method has the colour of all other figures."""
+    runs = figure.runs
+    chosen = Styles([run.method for run in runs])
+    if len({run.method for run in runs}) == len(runs):
+        return {run.name: chosen.of(run.method) for run in runs}
+    # Several runs use one method: their names decide.
+    chosen = Styles([method_name(run.name) for run in runs])
+    return {run.name: chosen.of(run.name) for run in runs}
+
+
+REFERENCE_LOOKS: Looks = {"color": INK, "linewidth": 0.9, "linestyle": "-", "marker": "", "zorder": 3}
+REFERENCE_STYLE = Style("var(--ink)", "")
+
+
+def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
+    """Return the indices of at most ``most`` points at equal distances, moved by a part of a distance.
+
+    >>> marks(9, 0.5, 3), marks(2)
+    ([1, 4, 7], [0, 1])
+    """
+    if count <= most:
+        return list(range(count))
+    return [int((k + shift) * count / most) for k in range(most)]
+
+
+def failures(runs: Sequence[Run], reasons: Sequence[str]) -> str:
+    """Return a sentence for each run that ended early."""
+    return " ".join(
+        f"{run.name} ends early: {reason}." for run, reason in zip(runs, reasons, strict=True) if reason
+    )
+
+
+def _rounded(svg: str) -> str:
+    """Return an SVG element in which the coordinates of paths have two decimals."""
+
+    def shorter(match: re.Match[str]) -> str:
+        path = re.sub(r"-?\d+\.\d+", lambda x: f"{float(x[0]):.2f}".rstrip("0").rstrip("."), match[1])
+        path = re.sub(r"\s*\n\s*", "", path).strip()
+        return f'd="{path}"'
+
+    return re.sub(r'\bd="([^"]*)"', shorter, svg)

@@ -1,0 +1,53 @@
+"""Draws the largest deviation of a quantity so far, or in windows of time."""
+
+from __future__ import annotations
+
+import numpy
+
+from codegen.lab.page.axes import label_axes
+from codegen.lab.page.formatting import scientific
+from codegen.lab.pictures.canvas import WIDE, Canvas, failures, marks, styles
+from codegen.lab.pictures.picture import Drawn
+from codegen.lab.pictures.source import Source
+from codegen.scene.figure import Deviation, Run
+
+LEAST = 1e-17
+"""The smallest deviation on the logarithmic axis. Smaller deviations are drawn at this value."""
+
+GROWS = 1.02
+"""A running maximum has a point where it grows by this factor."""
+
+
+def draw(figure: Deviation, source: Source) -> Drawn:
+    """Return the picture: one line for each run, with a logarithmic vertical axis."""
+    looks = styles(figure)
+    numbers: dict[str, float] = {}
+    canvas = Canvas.of(1, height=4.2, width=WIDE)
+    axes = canvas.panels[0]
+    axes.set_yscale("log")
+    for k, run in enumerate(figure.runs):
+        times, sizes = maxima(figure, source, run)
+        chosen = marks(len(times), k / len(figure.runs))
+        texts = [f"{run.name}: {scientific(sizes[i])} at t = {times[i]:.4g}" for i in chosen]
+        canvas.line(axes, (times, sizes), run.name, looks[run.name], chosen, texts, {"linewidth": 1.0})
+        numbers[run.name] = float(sizes.max())
+    label_axes(axes, "time t", figure.axis)
+    largest = "; ".join(f"{name}: largest deviation {scientific(x, 3)}" for name, x in numbers.items())
+    note = failures(figure.runs, [source.path(run).failure for run in figure.runs])
+    return Drawn(canvas.finish(figure, source.problem, f"{largest}."), note, numbers)
+
+
+def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Return times and the largest deviations up to these times, or in the windows that end there."""
+    values, times = source.values(run, [figure.quantity])[0], source.path(run).times
+    start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)
+    sizes = numpy.maximum(numpy.abs(values - start), LEAST)[1:]
+    if not figure.window:
+        largest = numpy.maximum.accumulate(sizes)
+        levels = numpy.floor(numpy.log(largest / LEAST) / numpy.log(GROWS))
+        shown = numpy.flatnonzero(numpy.diff(levels, prepend=-1.0))
+        kept = numpy.unique([*shown, len(largest) - 1])
+        return times[1:][kept], largest[kept]
+    ends = [*range(figure.window, len(sizes), figure.window), len(sizes)]
+    starts = [0, *ends[:-1]]
+    return times[ends], numpy.array([sizes[a:b].max() for a, b in zip(starts, ends, strict=True)])

@@ -1,0 +1,82 @@
+"""Draws the error of a run against the value of a parameter, and marks the best value."""
+
+from __future__ import annotations
+
+import math
+
+import numpy
+
+from codegen.integrator import StepFailed
+from codegen.lab.distance import distance
+from codegen.lab.page.axes import annotate, few_decades, label_axes
+from codegen.lab.page.formatting import scientific
+from codegen.lab.page.svg import INK
+from codegen.lab.pictures.canvas import Canvas, failures, marks, styles
+from codegen.lab.pictures.picture import Drawn
+from codegen.lab.pictures.source import Source, sweep_values
+from codegen.scene.figure import Run, Scan, Sweep
+
+DIGITS = 1e-8
+"""The best value is exact up to this part of the range of the sweep."""
+
+
+def draw(figure: Scan, source: Source) -> Drawn:
+    """Return the picture: one line for each run; marks are at the best values."""
+    looks = styles(figure)
+    numbers: dict[str, dict[str, float]] = {}
+    canvas = Canvas.of(1, height=3.4)
+    axes = canvas.panels[0]
+    axes.set_yscale("log")
+    notes = []
+    for k, run in enumerate(figure.runs):
+        values = sweep_values(run)
+        sizes = [error(source, figure, run, value) for value in values]
+        chosen = marks(len(values), k / len(figure.runs))
+        name = _sweep(run).name
+        texts = [f"{run.name}: {scientific(sizes[i])} at {name} = {values[i]:.4g}" for i in chosen]
+        if len(figure.runs) == 1:
+            canvas.title(axes, run.name)
+        canvas.line(axes, (values, sizes), run.name, looks[run.name], chosen, texts)
+        best, least = minimum(source, figure, run, values, sizes)
+        axes.plot([best], [least], marker="x", color=INK, markersize=7, zorder=5)
+        annotate(axes, f"{name} = {best:.4g}", (best, least), (6, 4), "left")
+        numbers[run.name] = {name: best, "error": least}
+        notes.append(f"The error of {run.name} is least at {name} = {best:.5g}: {scientific(least, 3)}.")
+    label_axes(axes, _sweep(figure.runs[0]).name, figure.axis or "distance from the end of the reference")
+    few_decades(axes)
+    notes.append(failures(figure.runs, [source.path(run).failure for run in figure.runs]))
+    note = " ".join(filter(None, notes))
+    return Drawn(canvas.finish(figure, source.problem, note), note, numbers)
+
+
+def error(source: Source, figure: Scan, run: Run, value: float) -> float:
+    """Return the distance of the final state from the end of the reference run; infinity if a step fails."""
+    if figure.reference is None:
+        raise ValueError("a scan needs a reference run")
+    try:
+        return distance(source.problem_of(run), source.end(run, value), source.end(figure.reference))
+    except StepFailed:
+        return math.inf
+
+
+def minimum(
+    source: Source, figure: Scan, run: Run, values: list[float], sizes: list[float]
+) -> tuple[float, float]:
+    """Return the best value and its error. Between the neighbours of the best value of the sweep, the search
+    continues by Brent's method.
+    """
+    from scipy.optimize import minimize_scalar
+
+    k = int(numpy.argmin(sizes))
+    ends = values[max(k - 1, 0)], values[min(k + 1, len(values) - 1)]
+    width = abs(values[-1] - values[0])
+    result = minimize_scalar(
+        lambda x: error(source, figure, run, float(x)), bounds=ends, options={"xatol": DIGITS * width}
+    )
+    return min((float(result.fun), float(result.x)), (sizes[k], values[k]))[::-1]
+
+
+def _sweep(run: Run) -> Sweep:
+    if run.sweep is None:
+        raise ValueError("every run of a scan has a sweep")
+    return run.sweep

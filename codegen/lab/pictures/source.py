@@ -1,0 +1,218 @@
+"""The runs of a figure: emitted C, the states that the figure shows, and formulas of these states."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy
+
+from codegen import scenes
+from codegen.artifact import Artifact
+from codegen.emitter import emit
+from codegen.errors import SceneError
+from codegen.integrator import Integrator, StepFailed
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, evaluate
+from codegen.lab.long_runs.trajectory import ArrayFunction, array_functions
+from codegen.lab.progress import Progress
+from codegen.loader import load
+from codegen.printers import DEFAULT
+from codegen.scene.extended_phase_space import extended
+from codegen.scene.figure import STEP, Quantity, Run
+from codegen.scene.formulas import Reader
+from codegen.scene.problem import TIME, Problem
+
+STEP_LIMIT = 10**7
+"""The largest number of steps of a run with step-size control."""
+
+
+@dataclass(frozen=True)
+class Path:
+    """The states that a figure shows: one state in each row, and the time of each state.
+
+    For a run with a sweep, ``times`` are the values of the sweep. ``failure`` is the reason why a run ended
+    early, or ''.
+    """
+
+    times: numpy.ndarray
+    states: numpy.ndarray
+    failure: str = ""
+
+
+class Source:
+    """The runs of the figures of one scene. Each module is emitted once, and each run is made once."""
+
+    def __init__(self, problem: Problem, progress: Progress = str) -> None:
+        self.problem, self.progress = problem, progress
+        self._problems: dict[str, Problem] = {"": problem}
+        self._artifacts: dict[tuple[object, ...], Artifact] = {}
+        self._integrators: dict[tuple[object, ...], Integrator] = {}
+        self._paths: dict[Run, Path] = {}
+
+    def problem_of(self, run: Run) -> Problem:
+        """Return the scene of a run."""
+        if run.scene not in self._problems:
+            own = run.scene == scenes.EXTENDED
+            self._problems[run.scene] = extended(self.problem) if own else scenes.load(run.scene)
+        return self._problems[run.scene]
+
+    def artifact(self, run: Run) -> Artifact:
+        """Return the emitted module of a run."""
+        key = _key(run)
+        if key not in self._artifacts:
+            self.progress(f"{self.problem.name}, {run.name}: compiling")
+            names = () if run.sweep is None or run.sweep.name == STEP else (run.sweep.name,)
+            controlled = run.tolerance > 0
+            problem = self.problem_of(run)
+            self._artifacts[key] = emit(
+                *(problem, run.method, DEFAULT), parameters=names, adaptive=controlled, integrate=controlled
+            )
+        return self._artifacts[key]
+
+    def integrator(self, run: Run) -> Integrator:
+        """Return the loaded module of a run."""
+        key = _key(run)
+        if key not in self._integrators:
+            self._integrators[key] = load(self.artifact(run))
+        return self._integrators[key]
+
+    def path(self, run: Run) -> Path:
+        """Return the states that a figure shows of a run."""
+        if run not in self._paths:
+            integrator = self.integrator(run)
+            self.progress(f"{self.problem.name}, {run.name}: {run.steps} steps")
+            if run.sweep is not None:
+                self._paths[run] = _swept(self, run)
+            elif run.tolerance > 0:
+                self._paths[run] = _controlled(integrator, run)
+            else:
+                self._paths[run] = _equal_steps(integrator, run)
+        return self._paths[run]
+
+    def end(self, run: Run, value: float | None = None) -> list[float]:
+        """Return the final state of a run; ``value`` is the value of the parameter that its sweep names.
+
+        Raises :class:`codegen.integrator.StepFailed`.
+        """
+        integrator = self.integrator(run)
+        swept = "" if run.sweep is None or value is None else run.sweep.name
+        h = run.h if swept != STEP or value is None else value
+        start, first = integrator.initial, integrator.span[0]
+        state: list[float]
+        if not swept or swept == STEP:
+            state = integrator.run(start, h, run.steps, first)
+        else:
+            state = integrator.run(start, h, run.steps, first, **cast("Mapping[str, Any]", {swept: value}))
+        return state
+
+    def start(self, run: Run, quantities: Sequence[Quantity]) -> numpy.ndarray:
+        """Return quantities at the initial state of the scene of a run."""
+        integrator = self.integrator(run)
+        state, time = numpy.array(integrator.initial)[:, None], numpy.array([integrator.span[0]])
+        column: numpy.ndarray = formulas(self.problem_of(run), quantities)(state, time)[:, 0]
+        return column
+
+    def values(self, run: Run, quantities: Sequence[Quantity]) -> numpy.ndarray:
+        """Return quantities along the path of a run: one quantity in each row."""
+        path = self.path(run)
+        times = path.times if run.sweep is None else numpy.zeros(len(path.times))
+        return formulas(self.problem_of(run), quantities)(path.states.T, times)
+
+    def beside(self, run: Run, reference: Run, quantity: Quantity) -> numpy.ndarray:
+        """Return a quantity along the reference run at the times of another run.
+
+        Raises :class:`codegen.errors.SceneError` if the reference does not have these times.
+        """
+        times, exact = self.path(run).times, self.path(reference).times
+        count = len(times)
+        if len(exact) < count or numpy.abs(exact[:count] - times).max() > 1e-6 * (1.0 + abs(times).max()):
+            raise SceneError(
+                f"the reference {reference.name} has other output times than {run.name}",
+                where=self.problem.name,
+                expected="equal products of step size and stride, and at least as many outputs",
+            )
+        row: numpy.ndarray = self.values(reference, [quantity])[0][:count]
+        return row
+
+
+def formulas(problem: Problem, quantities: Sequence[Quantity]) -> ArrayFunction:
+    """Return quantities of a scene as a function of arrays of states and times. Each row is a coordinate.
+
+    Raises :class:`codegen.errors.SceneError` for a formula with an unknown symbol.
+    """
+    import sympy
+
+    reader = Reader(problem.name, [sympy.Symbol(s) for s in problem.symbols])
+    domain = ExprDomain(reader.space)
+    state = tuple(reader.space.sym(s) for s in problem.symbols)
+    time = reader.space.sym(TIME)
+    known = problem.values(domain, state, time)
+
+    def root(quantity: Quantity) -> Expr:
+        if isinstance(quantity, str):
+            return _invariant(problem, domain, quantity)
+        value: Expr = evaluate([reader.scalar(quantity, "the formula of a figure")], domain, known)[0]
+        return value
+
+    return array_functions(problem, {"": tuple(map(root, quantities))})[""]
+
+
+def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:
+    """Return an invariant of a scene; raise SceneError for an unknown name."""
+    if name not in problem.invariants:
+        raise SceneError(
+            f"a figure shows the unknown quantity {name!r}",
+            where=problem.name,
+            expected=f"one of {', '.join(problem.invariants)}, or a sympy formula",
+        )
+    state = tuple(domain.space.sym(s) for s in problem.symbols)
+    value: Expr = problem.invariant(domain, name, state, domain.space.sym(TIME))
+    return value
+
+
+def _key(run: Run) -> tuple[object, ...]:
+    """Return the part of a run that determines its emitted module."""
+    return run.scene, run.method, run.sweep and run.sweep.name, run.tolerance > 0
+
+
+def sweep_values(run: Run) -> list[float]:
+    """Return the values of the sweep of a run."""
+    sweep = run.sweep
+    if sweep is None:
+        return []
+    width = (sweep.last - sweep.first) / max(sweep.count - 1, 1)
+    return [sweep.first + width * k for k in range(sweep.count)]
+
+
+def _swept(source: Source, run: Run) -> Path:
+    states, values = [], sweep_values(run)
+    for value in values:
+        try:
+            states.append(source.end(run, value))
+        except StepFailed as failed:
+            return Path(numpy.array(values[: len(states)]), numpy.array(states), failed.reason)
+    return Path(numpy.array(values), numpy.array(states))
+
+
+def _equal_steps(integrator: Integrator, run: Run) -> Path:
+    first, steps, failure = integrator.span[0], run.steps, ""
+    state = numpy.array(integrator.initial)
+    try:
+        states = integrator.trajectory(state, run.h, steps, run.stride, first)
+    except StepFailed as failed:
+        failure = f"step {failed.step + 1}: {failed.reason}"
+        states = integrator.trajectory(state, run.h, failed.step, run.stride, first)
+    rows = numpy.asarray(states)
+    return Path(first + run.h * run.stride * numpy.arange(len(rows)), rows, failure)
+
+
+def _controlled(integrator: Integrator, run: Run) -> Path:
+    first = integrator.span[0]
+    times = [first + run.h * run.stride * k for k in range(run.steps // run.stride + 1)]
+    start, tolerance = numpy.array(integrator.initial), run.tolerance
+    arrival = integrator.integrate(
+        start, first, t_eval=times, rtol=tolerance, atol=tolerance, limit=STEP_LIMIT
+    )
+    return Path(numpy.array(times), numpy.asarray(arrival.states))

@@ -1,0 +1,212 @@
+"""The figures of a scene: which runs of emitted code they show, and which formulas of the state they draw.
+
+A scene file lists its figures in the variable ``figures``. Each class of this module is a kind of figure.
+``codegen.lab.pictures`` draws every kind once. Formulas are sympy formulas in the symbols of the scene, in
+its parameters and in the time ``t``; a text is the name of an invariant of the scene.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypeAlias
+
+from codegen.errors import SceneError
+from orderconds.argument import described
+
+if TYPE_CHECKING:
+    import sympy
+
+Quantity: TypeAlias = "sympy.Expr | str"
+"""A formula of the state, or the name of an invariant."""
+
+STEP = "h"
+"""The name of the step size in a :class:`Sweep`."""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Values of a parameter of the scene, or of the step size ``h``: ``count`` equal distances from ``first``
+    to ``last``.
+    """
+
+    name: str
+    first: float
+    last: float
+    count: int = 200
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run of emitted code from the initial state of a scene.
+
+    The run makes ``steps`` steps of size ``h`` with a method, and the figure shows every ``stride``-th
+    state. ``label`` is the name of the run in the figure, by default the method. ``scene`` is the name of
+    another scene; ``+u`` is the extension of the scene by the momentum of the time. If ``tolerance`` is
+    positive, the method chooses its steps with this relative and absolute tolerance, and ``h`` is the
+    distance of the output times. With a ``sweep`` the figure shows the states at the ends of one run for
+    each value.
+    """
+
+    method: str
+    h: float
+    steps: int
+    label: str = ""
+    scene: str = ""
+    stride: int = 1
+    tolerance: float = 0.0
+    sweep: Sweep | None = None
+
+    @property
+    def name(self) -> str:
+        """The name of the run in the figure."""
+        return self.label or self.method
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figure:
+    """A figure: its name in commands, its title, its caption, and the runs that it shows.
+
+    ``source`` names the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run to compare
+    with; kinds without a comparison draw it as a thin line.
+    """
+
+    name: str
+    title: str
+    caption: str = ""
+    source: str = ""
+    runs: tuple[Run, ...]
+    reference: Run | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneCurves(Figure):
+    """Curves in a plane. ``point`` has two formulas, ``axes`` their labels.
+
+    With ``panels`` each run has a panel of its own. ``bounds`` are (left, right, low, high); by default they
+    contain all points. Markers are drawn at every state if ``marked`` is True.
+    """
+
+    point: tuple[Quantity, Quantity]
+    axes: tuple[str, str] = ("x", "y")
+    panels: bool = False
+    bounds: tuple[float, float, float, float] | None = None
+    marked: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class SphereCurves(Figure):
+    """Curves on a sphere about the origin, in orthogonal projection. ``point`` has three formulas.
+
+    ``direction`` points to the eye: azimuth and elevation in degrees. With ``panels`` each run has a
+    panel of its own. With ``dots`` the states are drawn as dots without lines between them.
+    """
+
+    point: tuple[Quantity, Quantity, Quantity]
+    axes: tuple[str, str, str] = ("x", "y", "z")
+    direction: tuple[float, float] = (30.0, 25.0)
+    panels: bool = True
+    dots: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpaceCurves(Figure):
+    """Curves in space, in orthogonal projection. ``point`` has three formulas.
+
+    ``direction`` points to the eye: azimuth and elevation in degrees.
+    """
+
+    point: tuple[Quantity, Quantity, Quantity]
+    axes: tuple[str, str, str] = ("x", "y", "z")
+    direction: tuple[float, float] = (30.0, 25.0)
+    panels: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class TorusCurves(Figure):
+    """Curves on a torus in the chart of two angles; opposite edges are the same line of the torus.
+
+    ``angles`` are two formulas and ``axes`` their labels. ``directions`` are the rates of the angles as
+    formulas of the symbols ``variables``; they are drawn as arrows. ``levels`` is a formula of the same
+    symbols whose level lines are drawn.
+    """
+
+    angles: tuple[Quantity, Quantity]
+    axes: tuple[str, str] = ("θ", "φ")
+    variables: tuple[sympy.Symbol, sympy.Symbol] | None = None
+    directions: tuple[sympy.Expr, sympy.Expr] | None = None
+    levels: sympy.Expr | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TimeSeries(Figure):
+    """Quantities against time. ``quantities`` maps labels to formulas.
+
+    If ``difference`` is True, the figure shows the differences from the first quantity along the reference
+    run; otherwise it shows this quantity as a line of its own, with the label ``reference_label``.
+    ``window`` is the interval of time that is shown. Each run has a panel if there is more than one.
+    """
+
+    quantities: Mapping[str, Quantity] = field(default_factory=dict)
+    axis: str = ""
+    difference: bool = False
+    reference_label: str = "reference"
+    window: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Deviation(Figure):
+    """The largest deviation of a quantity, on a logarithmic axis against time.
+
+    The deviation is the difference from the same quantity along the reference run, or from its initial value
+    if there is no reference. It is the maximum over ``window`` steps, or with 0 over all steps so far.
+    """
+
+    quantity: Quantity
+    axis: str = ""
+    window: int = 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scan(Figure):
+    """The distance of the final state from the end of the reference run, against the values of a sweep.
+
+    Every run has a sweep. The least distance is refined beyond the values of the sweep and marked.
+    """
+
+    axis: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Orders(Figure):
+    """The error at the end of the span against the step size, with a line for each order.
+
+    Each run is repeated ``halvings`` times with half the step size. The error is the distance from the
+    reference solution of the scene (``codegen.lab.distance``). ``orders`` are the slopes of the dashed
+    lines.
+    """
+
+    halvings: int = 4
+    orders: tuple[int, ...] = ()
+    axis: str = "error"
+
+
+def read_figures(scene: str, value: object) -> tuple[Figure, ...]:
+    """Return the value of the variable ``figures`` of a scene file as a tuple.
+
+    Raises :class:`codegen.errors.SceneError` for an object that is no figure, and for equal names.
+    """
+    figures: list[Figure] = []
+    for figure in value if isinstance(value, Iterable) else [value]:
+        if not isinstance(figure, Figure):
+            raise SceneError(
+                f"{described(figure)} in the variable `figures`",
+                where=scene,
+                expected="figures, such as PlaneCurves(...) of codegen.scene.figure",
+            )
+        if any(figure.name == other.name for other in figures):
+            raise SceneError(
+                f"two figures with the name {figure.name!r}", where=scene, expected="distinct names"
+            )
+        figures.append(figure)
+    return tuple(figures)
