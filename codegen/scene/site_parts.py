@@ -143,8 +143,8 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
             }
             given = _with_outside(orbit, sites, point, states, absent)
             expected = orbit.velocity(given)
-            found = _summed(scene, orbit, sites, point, {o: x for o, x in states.items() if o not in absent})
-            for x, y in zip(found, expected, strict=True):
+            total = _summed(scene, orbit, sites, point, {o: x for o, x in states.items() if o not in absent})
+            for x, y in zip(total, expected, strict=True):
                 if not orbit.sized(x - y, (x, y, 1)):
                     where = f" where the neighbours {sorted(absent)} do not exist" if absent else ""
                     raise SceneError(
