@@ -168,6 +168,9 @@ def test_json_of_a_report_has_the_documented_keys() -> None:
         "orders",
         "properties",
         "work",
+        "dense",
+        "low_storage",
+        "symmetry",
     ]
     (found,) = record["orders"].values()  # type: ignore[attr-defined]
     assert list(found) == ["claimed", "order", "verdict", "certificate", "failing", "error_norm"]
