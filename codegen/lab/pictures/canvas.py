@@ -105,6 +105,28 @@ class Canvas:
         line.set_gid(f"series:{number}")
         self.texts[number] += texts
 
+    def dots(
+        self, axes: Axes, points: Points, label: str, style: Style, diameter: float, alpha: float = 1.0
+    ) -> None:
+        """Draw a series as dots; the diameter is in printer's points.
+
+        A dot is a line of length zero with round ends. A marker would need more text in the SVG element.
+        """
+        from matplotlib.patches import PathPatch
+        from matplotlib.path import Path
+
+        number, looks = self.number(label), appearance(style)
+        x, y = (numpy.asarray(row) for row in points)
+        shown = numpy.isfinite(x) & numpy.isfinite(y)
+        corners = numpy.repeat(numpy.array([x[shown], y[shown]]).T, 2, axis=0)
+        path = Path(corners, [Path.MOVETO, Path.LINETO] * int(shown.sum()))
+        path.should_simplify = False  # The simplification would remove lines of length zero.
+        patch = PathPatch(path, fill=False, edgecolor=looks["color"], linewidth=diameter, alpha=alpha)
+        patch.set(gid=f"series:{number}", capstyle="round")
+        axes.add_patch(patch)
+        if label not in self.titled:
+            axes.plot([], [], label=label, linestyle="", marker="o", markersize=3, color=looks["color"])
+
     def title(self, axes: Axes, label: str) -> None:
         """Write the label of a series above its panel."""
         axes.set_title(label, fontsize=9, color=INK)
