@@ -84,7 +84,8 @@ class PlaneCurves(Figure):
     """Curves in a plane. ``point`` has two formulas, ``axes`` their labels.
 
     With ``panels`` each run has a panel of its own. ``bounds`` are (left, right, low, high); by default they
-    contain all points. Markers are drawn at every state if ``marked`` is True.
+    contain all points of the panel. Markers are drawn at every state if ``marked`` is True. With ``dots`` the
+    states are drawn as dots without lines between them.
     """
 
     point: tuple[Quantity, Quantity]
@@ -92,6 +93,7 @@ class PlaneCurves(Figure):
     panels: bool = False
     bounds: tuple[float, float, float, float] | None = None
     marked: bool = False
+    dots: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -31,14 +31,14 @@ figures = [
     PlaneCurves(
         name="spiral",
         title="Euler's method leaves the circle, Lie-Euler stays on it",
-        caption="30 steps of size 1/10. The reference is the exact solution.",
+        caption="120 steps of size 1/10. The reference is the exact solution.",
         source="Fig. 1.1 of the thesis",
         point=(x, y),
         marked=True,
         runs=(
-            Run("ambient:euler", 0.1, 30, "Euler"),
-            Run("rkmk(0):euler", 0.1, 30, "Lie-Euler"),
+            Run("ambient:euler", 0.1, 120, "Euler"),
+            Run("rkmk(0):euler", 0.1, 120, "Lie-Euler"),
         ),
-        reference=Run("rkmk:butcher6", 0.02, 150),
+        reference=Run("rkmk:butcher6", 0.02, 600),
     ),
 ]

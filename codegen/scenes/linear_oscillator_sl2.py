@@ -75,7 +75,7 @@ figures = [
     TimeSeries(
         name="symmetric_canonical",
         title="Both energies of symmetric and of canonical methods",
-        caption="eps = 0.1, alpha = 0.123, h = 0.3. The thesis prints eps = 0.6, which does not give its axis.",
+        caption="eps = 0.1, alpha = 0.123, h = 0.3. The printed eps is 0.6, which does not fit the axis.",
         source="Fig. 4.2 of the thesis",
         quantities=both,
         axis="energy",

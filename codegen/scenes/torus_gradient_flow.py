@@ -34,7 +34,7 @@ figures = [
     TorusCurves(
         name="flow",
         title="Gradient flow on the torus",
-        caption="Arrows show the direction of -grad phi and the square root of its size. Lines are levels of phi.",
+        caption="Arrows show -grad phi; their length is the root of its size. Lines: levels of phi.",
         source="Fig. 2.5 of the thesis",
         angles=(atan2(b[1], b[0]), atan2(a[1], a[0])),
         axes=("φ", "θ"),

@@ -29,9 +29,6 @@ if TYPE_CHECKING:
 HIDDEN = 0.3
 """Opacity of the curves on the hidden half."""
 
-DOT = 1.1
-"""The diameter of a dot in printer's points."""
-
 
 THIN: Looks = {"linewidth": 0.9, "marker": ""}
 
@@ -95,7 +92,7 @@ def _curve(
     for hidden in (False, True):
         x = numpy.where((seen[2] < 0) == hidden, seen[0], math.nan)
         if dots:
-            canvas.dots(axes, (x, seen[1]), label, style, DOT, HIDDEN if hidden else 1.0)
+            canvas.dots(axes, (x, seen[1]), label, style, HIDDEN if hidden else 1.0)
         elif numpy.isfinite(x).any():
             shown: Looks = {**looks, "alpha": HIDDEN} if hidden else looks
             canvas.line(axes, (x, seen[1]), label, style, looks=shown)

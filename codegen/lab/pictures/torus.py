@@ -59,14 +59,8 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
     if figure.levels is not None:
         angles, states = _states(figure, numpy.linspace(-math.pi, math.pi, GRID))
         heights = formulas(source.problem, [figure.levels])(states, numpy.zeros(states.shape[1]))[0]
-        square = (GRID, GRID)
-        axes.contour(
-            *(a.reshape(square) for a in angles),
-            heights.reshape(square),
-            LEVELS,
-            colors=[RULE],
-            linewidths=0.7,
-        )
+        x, y, z = (row.reshape(GRID, GRID) for row in (*angles, heights))
+        axes.contour(x, y, z, LEVELS, colors=[RULE], linewidths=0.7)
     if figure.directions:
         middle = numpy.linspace(-math.pi, math.pi, 2 * ARROWS + 1)[1::2]
         (x, y), states = _states(figure, middle)
