@@ -154,7 +154,7 @@ def array_functions(
 
     return {
         name: vectorised(straight_line(scene.name, scene.symbols, exprs).python(float, FUNCTIONS))
-        for name, exprs in (kept or expressions(scene)).items()
+        for name, exprs in (expressions(scene) if kept is None else kept).items()
     }
 
 

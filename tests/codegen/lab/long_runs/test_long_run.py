@@ -174,6 +174,13 @@ def test_a_run_that_stops_says_where_and_keeps_what_was_run():
     assert "did not converge" in run.failure or "not finite" in run.failure
 
 
+def test_the_manifold_is_kept_by_a_scene_without_invariants():
+    run = long_run(compile_method("inertial_navigation", "rkmk(0):euler"), 0.01, 500, back=False)
+    (kept,) = run.kept
+    assert (kept.name, kept.drift.law) == ("manifold", "rounding")
+    assert kept.drift.largest < 1e-13
+
+
 def test_the_command_prints_every_kept_quantity():
     done = CliRunner().invoke(
         command, ["fast_heavy_top", "-m", "splitting:strang", "--steps", "1000"], standalone_mode=False
