@@ -44,6 +44,7 @@ from codegen.run.terms import (
     whole,
     wide,
 )
+from codegen.run.whole_arrays import in_state, names_in, whole_result
 
 ADVANCE, SUBSTEP = "advance", "substep"
 """The names of the functions for a step and for a substep."""
@@ -67,19 +68,21 @@ def kernel_step(plan: Plan) -> Function:
     # The kernel does not read these entries, because it can compute them from other entries. A NaN in one of
     # them would not appear in the new state, so they are tested.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
+    # The extrapolation comes directly after the loops, because a processor can then compute it in parallel
+    # with the outputs.
+    inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
+    array = whole_result(plan.arrangement.outputs)
+    finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)
     body: list[Statement] = [
         If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
         *sampled(plan),
-        *loaded(plan.symbols, state, read),
-        # The extrapolation comes directly after the loops, because a processor can then compute it in
-        # parallel with the outputs.
-        *computed(plan, _remembered(plan)),
-        *ends,
+        *loaded(plan.symbols, state, names_in([*inner, *_errors(plan)])),
+        *inner,
         # Nothing is written to the state before this last test: a failed step leaves the state unchanged.
-        If(negated(all_finite(*new, *unread)), (Return(code(NOT_FINITE)),)),
+        If(negated(finite), (Return(code(NOT_FINITE)),)),
         *_errors(plan),
         *_aged(plan),
-        *stored(state, new),
+        *(stored(state, new) if array is None else [Assign(state, array)]),
         Return(code(OK)),
     ]
     about = f"One {'substep' if plan.parts else 'step'}."

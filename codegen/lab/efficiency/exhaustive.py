@@ -4,7 +4,8 @@ its family or a time limit for predictions. A benchmark compares the usual searc
 Each recipe is first run by the interpreter with more and more steps, as long as the run may be fast enough.
 The counted operations give the time of a step, and the measured error gives the number of steps for the
 target. The product of this time and this number, divided by SAFE, is a lower bound of the time of the recipe.
-If the bound exceeds WORST times the best measured time for each error, the recipe is excluded. All other
+If the bound exceeds WORST times the best measured time for each error, the recipe is excluded. Where equal
+steps have large errors, no implicit recipe and no recipe with step-size control is excluded. All other
 recipes are emitted, compiled and raced. A sample of the excluded recipes is also raced. The times of the
 sample show whether the bound is safe.
 """

@@ -1,8 +1,9 @@
 """The predicted time of a recipe for an error, from a few interpreted steps and counted operations.
 
 The step program is interpreted with a small number of steps; its error and the order of the method give the
-number of steps for another error. The cost of a step is the sum of the costs of its operations. The cost of
-an operation is computed once for each scene from its expressions. The prediction ignores common
+number of steps for another error. If the error of equal steps remains large, for example on stiff scenes, a
+run with step-size control is interpreted, too. The cost of a step is the sum of the costs of its operations.
+The cost of an operation is computed once for each scene from its expressions. The prediction ignores common
 subexpressions of different operations, which the compiler computes once. Therefore it only decides which
 recipes are compiled and measured first, and which recipes are too slow to be compiled.
 """

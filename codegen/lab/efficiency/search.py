@@ -2,7 +2,8 @@
 
 The search has three stages. First, each recipe is predicted by a few interpreted steps
 (:mod:`codegen.lab.efficiency.prediction`). A recipe is dropped without interpreted steps if one step takes
-too long, or if methods of higher order do not come close to the error. Second, recipes are emitted and
+too long, or if methods of higher order do not come close to the error. Where equal steps have large errors,
+for example on stiff scenes, a run with step-size control is interpreted, too. Second, recipes are emitted and
 measured in C, in the order of their predicted times. For each kind of recipe, the ratio of measured to
 predicted times corrects later predictions. A recipe is not emitted if its corrected prediction exceeds the
 best measured time by a safety factor. Third, the fastest recipes are timed again with more repetitions.

@@ -7,7 +7,7 @@ A method passes if its slopes settle within a quarter of that order on every sce
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from codegen.certify import CertifiedOrder, certified_order
 from codegen.emitter import Optimised, optimise_method
@@ -17,6 +17,7 @@ from codegen.lab.reference import cached_reference
 from codegen.lab.runner import Interpreted
 from codegen.lower import lowering
 from codegen.method import Method
+from codegen.scene.problem import Problem
 
 DIGITS = 50
 Alter = Callable[[Optimised], Optimised]
@@ -37,14 +38,18 @@ def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
 
 
 def strict(
-    method: Method, stated: CertifiedOrder, tell: Callable[[str], object] = str, alter: Alter = lambda c: c
+    method: Method,
+    stated: CertifiedOrder,
+    tell: Callable[[str], object] = str,
+    alter: Alter = lambda c: c,
+    scenes: Sequence[Problem] | None = None,
 ) -> Iterator[Convergence]:
-    """Yield the convergence of the method on each scene of the protocol.
+    """Yield the convergence of the method on each scene of the protocol, or on each of ``scenes``.
 
     ``alter`` changes the step program before the runs. Tests use it to insert errors that the protocol must
     find.
     """
-    for scene in strict_scenes(lowering(method.family)):
+    for scene in strict_scenes(lowering(method.family)) if scenes is None else scenes:
         tell(f"{method.label} on {scene.name}")
         compiled = alter(optimise_method(scene, method))
         yield converge(Interpreted(compiled, DIGITS), stated, cached_reference(scene))

@@ -258,6 +258,21 @@ def test_methods_with_an_error_estimate_have_an_early_turn() -> None:
     assert order.index("slow:m1") > 8
 
 
+@pytest.mark.parametrize("controlled", [False, True])
+def test_rough_predictions_exclude_only_recipes_without_step_size_control(controlled: bool) -> None:
+    """Equal steps of a higher order are slow, which says nothing about controlled steps of a lower order."""
+    goal = Goal(1e-12)
+    low, high, other = (Recipe(f"{f}:m{k}", k, k, f"m{k}") for f, k in (("f", 5), ("f", 6), ("g", 6)))
+    jobs = Jobs({r: [goal] for r in (low, high, other)}, {low: [goal]} if controlled else {})
+    jobs.add(other, Prediction(other.method, 6, "g", outside=1e3, error=1e-12))
+    jobs.add(high, Prediction(high.method, 6, "f", outside=1e3, error=1e-2, rough=True))
+    assert jobs._bar(goal, low).too_high("f", True) != controlled
+    # A prediction for step-size control is used.
+    slow = Prediction(high.method, 6, "f", outside=1e3, error=1e-2)
+    jobs.add(high, replace(slow, rough=True, controlled=slow))
+    assert jobs._bar(goal, low).too_high("f", True)
+
+
 def test_a_prediction_is_rough_if_no_run_on_the_whole_span_is_accurate(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
