@@ -66,7 +66,7 @@ class Arrival:
     crossings: tuple[Crossing, ...] = ()
     """The events that a run of ``integrate`` has found, in order."""
     status: Status = Status.OK
-    """EVENT if a terminal event ended the run."""
+    """EVENT if a terminal event ended the run; the status of the failed step in the arrival of an error."""
 
 
 @dataclass(frozen=True)

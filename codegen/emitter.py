@@ -24,6 +24,7 @@ from codegen.ir.program import Program
 from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.compensation import compensated as add_carries
+from codegen.kernel.large_linear_kernel import large_linear_method
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.site_kernel import site_method
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
@@ -134,7 +135,7 @@ def compile_method(
         return _with_sites(scene, method, {"jacobian": jacobian, "a run to an end time": request.any})
     problem = problem_for(scene, method)
     if scene.matrices is not None and not lowering(method.family).in_coordinates:
-        return _with_arrays(scene, method, jacobian, request.any)
+        return _with_arrays(scene, method, jacobian, request)
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates, degree = [], lowering(method.family).degree(method)
@@ -203,14 +204,24 @@ def with_batch(compiled: Compiled) -> Compiled:
     return replace(compiled, kernel=replace(kernel, batch=True))
 
 
-def _with_arrays(scene: Problem, method: Method, jacobian: bool, run: bool) -> Compiled:
+def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunRequest) -> Compiled:
     """Return a method on a scene whose field is given by formulas of matrices."""
-    refused = "the derivative of a step" if jacobian else ""
-    refused = refused or "a run to an end time, or compensated summation," * run
-    if refused:
-        what = f"{refused} for a scene with large matrices"
-        raise MethodError(what, where=scene.name, expected="a scene with formulas in coordinates")
-    own = array_method(scene, method)
+    options = {
+        "--jacobian": jacobian,
+        "--compensate": request.compensate,
+        "--dense": request.dense,
+        "--events": request.events > 0,
+        "--integrate": request.integrate,
+    }
+    given = next((option for option, is_given in options.items() if is_given), None)
+    if given is not None:
+        raise MethodError(
+            f"{given} for {method.label} on a scene whose field is given by formulas of large matrices",
+            where=scene.name,
+            expected="a scene with formulas in coordinates, such as FieldScene or LinearScene",
+            hint=f"leave out {given}; the emitted run makes steps of equal size",
+        )
+    own = large_linear_method(scene, method) if scene.linear else array_method(scene, method)
     kernel = own.kernel
     if kernel.estimate is not None:
         order = order_of_estimate(method, scene)

@@ -3,7 +3,8 @@
 The estimate is the difference between the results of the main row and of the embedded row of a tableau. If
 both rows have the same leading error term, the estimate has a higher order than the local error. It is then
 called blind. RKMK methods with a small cut-off are an example: the same brackets are missing in both rows. If
-the orders of the rows differ, the estimate is not blind. Otherwise the orders of the estimate and of the
+the orders of the rows differ, the estimate is not blind, unless the problem is linear in time: rows may be
+equal if f does not depend on the state. In the other cases the orders of the estimate and of the
 local error are computed from very short steps in 100 digits. The local error is measured by the difference
 between one step of size h and two steps of size h/2.
 """
@@ -45,6 +46,16 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"an estimate of the error for {method.label}", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
+    # If f depends on t alone, stages at the same time have the same values, so rows of different orders may
+    # be equal.
+    if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
+        raise MethodError(
+            f"no error estimate for {method.label}: both rows give the same result or the same leading error "
+            "if f does not depend on the state",
+            where=scene.name,
+            expected="rows that differ on y' = A(t).y",
+            hint="use another tableau with an embedded row, for example cf:cf3 or rkmk(4):dormand_prince5",
+        )
     if order == lower_order and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: both rows have order {order} and the same leading error",

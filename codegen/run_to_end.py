@@ -95,7 +95,7 @@ class RunToEnd(ABC):
                 raise values.failure
             if run.status not in (Status.OK, Status.EVENT):
                 failed = begun.failed(run.status, accepted, run.state, run.reason)
-                failed.arrival = arrival
+                failed.arrival = replace(arrival, status=failed.status)
                 raise failed
             stopped = any(x.t == run.t and events[x.event].terminal for x in crossings)
             if run.status == Status.OK or stopped:

@@ -37,6 +37,7 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
     from codegen.lab.orders.exact_order import local_error_or_reason
 
     problem = scenes.load(scenes.with_values(scene, parameters))
+    problem.require_formulas()
     errors = []
     chosen = methods_for(problem, methods)
     with counting("local errors", total=len(chosen)) as done:

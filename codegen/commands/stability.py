@@ -58,7 +58,9 @@ def command(
         raise click.UsageError("--parameter changes one SCENE; omit --all")
     names = scenes.GALLERY if scene is None else (scenes.with_values(scene, parameters),)
     for name in names:
-        methods_for(scenes.load(name), methods)  # This call raises InputError before the work begins.
+        # These calls raise InputError before the work begins.
+        scenes.load(name).require_formulas()
+        methods_for(scenes.load(name), methods)
     all_results: list[Stability | NotTested] = []
     with counting("stability", total=len(names) if len(names) > 1 else None) as done:
         work = _alone if len(names) > 1 else partial(_run, progress=done)

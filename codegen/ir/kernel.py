@@ -15,6 +15,7 @@ from typing import ClassVar
 
 from codegen.ir.array_step import ArrayStep
 from codegen.ir.expr import Expr, walk
+from codegen.ir.linear_array_step import LinearArrayStep
 from codegen.ir.number import Number
 from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
@@ -347,7 +348,7 @@ class Kernel:
     outlined: tuple[Function, ...] = ()
     carried: Carried | None = None
     expansion: Expansion | None = None
-    arrays: ArrayStep | None = None
+    arrays: ArrayStep | LinearArrayStep | None = None
     batch: bool = False
     observed: Observed | None = None
     sites: SiteStep | None = None

@@ -39,10 +39,11 @@ def without_formulas(scene: Problem) -> Objection | None:
     formulas in coordinates; None for other scenes."""
     if scene.roots:
         return None
+    families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
     return Objection(
         ", whose field is given by formulas of large matrices",
         "a scene with formulas in coordinates",
-        "use rkmk, cf or cg, or fewer rows",
+        f"use {families}, or fewer rows",
     )
 
 

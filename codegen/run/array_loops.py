@@ -188,7 +188,7 @@ class ArrayLoops:
         if not _covers(c):
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
-            i, j = _along(diagonal, _ROW)
+            i, j = along(diagonal, _ROW)
             before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
             row, column = (j, i) if a.transposed else (i, j)
             columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
@@ -238,7 +238,7 @@ class ArrayLoops:
             body = For(_COLUMN, whole(c.columns), inner(_ROW, _COLUMN, before, entry))
             yield For(_ROW, whole(c.rows), (body,))
         for n, diagonal in enumerate(c.diagonals):
-            i, j = _along(diagonal, _ROW)
+            i, j = along(diagonal, _ROW)
             before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
             yield For(_ROW, whole(c.length(diagonal)), inner(i, j, before, entry))
 
@@ -273,12 +273,13 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of entries that are given as numbers."""
-    for c in constants:
+    # A matrix with formulas in t occurs once for each stage time; its numbers are the same at all times.
+    for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
                 table_name(c, n),
                 d.entry,
-                f"The entries a[i][i + {d.offset}] of a {c.rows} x {c.columns} matrix.",
+                f"The entries a[i][{_sum(d.offset)}] of a {c.rows} x {c.columns} matrix.",
             )
             for n, d in enumerate(c.diagonals)
         ]
@@ -286,6 +287,11 @@ def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterato
         for name, entry, about in listed:
             if isinstance(entry, tuple) and entry:
                 yield Table(real(name, len(entry)), (_rounded(entry, precision),), about)
+
+
+def _sum(offset: int) -> str:
+    """Return the text of i + offset."""
+    return f"i {'-' if offset < 0 else '+'} {abs(offset)}" if offset else "i"
 
 
 def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ...]:
@@ -312,7 +318,7 @@ def _shifted(first: Term | None, column: int) -> Index:
     return first + column if column else first
 
 
-def _along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
+def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
     """Return row and column of an entry of a diagonal."""
     offset = diagonal.offset
     if not offset:

@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
-from codegen.run import batch, deferred_flows, integration, jacobian, sites, step_control, taylor_control
+from codegen.ir.linear_array_step import LinearArrayStep
+from codegen.run import (
+    batch,
+    deferred_flows,
+    integration,
+    jacobian,
+    site_flows,
+    sites,
+    step_control,
+    taylor_control,
+)
 from codegen.run.arithmetic import outlined
 from codegen.run.array_step import array_functions, array_tables
 from codegen.run.cause import cause, is_searched, step_arguments
 from codegen.run.continuation import continued
 from codegen.run.language import Function, Record, Table, Unit
+from codegen.run.linear_array_step import linear_array_functions, linear_array_tables
 from codegen.run.matrix_functions import matrix_functions, matrix_tables, used
 from codegen.run.momentum import turning
 from codegen.run.plan import Plan
@@ -22,7 +33,9 @@ def unit_of(plan: Plan) -> Unit:
     # Callees come first, because C needs a declaration before each call.
     if plan.kernel.sites is not None:
         scalars = ("t", "h", *(p.text for p in plan.parameters))
-        return Unit(scalars, (), (), tuple(sites.functions(plan, plan.kernel.sites)))
+        step = plan.kernel.sites
+        of_sites = site_flows.functions if step.flows else sites.functions
+        return Unit(scalars, (), (), tuple(of_sites(plan, step)))
     functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
     if plan.kernel.deferred is not None:
         functions += deferred_flows.functions(plan)
@@ -51,7 +64,7 @@ def _steps(plan: Plan) -> list[Function]:
     if is_looped(plan):
         return [*listed, *turning(plan), *looped_runs(plan), step(plan)]
     if plan.kernel.arrays is not None:
-        return [*listed, *array_functions(plan, plan.kernel.arrays), *_causes(plan), step(plan), run(plan)]
+        return [*listed, *_array_functions(plan), *_causes(plan), step(plan), run(plan)]
     if not plan.kernel.outputs:
         return [*listed, *taylor_control.polynomial_step(plan), *_causes(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
@@ -62,6 +75,15 @@ def _steps(plan: Plan) -> list[Function]:
     if plan.parts:
         listed.append(composed_step(plan))
     return [*listed, *_causes(plan), *turning(plan), step(plan), run(plan)]
+
+
+def _array_functions(plan: Plan) -> tuple[Function, ...]:
+    """Return the functions of a step with whole matrices or with products of matrices and vectors."""
+    arrays = plan.kernel.arrays
+    assert arrays is not None
+    if isinstance(arrays, LinearArrayStep):
+        return linear_array_functions(plan, arrays)
+    return array_functions(plan, arrays)
 
 
 def _causes(plan: Plan) -> list[Function]:
@@ -78,5 +100,9 @@ def _records(plan: Plan) -> tuple[Record, ...]:
 def _tables(plan: Plan) -> tuple[Table, ...]:
     listed = [differences(plan.start)] if plan.start is not None else []
     arrays = plan.kernel.arrays
-    own = () if arrays is None else array_tables(arrays, plan.format)
+    own: tuple[Table, ...] = ()
+    if isinstance(arrays, LinearArrayStep):
+        own = linear_array_tables(arrays, plan.format)
+    elif arrays is not None:
+        own = array_tables(arrays, plan.format)
     return (*listed, *substep_tables(plan), *own)

@@ -2,10 +2,9 @@
 the compiler evaluates.
 
 A scene file imports its names from this package:
-``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``.
-``from codegen.scene import FieldScene, HamiltonianScene, param, signal, table``. Scenes with large matrices
-use ``StiefelScene``, ``unknown``, ``banded`` and ``full``; chains and lattices use ``SiteScene``,
-``neighbour``, ``left`` and ``right``.
+``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``. Scenes with
+large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and ``full``; chains
+and lattices use ``SiteScene``, ``neighbour``, ``left`` and ``right``.
 """
 
 from __future__ import annotations
@@ -17,6 +16,7 @@ from orderconds.lazy import lazy
 if TYPE_CHECKING:
     from codegen.scene.field_scene import FieldScene as FieldScene
     from codegen.scene.hamiltonian_scene import HamiltonianScene as HamiltonianScene
+    from codegen.scene.large_linear_scene import LargeLinearScene as LargeLinearScene
     from codegen.scene.linear_scene import LinearScene as LinearScene
     from codegen.scene.matrix_formula import banded as banded
     from codegen.scene.matrix_formula import full as full
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from codegen.scene.parameters import param as param
     from codegen.scene.parameters import signal as signal
     from codegen.scene.problem import Problem as Problem
+    from codegen.scene.site_parts import Pair as Pair
     from codegen.scene.site_scene import SiteScene as SiteScene
     from codegen.scene.sites import left as left
     from codegen.scene.sites import neighbour as neighbour
@@ -36,7 +37,9 @@ if TYPE_CHECKING:
 __all__ = [
     "FieldScene",
     "HamiltonianScene",
+    "LargeLinearScene",
     "LinearScene",
+    "Pair",
     "Problem",
     "SiteScene",
     "StiefelScene",
@@ -55,10 +58,12 @@ lazy(
     __name__,
     field_scene=("FieldScene",),
     hamiltonian_scene=("HamiltonianScene",),
+    large_linear_scene=("LargeLinearScene",),
     linear_scene=("LinearScene",),
     matrix_formula=("banded", "full", "unknown"),
     parameters=("Parameter", "Signal", "param", "signal"),
     problem=("Problem",),
+    site_parts=("Pair",),
     site_scene=("SiteScene",),
     sites=("left", "neighbour", "right"),
     stiefel_scene=("StiefelScene",),

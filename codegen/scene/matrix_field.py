@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 from codegen.ir.array_program import ArrayProgram
 from codegen.ir.domain import Domain, Scalar
@@ -19,6 +20,8 @@ class MatrixField:
     """
 
     program: ArrayProgram
+    linear: ClassVar[bool] = False
+    """True if the field is linear in the matrix, and its generator does not depend on the matrix."""
 
     @property
     def rows(self) -> int:

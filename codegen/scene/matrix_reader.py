@@ -7,9 +7,10 @@ as their transposes, so each stored matrix has n rows or is small.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
+from typing import cast
 
 from codegen.errors import SceneError
 from codegen.ir.array_program import (
@@ -31,6 +32,7 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 from codegen.scene.formulas import Reader
 from codegen.scene.matrix_formula import (
+    Coefficient,
     Constant,
     EntryFormula,
     MatrixFormula,
@@ -97,6 +99,26 @@ def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayPr
     return _Compiler(reader, x).program(formula)
 
 
+def matrix_terms(reader: Reader, formula: MatrixFormula) -> tuple[tuple[Expr, ConstantMatrix], ...]:
+    """Return a sum of multiples of given matrices as pairs: a coefficient and a matrix.
+
+    :class:`SceneError` is raised for products of matrices, for an unknown, and for entries that cannot be
+    read.
+    """
+    compiler = _Compiler(reader, Unknown(formula.rows, 1))
+    terms: list[tuple[Expr, ConstantMatrix]] = []
+    for c, factors in compiler.summands(formula, reader.space.one, False):
+        given = factors[0].constant if len(factors) == 1 else None
+        if given is None:
+            raise SceneError(
+                "A contains an unknown or a product of matrices",
+                where=reader.name,
+                expected="a sum of multiples of banded(...) and full(...)",
+            )
+        terms.append((c, compiler.constant(given, transposed=factors[0].transposed)))
+    return tuple(terms)
+
+
 @dataclass
 class _Compiler:
     """Collects the statements of one program."""
@@ -105,7 +127,7 @@ class _Compiler:
     x: Unknown
     body: list[ArrayStatement] = field(default_factory=list)
     known: dict[object, _Stored] = field(default_factory=dict)
-    constants: dict[int, ConstantMatrix] = field(default_factory=dict)
+    constants: dict[tuple[int, bool], ConstantMatrix] = field(default_factory=dict)
 
     def program(self, formula: MatrixFormula) -> ArrayProgram:
         """Return the program."""
@@ -250,12 +272,13 @@ class _Compiler:
         self.body.append(Multiplication(target, left.matrix, right.matrix, left.transposed, right.transposed))
         return _Stored(target)
 
-    def constant(self, given: Constant) -> ConstantMatrix:
-        """Return a constant matrix with its entries read."""
-        key = id(given)
+    def constant(self, given: Constant, *, transposed: bool = False) -> ConstantMatrix:
+        """Return a constant matrix or its transpose with its entries read."""
+        key = id(given), transposed
         if key not in self.constants:
             name = f"matrix_{len(self.constants) + 1}"
-            self.constants[key] = _constant(self.reader, name, given)
+            own = _transposed(given) if transposed else given
+            self.constants[key] = _constant(self.reader, name, own)
         return self.constants[key]
 
 
@@ -303,6 +326,28 @@ def _filled(constant: Constant) -> float:
     if constant.diagonals is None:
         return constant.rows * constant.columns
     return len(constant.diagonals) * constant.rows
+
+
+def _transposed(given: Constant) -> Constant:
+    """Return the transpose of a constant matrix."""
+    if given.diagonals is not None:
+        # The list of the entries of a diagonal has the same order in the transpose.
+        diagonals = {-offset: _shifted(entry, offset) for offset, entry in given.diagonals.items()}
+        return Constant(given.columns, given.rows, diagonals, None)
+    entries = given.entries
+    if callable(entries):
+        formula = entries
+        return Constant(given.columns, given.rows, None, lambda i, j: formula(j, i))
+    numbers = _flat(entries)
+    if numbers is None or len(numbers) != given.rows * given.columns:
+        return Constant(given.columns, given.rows, None, entries)
+    turned = [numbers[i * given.columns + j] for j in range(given.columns) for i in range(given.rows)]
+    return Constant(given.columns, given.rows, None, cast("Sequence[Coefficient]", turned))
+
+
+def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
+    """Return the entries a_{i - offset, i} as a function of i."""
+    return (lambda i: entry(i - offset)) if callable(entry) else entry
 
 
 def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:

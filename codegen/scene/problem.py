@@ -130,11 +130,11 @@ class Problem:
     @property
     def linear(self) -> bool:
         """True if the field does not depend on the state: y' = A(t).y, a linear problem in time."""
-        state = set(self.symbols)
         # A tangent field on matrices with orthonormal columns depends on the matrix.
-        return self.matrices is None and not any(
-            n.op == "sym" and n.payload in state for n in walk(self.roots)
-        )
+        if self.matrices is not None:
+            return self.matrices.linear
+        state = set(self.symbols)
+        return not any(n.op == "sym" and n.payload in state for n in walk(self.roots))
 
     @property
     def is_hamiltonian(self) -> bool:
@@ -152,8 +152,8 @@ class Problem:
                 f"a field without formulas in coordinates, because {self.group.name} has {self.group.dim} "
                 "coordinates",
                 where=self.name,
-                expected="a scene with fewer rows",
-                hint="emit and converge work for every number of rows",
+                expected="formulas in coordinates, which a scene of large matrices has up to eight rows",
+                hint="use a smaller matrix here; emit and converge work for every number of rows",
             )
 
     def as_field(self) -> Problem:

@@ -10,7 +10,7 @@ from codegen.errors import SceneError
 from codegen.groups.actions import Action
 from codegen.groups.actions.stiefel import Stiefel
 from codegen.groups.base import LieGroup
-from codegen.groups.large_rotations import LargeRotations
+from codegen.groups.large_group import LargeRotations
 from codegen.groups.so import SO
 from codegen.ir.domain import ExprDomain, FloatDomain
 from codegen.ir.expr import Expr

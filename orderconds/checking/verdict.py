@@ -14,6 +14,7 @@ from orderconds.checking.continuous import extension_order
 from orderconds.checking.limits import Limits, Meter
 from orderconds.checking.order import DOUBLE, FamilyOrder, family_order, first_failing
 from orderconds.checking.report import EmbeddedOrder, ExtensionOrder, Report
+from orderconds.checking.symmetry import symmetry_order
 from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.tableau import Tableau
@@ -67,8 +68,7 @@ def check(
     proof, broken = _proof(tableau)
     enclosed, facts = (proof.tableau, proof.facts) if proof else (tableau, ())
     embedded = _embedded(enclosed, [f for f, _ in wanted])
-    computed = properties(tableau)
-    dense = extension_order(tableau)
+    computed, dense = properties(tableau), extension_order(tableau)
     if family is None:
         broken += (*_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
     broken += _missing_claims(enclosed, tableau) if complete else []
@@ -86,6 +86,7 @@ def check(
         work={f.label(): cost for f, _ in wanted if (cost := f.work(tableau)) is not None},
         embedded=embedded,
         dense=dense,
+        symmetry=symmetry_order(enclosed, computed.get("symmetric")),
         properties_claimed=bool(tableau.claims.properties),
         hint=_hint(given, orders),
     )

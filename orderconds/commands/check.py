@@ -354,6 +354,10 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         click.echo(f"  a step: {_work(report.work)}")
     holding = [name for name, value in report.properties.items() if value]
     click.echo(f"  properties: {', '.join(holding) or 'none'}")
+    if report.effective_symmetry is not None:
+        click.echo(
+            f"  effectively symmetric: a step of -h undoes a step of h up to h^{report.effective_symmetry}"
+        )
     for reason in dict.fromkeys(report.undecided.values()):
         names = [name for name, why in report.undecided.items() if why == reason]
         click.echo(f"  undecided: {', '.join(names)} ({reason})")

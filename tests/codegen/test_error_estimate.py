@@ -42,6 +42,15 @@ def test_the_cutoff_that_is_named_meets_the_tolerance() -> None:
     assert distance(compiled.scene, arrival.state, cached_reference(compiled.scene).state) < 1e-7
 
 
+@pytest.mark.parametrize("method", ["cf:cf43", "cg:cg43"])
+def test_rows_that_are_equal_on_a_problem_linear_in_time_are_refused(method: str) -> None:
+    # The stages at the same time have the same values, so both rows have the same result.
+    with pytest.raises(MethodError, match="does not depend on the state") as refused:
+        compile_method("four_level_system", method, adaptive=True)
+    assert "cf:cf3" in refused.value.hint
+    assert compile_method("four_level_system", "cf:cf3", adaptive=True).kernel.estimate is not None
+
+
 def test_emit_refuses_with_one_message() -> None:
     words = ["emit", "driven_spin", "--method", "rkmk(0):dormand_prince5", "--adaptive", "--json"]
     done = CliRunner().invoke(program, words)

@@ -285,6 +285,7 @@ def test_a_run_that_reaches_its_limit_can_be_continued(target: str) -> None:
         constant.integrate(constant.initial, 0, 2, 0.1, limit=5)
     ended = failed.value.arrival
     assert (ended.t, ended.accepted) == (0.5, 5)
+    assert (ended.status, failed.value.status) == (Status.LIMIT, Status.LIMIT)
     rest = constant.integrate(ended.state, ended.t, 2, 0.1)
     assert rest.state == pytest.approx(constant.run(constant.initial, 0.1, 20), abs=1e-14)
 

@@ -16,6 +16,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 import sympy
+from click.testing import CliRunner
 from scipy.linalg import expm
 
 from codegen.certify import certified_order
@@ -37,6 +38,7 @@ from codegen.run.plan import Plan
 from codegen.run.unit import unit_of
 from codegen.scene import StiefelScene, banded, full, param, unknown
 from codegen.scenes import load
+from orderconds.cli import program
 from orderconds.ring import QQ
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "eigenspace" / "eigenspace.py"
@@ -305,6 +307,33 @@ def executed_operations(n, label):
     return Counted.total.total()
 
 
+class TestText:
+    def test_a_table_is_emitted_once_although_the_matrix_depends_on_time(self):
+        X, t = unknown(6, 2), sympy.Symbol("t")
+        A = banded(6, {0: [1, 2, 3, 4, 5, 6], 1: t, -1: t})
+        scene = StiefelScene(x=X, velocity=A @ X - X @ (X.T @ A @ X), span=(0, 1), name="twice")
+        for target, line in (
+            ("c", "double twice_rkmk_rk4_matrix_1_diagonal_1[6] ="),
+            ("python", "1.0, 2.0, 3.0"),
+        ):
+            text = "".join(emit(scene, "rkmk:rk4", target).files.values())
+            assert text.count(line) == 1
+
+    def test_the_header_contains_no_comment_in_a_comment_if_the_state_is_long(self):
+        X = unknown(40, 2)
+        scene = StiefelScene(
+            x=X,
+            velocity=0 * X,
+            span=(0, 1),
+            y0=[x for i in range(40) for x in (sympy.sqrt(10) / 20, sympy.sqrt(10) / 20 * (-1) ** i)],
+            name="long",
+        )
+        for text in emit(scene, QUICK, "c").files.values():
+            for comment in re.findall(r"/\*(.*?)\*/", text, re.DOTALL):
+                assert "/*" not in comment
+        assert "set the state" in text
+
+
 class TestRefusals:
     @pytest.mark.parametrize(
         ("label", "words"),
@@ -327,8 +356,19 @@ class TestRefusals:
             emit(tridiagonal(900), QUICK, "c")
 
     def test_the_derivative_of_a_step_is_refused(self):
-        with pytest.raises(MethodError, match="large matrices"):
+        with pytest.raises(MethodError, match=r"--jacobian .* large matrices"):
             compile_method(tridiagonal(40), "rkmk:rk4", jacobian=True)
+
+    @pytest.mark.parametrize("option", ["integrate", "dense", "compensate"])
+    def test_a_run_to_an_end_time_and_compensated_summation_are_refused(self, option):
+        with pytest.raises(MethodError, match=rf"--{option} .* large matrices"):
+            compile_method(tridiagonal(40), "rkmk:rk4", **{option: True})
+
+    @pytest.mark.parametrize("command", ["stability", "localerror", "bench"])
+    def test_measurements_in_coordinates_are_refused(self, command):
+        done = CliRunner().invoke(program, [command, str(EXAMPLE), "--method", "rkmk:rk4"])
+        assert done.exit_code == 2
+        assert "without formulas in coordinates" in done.stderr
 
     def test_operations_of_the_group_are_refused(self):
         scene = tridiagonal(40)

@@ -1,4 +1,4 @@
-"""SO(n) for large n, whose elements and algebra elements are never written as n x n matrices."""
+"""Groups of large matrices, whose elements and algebra elements are never written as n x n matrices."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
 
-class LargeRotations(LieGroup):
-    """SO(n) as the name of the group in a scene with large matrices.
+class LargeGroup(LieGroup):
+    """The name of a group in a scene with large matrices; ``families`` are the families with emitted code.
 
-    Emitted steps store elements of the algebra as products of small matrices (:mod:`codegen.ir.array_step`).
     The operations of this class would need arrays with n^2 entries, so each of them raises
     :class:`codegen.errors.SceneError`.
     """
 
-    def __init__(self, n: int) -> None:
+    def __init__(self, name: str, n: int, dim: int, families: str) -> None:
         self.n = n
-        self.name = f"SO({n})"
-        self.dim = n * (n - 1) // 2
+        self.name = name
+        self.dim = dim
         self.size = n * n
+        self.families = families
 
     def _refuse(self) -> NoReturn:
         raise SceneError(
             f"an operation of {self.name} in coordinates",
-            expected=f"emitted code of rkmk, cf or cg, which needs no {self.n} x {self.n} matrix",
+            expected=f"emitted code of {self.families}, which needs no {self.n} x {self.n} matrix",
             hint="use a scene with at most eight rows for measurements that need formulas in coordinates",
         )
 
@@ -50,3 +50,18 @@ class LargeRotations(LieGroup):
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Raise SceneError."""
         self._refuse()
+
+
+class LargeRotations(LargeGroup):
+    """SO(n); emitted steps store elements of the algebra as products of small matrices
+    (:mod:`codegen.ir.array_step`)."""
+
+    def __init__(self, n: int) -> None:
+        super().__init__(f"SO({n})", n, n * (n - 1) // 2, "rkmk, cf or cg")
+
+
+class LargeLinearGroup(LargeGroup):
+    """GL(n); emitted steps apply exponentials to vectors (:mod:`codegen.ir.linear_array_step`)."""
+
+    def __init__(self, n: int) -> None:
+        super().__init__(f"GL({n})", n, n * n, "magnus, cf_magnus, fer, rkmk, cf or cg")

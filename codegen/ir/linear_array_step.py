@@ -1,0 +1,109 @@
+"""A step of a large linear problem y' = A(t) y, by products of A and vectors.
+
+The step evaluates the matrices a_i = h A(t_i) at its nodes. Its exponents are sums of letters and
+commutators. A letter is a linear combination of the a_i, and a commutator [X, Y] of two elements is applied
+to a vector as X (Y v) - Y (X v). So no product of matrices and no exponential of a matrix is formed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from codegen.ir.array_program import ConstantMatrix, Entry, Matrix
+from codegen.ir.expr import Expr
+from codegen.ir.number import Number
+
+TERMS = 14
+"""The degree of the Taylor polynomials in counts of operations. A typical degree is used: it depends on the
+norm."""
+
+Letter = tuple[tuple[int, Number], ...]
+"""A linear combination: pairs of the number of a node and its coefficient."""
+
+
+@dataclass(frozen=True)
+class TimeMatrix:
+    """A square matrix A(t) = sum of coefficients times matrices; coefficients and entries may contain t."""
+
+    terms: tuple[tuple[Expr, ConstantMatrix], ...]
+
+    @property
+    def rows(self) -> int:
+        """The number of rows."""
+        return self.terms[0][1].rows
+
+    @property
+    def is_banded(self) -> bool:
+        """True if every term is given by its diagonals."""
+        return all(matrix.diagonals for _, matrix in self.terms)
+
+    @cached_property
+    def offsets(self) -> tuple[int, ...]:
+        """The offsets of the diagonals of a banded matrix; the main diagonal comes first."""
+        offsets = {d.offset for _, matrix in self.terms for d in matrix.diagonals}
+        return tuple(sorted(offsets, key=lambda x: (abs(x), x)))
+
+    @property
+    def filled(self) -> int:
+        """The number of entries that are not zero by definition."""
+        n = self.rows
+        return sum(n - abs(d) for d in self.offsets) if self.is_banded else n * n
+
+    def constants(self) -> tuple[ConstantMatrix, ...]:
+        """Return the matrices of the terms, each once."""
+        return tuple(dict.fromkeys(matrix for _, matrix in self.terms))
+
+    def expressions(self) -> Iterator[Expr]:
+        """Yield the coefficients, and the formulas of entries."""
+        for coefficient, matrix in self.terms:
+            yield coefficient
+            entries: tuple[Entry, ...] = matrix.entries
+            yield from (e for e in entries if not isinstance(e, tuple))
+
+
+@dataclass(frozen=True)
+class Element:
+    """The letter with a number (None: no letter), plus a sum of coefficients times commutators."""
+
+    letter: int | None
+    commutators: tuple[tuple[Number, int], ...] = ()
+
+
+@dataclass(frozen=True)
+class LinearArrayStep:
+    """A step y1 = exp(X_m) ... exp(X_1) y0 for n x k matrices y.
+
+    ``times`` are the times of the nodes. A commutator refers to letters and to earlier commutators.
+    ``exponents`` are X_1, ..., X_m in this order.
+    """
+
+    argument: Matrix
+    matrix: TimeMatrix
+    times: tuple[Expr, ...]
+    letters: tuple[Letter, ...]
+    commutators: tuple[tuple[Element, Element], ...]
+    exponents: tuple[Element, ...]
+
+    def expressions(self) -> Iterator[Expr]:
+        """Yield the scalars of the step."""
+        yield from self.times
+        yield from self.matrix.expressions()
+
+    def products(self, element: Element) -> int:
+        """Return the number of products of a letter and a vector that an element needs."""
+        own = 0 if element.letter is None else 1
+        for _, number in element.commutators:
+            own += 2 * sum(map(self.products, self.commutators[number]))
+        return own
+
+    def operations(self) -> dict[str, int]:
+        """Return the number of additions and multiplications, with polynomials of degree :data:`TERMS` and
+        without halvings. The evaluation of formulas of entries is not counted."""
+        size, k = self.argument.size, self.argument.columns
+        products = TERMS * sum(map(self.products, self.exponents))
+        sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0
+        each = products * self.matrix.filled * k + sums
+        vectors = TERMS * len(self.exponents) * size
+        return {"add": each + vectors, "mul": each + 2 * vectors}

@@ -1,0 +1,297 @@
+"""From programs to kernels for large linear problems (:mod:`codegen.ir.linear_array_step`).
+
+A program for y' = A(t) y is homogeneous: a value of the algebra is a power of h times a polynomial in the
+matrices h A(t_i). The builder writes each exponent as such a polynomial with constant coefficients.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from functools import cache
+
+from codegen.errors import MethodError
+from codegen.groups.actions import Linear as LinearMaps
+from codegen.groups.bernoulli import bernoulli_over_factorial, last_term
+from codegen.groups.gl import GL
+from codegen.ir.array_program import COLUMN, ROW, ConstantMatrix, Entry, Matrix
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, evaluate
+from codegen.ir.kernel import Field as StateBlock
+from codegen.ir.kernel import Kernel
+from codegen.ir.linear_array_step import Element, Letter, LinearArrayStep, TimeMatrix
+from codegen.ir.number import Number
+from codegen.ir.operations import ActExp, Advance, Bracket, InverseDexp, Linear, Zero
+from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import Field
+from codegen.ir.values import Coefficient, Kind, Var
+from codegen.kernel.array_kernel import STATE, ArrayMethod
+from codegen.lower import lower
+from codegen.method import Method
+from codegen.passes import blocks, optimise
+from codegen.scene.linear_field import LinearField
+from codegen.scene.linear_scene import LinearScene
+from codegen.scene.problem import TIME, Problem
+
+LARGE_SUM = 1e-6
+"""Sums of the coefficients of a letter above this number are not zero."""
+
+
+def refused(scene: Problem, what: str, expected: str) -> MethodError:
+    """Return the error for a method that has no step by products of A and vectors."""
+    hint = "methods of the families magnus, cf_magnus and fer are possible, for example cf_magnus4"
+    return MethodError(what, where=scene.name, expected=expected, hint=hint)
+
+
+def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
+    """Return the compiled method. The passes are verified on a scene with three rows, because they do not
+    read the entries and the size of A.
+
+    MethodError is raised for a method with step control, for implicit stages, and for a method with an
+    operation that is not a product of A and a vector.
+    """
+    if method.adaptive:
+        expected = "a method with constant steps"
+        raise refused(scene, "step control for a large linear problem", expected)
+    model = _model(not scene.autonomous)
+    lowered = lower(model, method)
+    if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
+        expected = "an explicit method for a scene with large matrices"
+        raise refused(scene, f"the implicit stages of {method.label}", expected)
+    program, trace = optimise(lowered, model)
+    return ArrayMethod(lowered, program, trace, large_linear_kernel(program, scene))
+
+
+@cache
+def _model(timed: bool) -> Problem:
+    """Return a linear problem without symmetries, on which the passes of a program are verified."""
+    from sympy import Matrix as SquareMatrix
+    from sympy import Rational, Symbol
+
+    t = Symbol(TIME) if timed else Rational(1, 3)
+    A = SquareMatrix(3, 3, lambda i, j: Rational(i + 1, j + 2) * t + Rational(i * j - 1, 3) + (i - j) * t**2)
+    return LinearScene(group=GL(3), action=LinearMaps(), A=A, y0=[1, 0, 0], span=(0, 1))
+
+
+def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
+    """Return the kernel of a program on a large linear problem; MethodError is raised for implicit stages and
+    for operations that are not products of A and a vector."""
+    assert isinstance(scene.matrices, LinearField)
+    step = _Builder(program, scene, scene.matrices).step()
+    (block,) = scene.state
+    n, k = scene.matrices.rows, scene.matrices.columns
+    about = f"vector of {n} numbers" if k == 1 else f"{n} x {k} matrix, row by row"
+    state = (StateBlock(block.name, block.symbols, about),)
+    return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), arrays=step)
+
+
+@dataclass(frozen=True)
+class _Value:
+    """A value of the algebra: h^-power times (a combination of the nodes plus a sum of commutators)."""
+
+    power: int
+    nodes: dict[int, Number] = field(default_factory=dict)
+    commutators: dict[int, Number] = field(default_factory=dict)
+
+    @property
+    def is_zero(self) -> bool:
+        return not self.nodes and not self.commutators
+
+
+@dataclass
+class _Builder:
+    """Collects the nodes, letters and commutators of one step."""
+
+    program: Program
+    scene: Problem
+    given: LinearField
+    domain: ExprDomain = field(default_factory=ExprDomain)
+    times: list[Expr] = field(default_factory=list)
+    letters: dict[Letter, int] = field(default_factory=dict)
+    commutators: list[tuple[Element, Element]] = field(default_factory=list)
+    values: dict[Var, _Value] = field(default_factory=dict)
+    moments: dict[Var, Expr] = field(default_factory=dict)
+
+    def step(self) -> LinearArrayStep:
+        """Return the step."""
+        statements: dict[Var, Assign] = {}
+        for statement in self.program.body:
+            if not isinstance(statement, Assign):
+                raise refused(self.scene, f"the equations of {statement.label}", "an explicit method")
+            statements |= dict.fromkeys(statement.targets, statement)
+        for var in self.program.inputs:
+            if var.kind is Kind.REAL:
+                self.moments[var] = self.domain.space.sym(var.name)
+        ((_, end),) = self.program.outputs
+        exponents: list[Element] = []
+        # The points of stages are not needed, because A does not depend on them: only the chain of
+        # exponentials from the given point to the new one is computed.
+        for x in self.chain(end, statements):
+            for var in _needed(x, statements):
+                self.run(statements[var])
+            value = self.values[x]
+            if value.power:
+                raise AssertionError(value.power)
+            if not value.is_zero:
+                exponents.append(self.element(value))
+        argument = Matrix(STATE, self.given.rows, self.given.columns)
+        return LinearArrayStep(
+            argument,
+            self.matrix(),
+            tuple(self.times),
+            tuple(self.letters),
+            tuple(self.commutators),
+            tuple(exponents),
+        )
+
+    def chain(self, end: Var, statements: dict[Var, Assign]) -> list[Var]:
+        """Return the exponents whose exponentials move the given point to ``end``, in order."""
+        result: list[Var] = []
+        while end in statements:
+            assign = statements[end]
+            if not isinstance(assign.operation, ActExp):
+                what = f"the operation {assign.operation.name} for large matrices"
+                raise refused(self.scene, what, "exponentials of Lie elements")
+            x, end = assign.args
+            result.insert(0, x)
+        return result
+
+    def run(self, assign: Assign) -> None:
+        """Compute the value of an assignment."""
+        operation, args = assign.operation, assign.args
+        (target,) = assign.targets
+        if target in self.values or target in self.moments:
+            return
+        match operation:
+            case Field():
+                time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
+                self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
+            case Linear():
+                self.values[target] = self.sum((c, self.values[a]) for c, a in assign.terms)
+            case Zero():
+                self.values[target] = _Value(0)
+            case Bracket(dual=False):
+                self.values[target] = self.bracket(self.values[args[0]], self.values[args[1]])
+            case InverseDexp(dual=False, order=order):
+                self.values[target] = self.inverse(self.values[args[0]], self.values[args[1]], order)
+            case Advance(coefficient=c):
+                self.moments[target] = self.moments[args[0]] + c.evaluate(self.domain)
+            case _:
+                what = f"the operation {operation.name} for large matrices"
+                raise refused(self.scene, what, "sums and brackets of the values of A")
+
+    def node(self, time: Expr) -> int:
+        """Return the number of the node at a time; evaluations of A at equal times are one node."""
+        if time not in self.times:
+            self.times.append(time)
+        return self.times.index(time)
+
+    def sum(self, terms: Iterable[tuple[Coefficient, _Value]]) -> _Value:
+        """Return a linear combination; all terms have the same power of h."""
+        given = [(c, x) for c, x in terms if not x.is_zero]
+        powers = {x.power - c.power for c, x in given}
+        if len(powers) > 1:
+            raise AssertionError(powers)
+        total = _Value(next(iter(powers), 0))
+        for c, x in given:
+            for own, more in ((total.nodes, x.nodes), (total.commutators, x.commutators)):
+                for key, weight in more.items():
+                    own[key] = own[key] + c.value * weight if key in own else c.value * weight
+                    if own[key].is_zero:
+                        del own[key]
+        return total
+
+    def bracket(self, x: _Value, y: _Value) -> _Value:
+        """Return [x, y].
+
+        A multiple of one letter may be subtracted from the other. The sum of its coefficients is then zero:
+        it is a difference of values of A, which is small, and so is the bound of the commutator.
+        """
+        if not x.commutators and not y.commutators:
+            x, y = _difference(x, y)
+        power = x.power + y.power
+        if x.is_zero or y.is_zero:
+            return _Value(power)
+        pair = self.element(x), self.element(y)
+        if pair not in self.commutators:
+            self.commutators.append(pair)
+        return _Value(power, {}, {self.commutators.index(pair): Number.rational(1)})
+
+    def inverse(self, x: _Value, y: _Value, order: int) -> _Value:
+        """Return dexp^{-1}_x y, truncated after ``order`` brackets."""
+        terms, power = [(Coefficient(Number.rational(1)), y)], y
+        for k in range(1, last_term(order) + 1):
+            power = self.bracket(x, power)
+            b = bernoulli_over_factorial(k)
+            if b:
+                terms.append((Coefficient(Number.rational(b.numerator, b.denominator)), power))
+        return self.sum(terms)
+
+    def element(self, value: _Value) -> Element:
+        """Return a value as an element; its combination of nodes becomes a letter."""
+        letter = None
+        if value.nodes:
+            key = tuple(sorted(value.nodes.items(), key=lambda item: item[0]))
+            letter = self.letters.setdefault(key, len(self.letters))
+        return Element(letter, tuple((c, number) for number, c in value.commutators.items()))
+
+    def matrix(self) -> TimeMatrix:
+        """Return A(t) with the values of parameters that are not arguments of the emitted code."""
+        space = self.domain.space
+        values = {**self.scene.scalars(self.domain, space.sym(TIME))}
+        values |= {index: space.sym(index) for index in (ROW, COLUMN)}
+
+        def now(entry: Entry) -> Entry:
+            if isinstance(entry, tuple):
+                return entry
+            (root,) = evaluate([entry], self.domain, values)
+            assert isinstance(root, Expr)
+            return root
+
+        def fixed(c: ConstantMatrix) -> ConstantMatrix:
+            diagonals = tuple(replace(d, entry=now(d.entry)) for d in c.diagonals)
+            return replace(c, diagonals=diagonals, full=now(c.full))
+
+        terms: list[tuple[Expr, ConstantMatrix]] = []
+        for coefficient, c in self.given.matrix.terms:
+            factor = now(coefficient)
+            assert isinstance(factor, Expr)
+            terms.append((factor, fixed(c)))
+        return TimeMatrix(tuple(terms))
+
+
+def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
+    """Return the values on which a value of the algebra depends, arguments first; points are omitted."""
+    order: list[Var] = []
+
+    def visit(v: Var) -> None:
+        if v not in statements or v in order:
+            return
+        for arg in statements[v].args:
+            if arg.kind is not Kind.POINT:
+                visit(arg)
+        order.append(v)
+
+    visit(var)
+    return order
+
+
+def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
+    """Return two letters with the same commutator; if possible, the coefficients of one of them add up to
+    zero."""
+    totals = [_total(x), _total(y)]
+    if min(abs(float(s)) for s in totals) < LARGE_SUM:
+        return x, y
+    ratio = totals[0] / totals[1]
+    nodes = dict(x.nodes)
+    for node, c in y.nodes.items():
+        less = -(ratio * c)
+        nodes[node] = nodes[node] + less if node in nodes else less
+    return replace(x, nodes={node: c for node, c in nodes.items() if not c.is_zero}), y
+
+
+def _total(x: _Value) -> Number:
+    total = Number.rational(0)
+    for c in x.nodes.values():
+        total = total + c
+    return total

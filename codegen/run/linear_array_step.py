@@ -1,0 +1,312 @@
+"""A step of a large linear problem (:mod:`codegen.ir.linear_array_step`) as functions of a unit.
+
+The exponential of an exponent X is applied to y as in :mod:`codegen.ir.exponential_action`: X is halved s
+times, until a bound of its largest row sum is small, and a Taylor polynomial of exp(X 2^-s) of degree m is
+applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The remainder of each
+polynomial is below 2^-10 times the unit roundoff, relative to y. The bound of a sum is the sum of the bounds,
+and the bound of a commutator is twice the product of the bounds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from codegen.ir.exponential_action import degrees, largest_norms
+from codegen.ir.expr import Space
+from codegen.ir.linear_array_step import Element, LinearArrayStep
+from codegen.ir.number import Number
+from codegen.ir.precision import Precision
+from codegen.run.array_loops import tables
+from codegen.run.language import (
+    RAISES_STATUS,
+    Array,
+    Assign,
+    Call,
+    For,
+    Function,
+    If,
+    Return,
+    Statement,
+    Table,
+    While,
+)
+from codegen.run.plan import STEP, TIME, Plan
+from codegen.run.step import ADVANCE
+from codegen.run.stored_matrix import PRODUCT, ROW_SUM, VALUE, StoredMatrix, stored_matrix
+from codegen.run.terms import (
+    BAD_STEP,
+    NOT_FINITE,
+    OK,
+    STATUS,
+    TOO_FAR,
+    Kind,
+    Term,
+    all_finite,
+    both,
+    code,
+    count,
+    is_finite,
+    negated,
+    number,
+    own,
+    real,
+    select,
+    value,
+    whole,
+)
+
+HALVINGS = 16
+"""The largest number of halvings of an exponent. Longer steps fail with the status TOO_FAR: an exponential
+with 2^16 parts of degree 22 takes seconds for a tridiagonal matrix with 1000 rows."""
+
+EXPONENTIAL = "exponential"
+"""The name of the function that applies the exponential of a letter."""
+
+_PLACE, _PART = count("place"), count("part")
+
+
+def linear_array_functions(plan: Plan, step: LinearArrayStep) -> tuple[Function, ...]:
+    """Return the function of a step, and the functions that it calls, callees first."""
+    return _Step(plan, step).functions()
+
+
+def linear_array_tables(step: LinearArrayStep, precision: Precision) -> tuple[Table, ...]:
+    """Return the tables of a step: entries of matrices that are given as numbers."""
+    return tuple(tables(step.matrix.constants(), precision))
+
+
+@dataclass
+class _Step:
+    """Writes the functions of one step."""
+
+    plan: Plan
+    step: LinearArrayStep
+
+    def __post_init__(self) -> None:
+        step = self.step
+        self.size = step.argument.size
+        self.stored: StoredMatrix = stored_matrix(step.matrix, step.argument.columns, len(step.times))
+        self.elements: list[Element] = []
+        for pair in step.commutators:
+            self.elements += [e for e in pair if e.commutators and e not in self.elements]
+        self.exponents: list[Element] = []
+        for e in step.exponents:
+            if e.commutators and e not in self.exponents:
+                self.exponents.append(e)
+
+    def functions(self) -> tuple[Function, ...]:
+        """Return all functions."""
+        listed = self.stored.functions(self.plan.moment(), self.plan.parameters)
+        done: set[int] = set()
+        for number_of, pair in enumerate(self.step.commutators):
+            listed += [self.element(e, done) for e in pair if e.commutators and id(e) not in done]
+            listed.append(self.commutator(number_of))
+        listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
+        if any(not e.commutators for e in self.step.exponents):
+            listed.append(self.exponential(Element(0), EXPONENTIAL))
+        for k, e in enumerate(self.exponents, 1):
+            listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
+        return (*_unique(listed), self.advance())
+
+    def letter(self, number_of: int) -> Term:
+        """Return the array of a letter."""
+        return real(f"letter_{number_of + 1}", self.stored.letter_size)
+
+    def letters(self, element: Element) -> tuple[Term, ...]:
+        """Return the arrays of the letters that an element contains, in order."""
+        return tuple(map(self.letter, sorted(self._letters(element))))
+
+    def _letters(self, element: Element) -> set[int]:
+        numbers = set() if element.letter is None else {element.letter}
+        for _, number_of in element.commutators:
+            for part in self.step.commutators[number_of]:
+                numbers |= self._letters(part)
+        return numbers
+
+    def name(self, element: Element) -> str:
+        """Return the name of the function that applies an element with commutators."""
+        known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
+        return f"element_{1 + known.index(element)}"
+
+    def applied(self, element: Element, x: Term, y: Term) -> Call:
+        """Return the statement y = X x."""
+        if element.commutators:
+            return Call(self.name(element), (*self.letters(element), x, y))
+        assert element.letter is not None
+        return Call(PRODUCT, (self.letter(element.letter), x, y))
+
+    def element(self, element: Element, done: set[int]) -> Function:
+        """Return the function that applies an element: result = X x."""
+        done.add(id(element))
+        x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
+        body: list[Statement] = [Array(work)]
+        first = element.letter is None
+        if element.letter is not None:
+            body.append(Call(PRODUCT, (self.letter(element.letter), x, y)))
+        for c, number_of in element.commutators:
+            letters = self.letters(Element(None, ((c, number_of),)))
+            body.append(Call(_commutator(number_of), (*letters, x, work)))
+            term = work[_PLACE] if c.is_one else _constant(c) * work[_PLACE]
+            body.append(self.over(y, term if first else y[_PLACE] + term))
+            first = False
+        about = f"result = X x for X = {self.text(element)}."
+        return Function(self.name(element), about, (*self.letters(element), x, y), tuple(body))
+
+    def commutator(self, number_of: int) -> Function:
+        """Return the function result = X (Y x) - Y (X x)."""
+        left, right = self.step.commutators[number_of]
+        own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
+        x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
+        body: tuple[Statement, ...] = (
+            *map(Array, (first, second)),
+            self.applied(right, x, first),
+            self.applied(left, first, y),
+            self.applied(left, x, first),
+            self.applied(right, first, second),
+            self.over(y, y[_PLACE] - second[_PLACE]),
+        )
+        about = f"result = [X, Y] x for X = {self.text(left)} and Y = {self.text(right)}."
+        return Function(_commutator(number_of), about, (*own_letters, x, y), body)
+
+    def text(self, element: Element) -> str:
+        """Return an element as text."""
+        parts = [] if element.letter is None else [f"letter_{element.letter + 1}"]
+        parts += [f"{float(c):.6g} {_commutator(k)}" for c, k in element.commutators]
+        return " + ".join(parts)
+
+    def over(self, y: Term, entry: Term) -> For:
+        """Return the loop that sets all entries of an array."""
+        return For(_PLACE, whole(self.size), (Assign(y[_PLACE], entry),))
+
+    def exponential(self, element: Element, name: str) -> Function:
+        """Return the function state = exp(X) state."""
+        state, p, work = (self.stored.vector(n) for n in ("state", "p", "work"))
+        matrix = real("a", self.stored.letter_size)
+        given = self.letters(element) if element.commutators else (matrix,)
+        norm, scale, weight = real("norm"), real("scale"), real("weight")
+        parts, degree, factor = count("parts"), real("degree"), real("factor")
+        precision = self.plan.format
+        sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
+        chosen = number(float(sizes[-1]))
+        for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
+            chosen = select(norm > bound, chosen, number(float(m)))
+        applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
+        # Horner's rule with the integers m!/j!, which are exact: so the length of y does not drift.
+        horner = (
+            Assign(weight, weight * factor),
+            Assign(factor, factor - 1.0),
+            applied,
+            self.over(p, scale * work[_PLACE] + weight * state[_PLACE]),
+        )
+        part = (
+            Assign(p, state),
+            Assign(weight, number(1.0)),
+            Assign(factor, degree),
+            While(factor > 1.0, horner),
+            self.over(p, p[_PLACE] / weight),
+            applied,
+            self.over(state, state[_PLACE] + scale * work[_PLACE]),
+        )
+        norms = self.norms(element) if element.commutators else (Call(ROW_SUM, (matrix,), (norm,)),)
+        halved = (Assign(scale, number(0.5) * scale), Assign(parts, parts * 2))
+        body: tuple[Statement, ...] = (
+            *map(Array, (p, work)),
+            *norms,
+            If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
+            Assign(scale, number(1.0)),
+            Assign(parts, whole(1)),
+            While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),
+            Assign(norm, norm * scale),
+            If(norm > bounds[-1], (Return(code(TOO_FAR)),)),
+            Assign(degree, chosen),
+            For(_PART, parts, part),
+            Return(code(OK)),
+        )
+        what = self.text(element) if element.commutators else "a"
+        about = f"state = exp(X) state for X = {what}: Taylor polynomials of X 2^-s."
+        return Function(name, about, (*given, state), body, Kind.STATUS)
+
+    def norms(self, element: Element) -> tuple[Statement, ...]:
+        """Return the statements that compute a bound of the norm of an element."""
+        body: list[Statement] = []
+        bounds: dict[int, Term] = {}
+        for k in sorted(self._letters(element)):
+            body.append(Call(ROW_SUM, (self.letter(k),), (real(f"norm_{k + 1}"),)))
+
+        def bound(e: Element) -> Term:
+            total = None if e.letter is None else real(f"norm_{e.letter + 1}")
+            for c, k in e.commutators:
+                term = commutator(k) if c.is_one else abs(float(c)) * commutator(k)
+                total = term if total is None else total + term
+            assert total is not None
+            return total
+
+        def commutator(k: int) -> Term:
+            if k not in bounds:
+                x, y = map(bound, self.step.commutators[k])
+                bounds[k] = real(f"bound_{k + 1}")
+                body.append(Assign(bounds[k], 2.0 * x * y))
+            return bounds[k]
+
+        total = bound(element)
+        return (*body, Assign(real("norm"), total))
+
+    def advance(self) -> Function:
+        """Return the function that makes one step."""
+        plan, step, state = self.plan, self.step, self.plan.state()
+        new = self.stored.vector("new")
+        nodes = [real(f"node_{k + 1}", self.stored.node_size) for k in range(len(step.times))]
+        letters = [self.letter(k) for k in range(len(step.letters))]
+        body: list[Statement] = [
+            If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
+            *(Array(node, zero=True) for node in nodes),
+            *map(Array, (*letters, new)),
+        ]
+        for k, (time, node) in enumerate(zip(step.times, nodes, strict=True)):
+            at = own(f"time {k + 1}")
+            body += [Assign(at, value(time))] if plan.time else []
+            moment = tuple(at if x.text == TIME.text else x for x in plan.moment())
+            arguments = (*(x for x in moment if self.takes(x)), *plan.parameters, node)
+            body.append(Call(VALUE, arguments))
+        for target, letter in zip(letters, step.letters, strict=True):
+            body += self.stored.letter(target, nodes, letter)
+        body.append(Assign(new, state))
+        for e in step.exponents:
+            body += [self.moved(e, new), If(STATUS.differs(code(OK)), (Return(STATUS),))]
+        body += [
+            If(negated(all_finite(new)), (Return(code(NOT_FINITE)),)),
+            Assign(state, new),
+            Return(code(OK)),
+        ]
+        parameters = (state, *plan.moment(), *plan.parameters)
+        return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS, often=True)
+
+    def takes(self, x: Term) -> bool:
+        """Return True if the function for the values of A has an argument."""
+        return x is not STEP or self.step.matrix.is_banded
+
+    def moved(self, element: Element, state: Term) -> Call:
+        """Return the statement state = exp(X) state."""
+        if not element.commutators:
+            assert element.letter is not None
+            return Call(EXPONENTIAL, (self.letter(element.letter), state), (STATUS,))
+        name = f"{EXPONENTIAL}_{1 + self.exponents.index(element)}"
+        return Call(name, (*self.letters(element), state), (STATUS,))
+
+
+def _commutator(number_of: int) -> str:
+    return f"commutator_{number_of + 1}"
+
+
+def _constant(c: Number) -> Term:
+    return value(Space().const(c))
+
+
+def _unique(functions: Sequence[Function]) -> Iterator[Function]:
+    """Yield the functions, each name once."""
+    seen: set[str] = set()
+    for function in functions:
+        if function.name not in seen:
+            seen.add(function.name)
+            yield function

@@ -1,0 +1,321 @@
+"""Large matrices A(t) as arrays of emitted code: their evaluation, sums, products with vectors, and norms.
+
+A banded matrix is stored diagonal by diagonal; entry a_{i, i + d} has the place i of its diagonal, and places
+outside of the matrix are zero. Of a full matrix, only the values of the formulas without indices are stored,
+and each product computes the entries from them.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from codegen.ir.array_program import COLUMN, ROW, Diagonal, Entry
+from codegen.ir.expr import Expr, Space, walk
+from codegen.ir.linear_array_step import Letter, TimeMatrix
+from codegen.ir.number import Number
+from codegen.run.array_loops import along, constant_entry, table_name
+from codegen.run.language import Assign, For, Function, If, Return, Statement
+from codegen.run.plan import STEP
+from codegen.run.terms import Kind, Term, count, number, own, real, select, size, value, whole
+
+VALUE, ROW_SUM, PRODUCT = "matrix_value", "row_sum", "product"
+"""The names of the functions for the values of A, the largest row sum, and the product with a vector."""
+
+_PRODUCT = "result = a x."
+
+_ROW, _COLUMN, _TERM, _NODE = count("i"), count("j"), count("k"), count("node")
+_ENTRY, _TOTAL, _NORM = real("entry"), real("total"), real("norm")
+
+
+@dataclass
+class Hoisted:
+    """Formulas in indices in which the parts without indices are names, which are computed before a loop."""
+
+    names: dict[Expr, str] = field(default_factory=dict)
+
+    def formula(self, root: Expr) -> Expr:
+        """Return a formula in the indices and in names."""
+        space, known = root.space, dict[Expr, Expr]()
+        indexed: dict[Expr, bool] = {}
+        for node in walk([root]):
+            own_index = node.op == "sym" and node.payload in (ROW, COLUMN)
+            indexed[node] = own_index or any(indexed[a] for a in node.args)
+        for node in walk([root], lambda x: not indexed[x]):
+            if not indexed[node]:
+                known[node] = self._named(node)
+            elif node.op == "sym":
+                known[node] = node
+            else:
+                known[node] = _rebuilt(space, node, [known[a] for a in node.args])
+        return known[root]
+
+    def _named(self, node: Expr) -> Expr:
+        if node.op == "const":
+            return node
+        name = self.names.setdefault(node, f"value {len(self.names) + 1}")
+        return node.space.sym(name)
+
+
+def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
+    """Return the operation of a node with other arguments."""
+    if node.op == "pow":
+        return space.pow(args[0], int(node.payload))
+    if node.op == "call":
+        return space.call(str(node.payload), *args)
+    result: Expr = getattr(space, node.op)(*args)
+    return result
+
+
+class StoredMatrix(ABC):
+    """The arrays for A(t_i) and for letters, and the functions that work on them, for n x k vectors."""
+
+    def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
+        self.matrix, self.columns, self.nodes, self.n = matrix, columns, nodes, matrix.rows
+        self.hoisted = Hoisted()
+        self.coefficients = [self.hoisted.formula(c) for c, _ in matrix.terms]
+
+    @property
+    @abstractmethod
+    def node_size(self) -> int:
+        """The length of the array for A at one time."""
+
+    @property
+    @abstractmethod
+    def letter_size(self) -> int:
+        """The length of the array for a letter."""
+
+    @abstractmethod
+    def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
+        """Return the statements that compute a letter from the arrays of the nodes."""
+
+    @abstractmethod
+    def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
+        """Return the functions :data:`VALUE`, :data:`ROW_SUM` and :data:`PRODUCT`."""
+
+    def vector(self, name: str) -> Term:
+        """Return the name of an n x k array."""
+        return real(name, self.n * self.columns)
+
+    def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
+        """Return the sum of coefficients times entries; each is the number of its term, the entry, and the
+        name of its table."""
+        total: Term | None = None
+        for term, given, table in entries:
+            # The statements for the indices are written by ``before``.
+            _, one = constant_entry(self.hoist(given), table, row, column, place)
+            coefficient = self.coefficients[term]
+            if not (coefficient.op == "const" and coefficient.payload.is_one):
+                one = value(coefficient) * one
+            total = one if total is None else total + one
+        assert total is not None
+        return total
+
+    def before(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term) -> list[Statement]:
+        """Return the statements that compute the indices as numbers, as far as the entries read them."""
+        indices: dict[str, Statement] = {}
+        for _, given, table in entries:
+            for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
+                assert isinstance(statement, Assign)
+                indices.setdefault(statement.target.text, statement)
+        return list(indices.values())
+
+    def hoist(self, given: Entry) -> Entry:
+        """Return an entry with names for its parts without indices."""
+        return given if isinstance(given, tuple) else self.hoisted.formula(given)
+
+
+class BandedMatrix(StoredMatrix):
+    """A banded matrix; the array of a node contains h A(t_i)."""
+
+    @property
+    def node_size(self) -> int:
+        """The length of the array for A at one time."""
+        return self.n * len(self.matrix.offsets)
+
+    letter_size = node_size
+
+    def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
+        """Return the loop that adds the arrays of the nodes."""
+        return [For(_ROW, whole(self.letter_size), (Assign(target[_ROW], _combined(nodes, letter)),))]
+
+    def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
+        """Return the functions of the matrix."""
+        a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
+        result = real("result", self.node_size)
+        loops = [self._diagonal(number, result) for number in range(len(self.matrix.offsets))]
+        named = [Assign(own(name), value(node)) for node, name in self.hoisted.names.items()]
+        about = "The diagonals of h A(t), one after the other; entry a[i][i + d] has the place i."
+        evaluated = Function(VALUE, about, (*moment, *parameters, result), (*named, *loops))
+        return [evaluated, self._row_sum(a), self._product(a, x, y)]
+
+    def _diagonal(self, number: int, result: Term) -> For:
+        """Return the loop that computes one diagonal."""
+        offset = self.matrix.offsets[number]
+        i, j = along(Diagonal(offset, ()), _ROW)
+        entries: list[tuple[int, Entry, str]] = []
+        for term, (_, matrix) in enumerate(self.matrix.terms):
+            for place, d in enumerate(matrix.diagonals):
+                if d.offset == offset:
+                    entries.append((term, d.entry, table_name(matrix, place)))
+        target = result[_at(number * self.n, i)]
+        body = (
+            *self.before(entries, i, j),
+            Assign(target, STEP * self.entry(entries, i, j, _ROW)),
+        )
+        return For(_ROW, whole(self.n - abs(offset)), body)
+
+    def _row_sum(self, a: Term) -> Function:
+        places = [_at(number * self.n, _ROW) for number in range(len(self.matrix.offsets))]
+        total = size(a[places[0]])
+        for place in places[1:]:
+            total = total + size(a[place])
+        return _largest_sum(a, self.n, [Assign(_TOTAL, total)])
+
+    def _product(self, a: Term, x: Term, y: Term) -> Function:
+        k, covered = self.columns, self.matrix.offsets[0] == 0
+        zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
+        body: list[Statement] = [] if covered else [zero]
+        for place, offset in enumerate(self.matrix.offsets):
+            i, j = along(Diagonal(offset, ()), _ROW)
+            body.append(
+                For(
+                    _ROW,
+                    whole(self.n - abs(offset)),
+                    tuple(_row(a[_at(place * self.n, i)], x, y, i, j, k, first=covered and place == 0)),
+                )
+            )
+        return Function(PRODUCT, _PRODUCT, (a, x, y), tuple(body))
+
+
+class FullMatrix(StoredMatrix):
+    """A full matrix; the array of a node contains the values of the formulas without indices.
+
+    The array of a letter contains h times the coefficient of each node, and the arrays of all nodes.
+    """
+
+    def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
+        super().__init__(matrix, columns, nodes)
+        # All names are found before the sizes of arrays are known.
+        self.entries: list[tuple[int, Entry, str]] = []
+        self.banded: list[tuple[int, int, Entry, str]] = []
+        for term, (_, own_matrix) in enumerate(matrix.terms):
+            for place, d in enumerate(own_matrix.diagonals):
+                self.banded.append((d.offset, term, d.entry, table_name(own_matrix, place)))
+            if not own_matrix.diagonals:
+                self.entries.append((term, own_matrix.full, own_matrix.name))
+        for given in (*(e for _, e, _ in self.entries), *(e for _, _, e, _ in self.banded)):
+            self.hoist(given)
+
+    @property
+    def node_size(self) -> int:
+        """The length of the array for A at one time."""
+        return max(1, len(self.hoisted.names))
+
+    @property
+    def letter_size(self) -> int:
+        """The length of the array for a letter."""
+        return self.nodes * (1 + self.node_size)
+
+    def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
+        """Return the statements that set the coefficients and copy the values of the nodes."""
+        weights = dict(letter)
+        body: list[Statement] = [
+            Assign(target[k], STEP * _constant(weights[k]) if k in weights else number(0.0))
+            for k in range(self.nodes)
+        ]
+        for k, node in enumerate(nodes):
+            first = self.nodes + k * self.node_size
+            copied = Assign(target[_at(first, _ROW)], node[_ROW])
+            body.append(For(_ROW, whole(self.node_size), (copied,)))
+        return body
+
+    def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
+        """Return the functions of the matrix."""
+        a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
+        result = real("result", self.node_size)
+        named = [Assign(result[k], value(node)) for k, node in enumerate(self.hoisted.names)]
+        named = named or [Assign(result[0], number(0.0))]
+        about = "The parts of the entries of A(t) that do not contain the indices."
+        time = tuple(t for t in moment if t.text != STEP.text)
+        evaluated = Function(VALUE, about, (*time, *parameters, result), tuple(named))
+        return [evaluated, self._row_sum(a), self._product(a, x, y)]
+
+    def _row_sum(self, a: Term) -> Function:
+        added = (*self._entry(a), Assign(_TOTAL, _TOTAL + size(_ENTRY)))
+        return _largest_sum(a, self.n, [Assign(_TOTAL, number(0.0)), For(_COLUMN, whole(self.n), added)])
+
+    def _product(self, a: Term, x: Term, y: Term) -> Function:
+        k = self.columns
+        zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
+        added = (*self._entry(a), *_row(_ENTRY, x, y, _ROW, _COLUMN, k, first=False))
+        body = (zero, For(_ROW, whole(self.n), (For(_COLUMN, whole(self.n), added),)))
+        return Function(PRODUCT, _PRODUCT, (a, x, y), body)
+
+    def _entry(self, a: Term) -> list[Statement]:
+        """Return the statements that compute an entry of a letter: a sum over the nodes."""
+        node = 0 if self.nodes == 1 else _NODE
+        values: list[Statement] = []
+        for place, name in enumerate(self.hoisted.names.values()):
+            at = whole(self.nodes + place) if self.nodes == 1 else self._place(place)
+            values.append(Assign(own(name), a[at]))
+        row, column = _ROW, _COLUMN
+        one = self.entry(self.entries, row, column, self.n * row + column)
+        added = (*values, Assign(_ENTRY, _ENTRY + a[node] * one))
+        added = (*added, *(self._on_diagonal(a[node], *given) for given in self.banded))
+        total = added if self.nodes == 1 else (For(_NODE, whole(self.nodes), added),)
+        return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
+
+    def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
+        """Return the statement that adds a term on one diagonal."""
+        # Counts are never negative, so the place on the diagonal is the lesser index.
+        place = _ROW if offset >= 0 else _COLUMN
+        reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
+        entries = [(term, given, table)]
+        one = self.entry(entries, _ROW, _COLUMN, place)
+        body = (*self.before(entries, _ROW, _COLUMN), Assign(_ENTRY, _ENTRY + weight * one))
+        return If(reached, body)
+
+    def _place(self, place: int) -> Term:
+        first = self.node_size * _NODE
+        return first + (self.nodes + place)
+
+
+def stored_matrix(matrix: TimeMatrix, columns: int, nodes: int) -> StoredMatrix:
+    """Return the arrays and functions for a matrix; ``nodes`` is the number of nodes of the method."""
+    kind = BandedMatrix if matrix.is_banded else FullMatrix
+    return kind(matrix, columns, nodes)
+
+
+def _at(first: int, place: Term) -> Term:
+    return place + first if first else place
+
+
+def _constant(c: Number) -> Term:
+    return value(Space().const(c))
+
+
+def _combined(nodes: Sequence[Term], letter: Letter) -> Term:
+    total: Term | None = None
+    for node, c in letter:
+        one = nodes[node][_ROW] if c.is_one else _constant(c) * nodes[node][_ROW]
+        total = one if total is None else total + one
+    assert total is not None
+    return total
+
+
+def _row(entry: Term, x: Term, y: Term, i: Term, j: Term, k: int, *, first: bool) -> list[Statement]:
+    """Return the statements that set or add an entry times a row of x to a row of y."""
+    if k == 1:
+        one = entry * x[j]
+        return [Assign(y[i], one if first else y[i] + one)]
+    target, one = y[k * i + _TERM], _ENTRY * x[k * j + _TERM]
+    before: list[Statement] = [] if entry is _ENTRY else [Assign(_ENTRY, entry)]
+    return [*before, For(_TERM, whole(k), (Assign(target, one if first else target + one),))]
+
+
+def _largest_sum(a: Term, n: int, row: Sequence[Statement]) -> Function:
+    larger = Assign(_NORM, select(_TOTAL > _NORM, _TOTAL, _NORM))
+    body = (Assign(_NORM, number(0.0)), For(_ROW, whole(n), (*row, larger)), Return(_NORM))
+    return Function(ROW_SUM, "The largest sum of absolute values in a row.", (a,), body, Kind.REAL)
