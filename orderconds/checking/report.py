@@ -65,6 +65,29 @@ class ExtensionOrder(Struct, frozen=True):
         }
 
 
+class RegisterForm(Struct, frozen=True):
+    """The scheme with two registers (2N) to which a tableau can be rewritten, or the reason why there is
+    none.
+
+    ``A`` and ``B`` are the coefficients of K <- A_i K + F(Y), Y <- exp(h B_i K) Y as text. ``space`` is
+    ``group`` if the scheme is equal to the method on every Lie group, and ``vector space`` if the tableau (A,
+    b) defines the method on a vector space. ``holds`` is None if rounded decimals do not decide the question.
+    """
+
+    holds: bool | None
+    space: str
+    A: tuple[str, ...] = ()
+    B: tuple[str, ...] = ()
+    reason: str = ""
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of the form with two registers."""
+        record: dict[str, object] = {"holds": self.holds, "space": self.space}
+        if self.holds is False:
+            return {**record, "reason": self.reason}
+        return {**record, "A": list(self.A), "B": list(self.B)}
+
+
 class SymmetryOrder(Struct, frozen=True):
     """The largest q such that a step of size -h after a step of size h differs from the identity by O(h^(q +
     1)), on vector spaces (``family`` is ``rk``) or on groups (``cf``).
@@ -105,6 +128,7 @@ class Report:
     work: dict[str, Work] = field(default_factory=dict)
     embedded: EmbeddedOrder | None = None
     dense: ExtensionOrder | None = None
+    low_storage: RegisterForm | None = None
     symmetry: SymmetryOrder | None = None
     properties_claimed: bool = False
     hint: str = ""
@@ -174,6 +198,8 @@ class Report:
             record["embedded"] = self.embedded.as_json()
         if self.dense is not None:
             record["dense"] = self.dense.as_json()
+        if self.low_storage is not None:
+            record["low_storage"] = self.low_storage.as_json()
         if self.symmetry is not None:
             record["symmetry"] = self.symmetry.as_json()
         if self.proof is not None:
