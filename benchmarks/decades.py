@@ -57,10 +57,14 @@ class PeerRacer(Racer):
         # The overhead of a call does not depend on the tolerance.
         self.overhead = Overhead(lambda: self.run(next(iter(self.prepared)), 0))
 
-    def run(self, control: float, spans: int = 1) -> tuple[Vector, int]:
-        """Return the state and the number of steps of a run over a multiple of the span."""
+    def prepare(self, control: float) -> None:
+        """Compile the integrator for a tolerance."""
         if control not in self.prepared:
             self.prepared[control] = self.peer.prepare(self.equations.problem, 10.0**-control)
+
+    def run(self, control: float, spans: int = 1) -> tuple[Vector, int]:
+        """Return the state and the number of steps of a run over a multiple of the span."""
+        self.prepare(control)
         outcome = self.prepared[control].run(spans)
         return outcome.state, outcome.steps
 

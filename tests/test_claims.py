@@ -23,7 +23,8 @@ WRITTEN = ("docs/reference/commands.md", "docs/reference/api.md")
 
 KIND = r"(?:method|tableau|scheme|proof)\w*"
 PHRASES = re.compile(
-    rf"\b(?:no other (?:known )?{KIND}|the only (?:known )?{KIND}|the only commutator-free|novel\w*"
+    rf"\b(?:no other (?:known )?{KIND}|no commutator-free {KIND}"
+    rf"|the only (?:known )?{KIND}|the only commutator-free|novel\w*"
     rf"|(?:is|are) not known|no {KIND} (?:with|of)|(?:the )?first {KIND} (?:of|with|to|that)"
     r"|fewest|least (?:principal )?(?:error|bound)|the best of|, the least|minimum number|state of the art"
     r"|unprecedented|in the literature|in print)\b",

@@ -222,6 +222,34 @@ class FlowOf(Operation):
 
 
 @dataclass(frozen=True)
+class SiteFlowOf(Operation):
+    """The exact flow of a part of a lattice for a fixed duration. It moves all sites, so it has no value for
+    a single site."""
+
+    part: str
+    duration: Coefficient
+    exponentials = 1
+    name = "flow"
+    noun = "flow{s}"
+
+    def text(self) -> str:
+        """Return the name with the part."""
+        return f"{self.name}[{self.part}]"
+
+    def applied(self, args: Sequence[str]) -> str:
+        """Return the text of the operation applied to arguments."""
+        return super().applied([*args, self.duration.text()])
+
+    def signature(self) -> tuple[Kinds, Kinds]:
+        """Return the kinds of the arguments and of the results."""
+        return P, P
+
+    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
+        """Raise ArithmeticError: the flow moves all sites."""
+        raise ArithmeticError("a flow of a lattice moves all sites")
+
+
+@dataclass(frozen=True)
 class FlowFor(Operation):
     """The exact flow of a part; the last argument is the duration, which is computed at run time."""
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from codegen.ir.expr import Expr
+from codegen.ir.number import Number
 
 if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
@@ -50,7 +51,8 @@ class Sweep:
 
     ``about`` describes the sweep by operations of the program. At sites without some neighbours, output k of
     ``outside`` replaces number k of ``read_outside``, the loads from neighbours; both are empty in a periodic
-    lattice.
+    lattice. A sweep over pairs of neighbours has an ``axis``, and neighbour 0 is the other site of the pair.
+    The second half of its stores is at the neighbour.
     """
 
     about: str
@@ -58,6 +60,7 @@ class Sweep:
     loads: tuple[Load, ...]
     stores: tuple[Row, ...]
     outside: Kernel | None = None
+    axis: int = OWN
 
     @property
     def neighbours(self) -> tuple[int, ...]:
@@ -81,8 +84,22 @@ class Sweep:
 
 
 @dataclass(frozen=True)
+class SiteFlow:
+    """A flow in a step that composes flows: the index of the sweep, the set of pairs (0 or 1, the parity of
+    the index of the first site), and the duration in units of h."""
+
+    sweep: int
+    colour: int
+    duration: Number
+
+
+@dataclass(frozen=True)
 class SiteStep:
-    """One step of a lattice: sweeps in order, and the number of ``rows`` in which they store values."""
+    """One step of a lattice: sweeps in order, and the number of ``rows`` in which they store values.
+
+    If there are ``flows``, the step is this sequence of sweeps. The first and the last flow sweep over all
+    sites. The first flow reads the old state; all others change the new state in place.
+    """
 
     dimension: int
     offsets: tuple[tuple[int, ...], ...]
@@ -90,11 +107,17 @@ class SiteStep:
     sweeps: tuple[Sweep, ...]
     size: int
     rows: int
+    flows: tuple[SiteFlow, ...] = ()
 
     @property
     def workspace(self) -> int:
         """The numbers of workspace for each site: the stored rows and a second state."""
         return self.rows + self.size
+
+    @property
+    def passes(self) -> tuple[Sweep, ...]:
+        """The sweeps of a step, in the order in which they are executed."""
+        return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression of the step."""
@@ -105,8 +128,9 @@ class SiteStep:
     def traffic(self) -> tuple[int, int]:
         """Return the numbers of doubles that a step reads and writes for each site. A number that a sweep
         reads at several sites is counted once, because the other reads find it in the cache."""
-        read = sum(len(sweep.rows_read) for sweep in self.sweeps)
-        return read, sum(len(sweep.stores) for sweep in self.sweeps)
+        # The pairs of one set contain each site once.
+        read = sum(len(sweep.rows_read) for sweep in self.passes)
+        return read, sum(len(set(sweep.stores)) for sweep in self.passes)
 
     def explanation(self) -> list[str]:
         """Return lines that describe the loops, the stored values and the memory traffic."""
@@ -114,8 +138,10 @@ class SiteStep:
         for number, sweep in enumerate(self.sweeps, 1):
             lines.append(f"loop {number}: {sweep.about}")
             lines.append(
-                f"  reads {len(sweep.rows_read)} and stores {len(sweep.stores)} numbers for each site"
+                f"  reads {len(sweep.rows_read)} and stores {len(set(sweep.stores))} numbers for each site"
             )
+        if self.flows:
+            lines.append(f"a step: {len(self.flows)} passes through these loops")
         read, written = self.traffic()
         lines.append(f"workspace: {self.workspace} numbers for each site, {BYTES * self.workspace} bytes")
         moved = f"{BYTES * read} bytes read and {BYTES * written} bytes written"

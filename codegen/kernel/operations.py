@@ -67,13 +67,13 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 
     A kernel without outputs computes the coefficients of a Taylor polynomial, and evaluates the polynomial,
     or computes with whole matrices, with a typical number of terms of each exponential. The operations of a
-    lattice are counted for one site.
+    lattice are counted for one site; a flow of pairs counts as one pair for each site.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
     if kernel.sites is not None:
         total: dict[str, int] = {}
-        for sweep in kernel.sites.sweeps:
+        for sweep in kernel.sites.passes:
             total = _plus(total, operations(arrange(sweep.kernel))[STEP])
         return {STEP: total}
     expansion = kernel.expansion

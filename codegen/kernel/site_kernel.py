@@ -24,7 +24,10 @@ from codegen.ir.site_step import RESULT, STATE, WORK, Load, Row, SiteStep, Sweep
 from codegen.ir.values import Kind, Var
 from codegen.kernel.assignments import Assignments
 from codegen.kernel.shared_angles import SharedArguments
+from codegen.kernel.site_flows import flow_program
 from codegen.lower import lower, lower_composed, problem_for
+from codegen.lower import lowering as lowering_of
+from codegen.lower.flow_words import FlowLowering
 from codegen.method import Method
 from codegen.passes import PassReport, optimise
 from codegen.scene.problem import TIME, Problem
@@ -37,7 +40,8 @@ RECOMPUTED = (Linear, Zero, Advance)
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method that has no step by sweeps over sites."""
-    hint = "explicit methods of the families rkmk, cf, cg, rk and ambient are possible, for example cf:cf4"
+    hint = "explicit methods of the families rkmk, cf, cg, rk and ambient are possible, for example cf:cf4, "
+    hint += "and splittings of a scene with parts"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
@@ -58,6 +62,10 @@ def site_method(scene: Problem, method: Method) -> SiteMethod:
 
     MethodError is raised for implicit methods and for compositions of substeps.
     """
+    lowering = lowering_of(method.family)
+    if isinstance(lowering, FlowLowering):
+        program, kernel = flow_program(scene, method, lowering)
+        return SiteMethod(scene, program, program, (), kernel)
     frozen = with_frozen_neighbours(scene)
     problem, lowered = problem_for(frozen, method), lower(frozen, method)
     program, trace = optimise(lowered, problem)

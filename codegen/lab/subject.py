@@ -27,8 +27,8 @@ from orderconds.errors import InputError
 
 T = TypeVar("T")
 
-SEARCHES = 8
-"""The largest time of all searches of a report, as a multiple of the time of one search, so that a report on
+MANY = 8
+"""A report on more scenes makes shorter searches and omits the growth of rounding errors, so that a report on
 the whole gallery takes less than twenty minutes on two cores.
 """
 
@@ -54,13 +54,18 @@ class Effort:
     search: float = 25.0
 
     def shared(self, scenes: int) -> Effort:
-        """Return the effort for each of several scenes: all searches together take at most SEARCHES times the
-        time of one search.
+        """Return the effort for each of several scenes.
 
-        >>> USUAL.shared(4).search, USUAL.shared(16).search
-        (25.0, 12.5)
+        If there are more than :data:`MANY` scenes, all searches together take MANY times the time of one
+        search. The growth of rounding errors is then measured only if endurance runs are made.
+
+        >>> few, many = USUAL.shared(4), USUAL.shared(16)
+        >>> few == USUAL, many.search, many.rounding
+        (True, 12.5, False)
         """
-        return replace(self, search=min(self.search, SEARCHES * self.search / max(1, scenes)))
+        if scenes <= MANY:
+            return self
+        return replace(self, search=self.search * MANY / scenes, rounding=self.rounding and self.endurance)
 
 
 QUICK = Effort(

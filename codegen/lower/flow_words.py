@@ -17,6 +17,7 @@ from codegen.errors import MethodError
 from codegen.flows.kick import Kick
 from codegen.flows.part import Part, Summand
 from codegen.flows.recognise import recognise
+from codegen.flows.site_flow import site_flows
 from codegen.ir.number import Number
 from codegen.ir.program import Builder, Program
 from codegen.ir.values import Coefficient, Kind, Var
@@ -65,6 +66,9 @@ class FlowLowering(Lowering):
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
+        if scene.sites is not None:
+            hint = "list the parts of the field in the argument parts of SiteScene"
+            return None if scene.sites.parts else Objection(", a lattice without parts", "exact flows", hint)
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
         # A scene with a wrench has no Hamiltonian, and a run-time input changes during a flow, so neither
@@ -146,7 +150,7 @@ class FlowLowering(Lowering):
 
 def parts_of(scene: Problem, where: str) -> Parts:
     """Return the parts of a scene with their exact flows; errors as for :meth:`FlowLowering.read`."""
-    parts = recognise(scene)
+    parts = recognise(scene) if scene.sites is None else site_flows(scene)
     for part in parts:
         if not part.summands:
             raise MethodError(

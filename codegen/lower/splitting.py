@@ -75,13 +75,14 @@ def _in_order(
     # The order of parts in a scene is arbitrary, so names are preferred to the order.
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
-    elif tableau.rkn is not None:
+    elif tableau.rkn is not None and own.scene.sites is None:
         # The summands are sorted so that the kick has the position of V in the tableau, first or last (False
         # sorts before True).
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
         tableau.rkn is not None
+        and own.scene.sites is None
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):

@@ -64,26 +64,32 @@ SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"),
 """The number of all sites, the number of sites of a row of the lattice, the index of a site in its row, and
 the number of its first site."""
 
-_SITE, _NUMBER, _PLACE, _INDEX = count("site"), count("number"), count("place"), count("i")
-_BAD, _PART, _INNER, _LEAD, _WHOLE = count("bad"), count("part"), count("inner"), count("lead"), flag("whole")
+SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), count("i")
+BAD, _PART, _INNER, _LEAD, WHOLE = count("bad"), count("part"), count("inner"), count("lead"), flag("whole")
 _DONE, _COMPLETED = count("done"), count("completed", 1, optional=True, cell=True)
 _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
-_ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
+ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 
 ADVANCE = "advance"
 
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
-    """Return the functions of a lattice, callees first."""
+    """Return the functions of an explicit method, callees first."""
     loops = [_Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
     listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
-    shape = _shape(step)
+    return complete(plan, step, [*listed, _advance(plan, step, loops)])
+
+
+def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Function]:
+    """Return the functions of a step, followed by the public functions."""
+    shape = shape_of(step)
     size = Return(step.workspace * _product(shape, step.dimension))
     workspace = Function("workspace", "", (shape,), (size,), Kind.COUNT, public=True)
-    return [*listed, workspace, _advance(plan, step, loops), _run(plan, step, loops)]
+    return [*listed, workspace, _run(plan, step, any(f.near for f in listed))]
 
 
-def _shape(step: SiteStep) -> Term:
+def shape_of(step: SiteStep) -> Term:
+    """Return the argument for the numbers of sites in all dimensions."""
     return count("shape", step.dimension)
 
 
@@ -91,7 +97,7 @@ def _product(shape: Term, dimension: int) -> Term:
     return reduce(lambda a, b: a * b, (shape[k] for k in range(dimension)))
 
 
-def _split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
+def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
     """Return the statements of a kernel that read only ``shared`` scalars, all others, and the outputs."""
     before: list[Statement] = []
     inside: list[Statement] = []
@@ -106,6 +112,13 @@ def _split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Stat
             else:
                 inside.append(single)
     return before, inside, [value(x) for x in arranged.outputs]
+
+
+def checked(values: Sequence[Term]) -> list[Statement]:
+    """Return the statements that count a site if one of its new values is not finite."""
+    check = real("check")
+    bad = select(check.equals(number(0.0)), whole(0), whole(1))
+    return [Assign(check, paired([x - x for x in values])), Assign(BAD, BAD + bad)]
 
 
 @dataclass(frozen=True)
@@ -125,7 +138,7 @@ class _Loop:
     @property
     def near(self) -> bool:
         """True if all functions that the sweep calls have a form without branches."""
-        before, inside, _ = _split(self.own.kernel, set())
+        before, inside, _ = split(self.own.kernel, set())
         called = called_by([*before, *inside])
         return all(name in VECTORISED or name.startswith("stumpff_") for name in called)
 
@@ -138,7 +151,7 @@ class _Loop:
     def arrays(self) -> tuple[Term, ...]:
         """The arrays that the sweep reads or changes."""
         used = {load.row.array for load in self.own.loads} | {row.array for row in self.own.stores}
-        return tuple(array for name, array in _ARRAYS.items() if name in used)
+        return tuple(array for name, array in ARRAYS.items() if name in used)
 
     @property
     def scalars(self) -> tuple[Term, ...]:
@@ -154,7 +167,7 @@ class _Loop:
     def entry(self, row: Row, place: Term) -> Term:
         """Return an entry of a row of an array."""
         number = row.number + (self.step.size if row.array == WORK else 0)
-        array = _ARRAYS[row.array]
+        array = ARRAYS[row.array]
         if not number:
             return array[place]
         return array[(number * SITES if number > 1 else SITES) + place]
@@ -174,10 +187,7 @@ class _Loop:
                 tested.append(name)
                 end = name
             body.append(Assign(self.entry(row, place), end))
-        if tested:
-            check = real("check")
-            body += [Assign(check, paired([x - x for x in tested]))]
-            body.append(Assign(_BAD, _BAD + select(check.equals(number(0.0)), whole(0), whole(1))))
+        body += checked(tested) if tested else []
         return body
 
     def function(
@@ -185,7 +195,7 @@ class _Loop:
     ) -> Function:
         """Return a function of the sweep; in the last sweep it returns the number of bad sites."""
         if self.last:
-            body = [Assign(_BAD, whole(0)), *body, Return(_BAD)]
+            body = [Assign(BAD, whole(0)), *body, Return(BAD)]
         kind = Kind.COUNT if self.last else None
         vector = name == self.name("sweep") and self.near
         return Function(name, about, parameters, tuple(body), kind, often=True, near=vector)
@@ -196,14 +206,14 @@ class _Loop:
 
     def sweep(self) -> Function:
         """Return the function for adjacent sites whose neighbours exist."""
-        before, inside, ends = _split(self.own.kernel, self.shared)
+        before, inside, ends = split(self.own.kernel, self.shared)
         starts = [count(f"start_{k}") for k in self.neighbours]
-        nears = {k: start + _INDEX for k, start in zip(self.neighbours, starts, strict=True)}
-        loads = [Assign(own(x.symbol), self.loaded(x, _PLACE, nears)) for x in self._read()]
-        body: list[Statement] = [Assign(_PLACE, _SITE + _INDEX), *loads, *inside]
-        body += self.stored(ends, _PLACE)
-        loop = For(_INDEX, _NUMBER, tuple(body), independent=True)
-        parameters = (_SITE, _NUMBER, *starts, SITES, *self.arrays, *self.scalars)
+        nears = {k: start + INDEX for k, start in zip(self.neighbours, starts, strict=True)}
+        loads = [Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in self._read()]
+        body: list[Statement] = [Assign(PLACE, SITE + INDEX), *loads, *inside]
+        body += self.stored(ends, PLACE)
+        loop = For(INDEX, NUMBER, tuple(body), independent=True)
+        parameters = (SITE, NUMBER, *starts, SITES, *self.arrays, *self.scalars)
         about = f"Sweep {self.index} over adjacent sites with all neighbours: {self.own.about}."
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
@@ -214,8 +224,8 @@ class _Loop:
 
     def site(self) -> Function:
         """Return the function for one site, which may be at the boundary."""
-        before, inside, ends = _split(self.own.kernel, self.shared)
-        column: list[Statement] = [Assign(_PLACE, ROW + COLUMN)]
+        before, inside, ends = split(self.own.kernel, self.shared)
+        column: list[Statement] = [Assign(PLACE, ROW + COLUMN)]
         nears: dict[int, Term] = {}
         exist: dict[int, Term] = {}
         for k in self.neighbours:
@@ -229,7 +239,7 @@ class _Loop:
                 tests = [*outer, *([there] if there is not None else [])]
                 column.append(Assign(exist[k], both(*tests)))
         body = [*column, *self._loads_of_site(nears, exist), *before, *inside]
-        body += self.stored(ends, _PLACE)
+        body += self.stored(ends, PLACE)
         parameters = (COLUMN, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
         about = f"Sweep {self.index} at one site, which may be at the boundary."
         return self.function(self.name("site"), about, parameters, body)
@@ -237,14 +247,14 @@ class _Loop:
     def _loads_of_site(self, nears: dict[int, Term], exist: dict[int, Term]) -> list[Statement]:
         """Return the statements that load all numbers at one site."""
         first = [load for load in self.own.loads if load.neighbour == OWN]
-        body: list[Statement] = [Assign(own(x.symbol), self.loaded(x, _PLACE, nears)) for x in first]
+        body: list[Statement] = [Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in first]
         around = [load for load in self._read() if load.neighbour != OWN]
         if self.own.outside is None:
-            return [*body, *(Assign(own(x.symbol), self.loaded(x, _PLACE, nears)) for x in around)]
-        before, inside, ghosts = _split(self.own.outside, set())
+            return [*body, *(Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in around)]
+        before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
-            there = self.loaded(load, _PLACE, nears)
+            there = self.loaded(load, PLACE, nears)
             body.append(Assign(own(load.symbol), select(exist[load.neighbour], there, ghost)))
         return body
 
@@ -258,20 +268,20 @@ class _Loop:
     def all_sites(self) -> Function:
         """Return the function for all sites."""
         body = self._row()
-        step, shape = self.step, _shape(self.step)
+        step, shape = self.step, shape_of(self.step)
         outer = [count(f"i{e}") for e in range(step.dimension - 1)]
         for e in range(step.dimension - 2, -1, -1):
             body = [For(outer[e], shape[e], tuple(body))]
-        parameters = (_WHOLE, shape, SITES, *self.arrays, *self.scalars)
+        parameters = (WHOLE, shape, SITES, *self.arrays, *self.scalars)
         about = f"Sweep {self.index} over all sites; if whole is true, each site is computed alone."
         first = [Assign(COLUMNS, shape[step.dimension - 1])]
         return self.function(self.name("pass"), about, parameters, [*first, *body])
 
     def _row(self) -> list[Statement]:
         """Return the statements for one row of the lattice."""
-        step, shape = self.step, _shape(self.step)
+        step, shape = self.step, shape_of(self.step)
         outer = [count(f"i{e}") for e in range(step.dimension - 1)]
-        body: list[Statement] = [Assign(ROW, _first(outer, shape))]
+        body: list[Statement] = [Assign(ROW, first_site(outer, shape))]
         for k in self.neighbours:
             moved = []
             tests = []
@@ -279,39 +289,39 @@ class _Loop:
                 there, place = _moved(index, step.offsets[k][e], shape[e], step.periodic)
                 moved.append(place)
                 tests += [there] if there is not None else []
-            body.append(Assign(count(f"row_{k}"), _first(moved, shape)))
+            body.append(Assign(count(f"row_{k}"), first_site(moved, shape)))
             if outer and not step.periodic:
                 inside = both(*tests) if tests else Term("number", (), Kind.FLAG, number=1)
                 body.append(Assign(flag(f"inside_{k}"), inside))
         lasts = [step.offsets[k][-1] for k in self.neighbours]
         low, high = max([0, *(-x for x in lasts)]), max([0, *lasts])
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
-        regular = both(negated(_WHOLE), COLUMNS > low + high, *flags)
+        regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
-        body.append(self._peeled(_LEAD, _INDEX))
+        body.append(self._peeled(_LEAD, INDEX))
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         arguments = (_plus(ROW, low), _INNER, *starts, SITES, *self.arrays, *self.scalars)
         body.append(If(_INNER > 0, tuple(self._called("sweep", arguments))))
-        body.append(self._peeled(COLUMNS - _LEAD - _INNER, _LEAD + _INNER + _INDEX))
+        body.append(self._peeled(COLUMNS - _LEAD - _INNER, _LEAD + _INNER + INDEX))
         return body
 
     def _peeled(self, number: Term, column: Term) -> For:
         """Return the loop over some sites that are computed alone."""
         arguments = (column, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
-        return For(_INDEX, number, tuple(self._called("site", arguments)))
+        return For(INDEX, number, tuple(self._called("site", arguments)))
 
     def _called(self, of: str, arguments: tuple[Term, ...]) -> list[Statement]:
         if not self.last:
             return [Call(self.name(of), arguments)]
-        return [Call(self.name(of), arguments, (_PART,)), Assign(_BAD, _BAD + _PART)]
+        return [Call(self.name(of), arguments, (_PART,)), Assign(BAD, BAD + _PART)]
 
 
 def _plus(x: Term, n: int) -> Term:
     return x + n if n else x
 
 
-def _first(indices: Sequence[Term], shape: Term) -> Term:
+def first_site(indices: Sequence[Term], shape: Term) -> Term:
     """Return the number of the first site of a row of the lattice with these outer indices."""
     if not indices:
         return whole(0)
@@ -340,46 +350,51 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
     """Return the function that makes one step without a test of the shape."""
     body: list[Statement] = []
     for loop in loops:
-        arguments = (_WHOLE, _shape(step), SITES, *loop.arrays, *loop.scalars)
-        body.append(Call(loop.name("pass"), arguments, (_BAD,) if loop.last else ()))
+        arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
+        body.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
     about = "One step of all sites; return the number of sites whose new state is not finite."
-    return Function(ADVANCE, about, _advance_parameters(plan, step), (*body, Return(_BAD)), Kind.COUNT)
+    return Function(ADVANCE, about, advance_parameters(plan, step), (*body, Return(BAD)), Kind.COUNT)
 
 
-def _advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
-    return (_WHOLE, _shape(step), SITES, _STATE, _WORK, _RESULT, *plan.moment(), *plan.parameters)
+def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
+    """Return the parameters of the function that makes one step."""
+    return (WHOLE, shape_of(step), SITES, _STATE, _WORK, _RESULT, *plan.moment(), *plan.parameters)
 
 
 def _too_small(step: SiteStep) -> Term:
     """Return the test that the lattice has too few sites in some dimension."""
-    shape, tests = _shape(step), []
+    shape, tests = shape_of(step), []
     for e in range(step.dimension):
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
+        if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
+            # With an odd number of sites, the first and the last site would belong to two pairs of a set.
+            tests.append((shape[e] % 2).equals(whole(1)))
     return either(*tests)
 
 
-def _run(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
-    """Return the public function, which makes some steps of equal size."""
+def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
+    """Return the public function, which makes some steps of equal size. A failed step is tried ``twice`` if
+    some functions have two forms."""
     later = exact_time(TIME, _DONE, STEP)
 
     def advance(old: Term, new: Term, separately: bool) -> Call:
         every = Term("number", (), Kind.FLAG, number=int(separately))
         moment = plan.moment(later)
         return Call(
-            ADVANCE, (every, _shape(step), SITES, old, _WORK, new, *moment, *plan.parameters), (_BAD,)
+            ADVANCE, (every, shape_of(step), SITES, old, _WORK, new, *moment, *plan.parameters), (BAD,)
         )
 
     def tried(old: Term, new: Term) -> tuple[Statement, ...]:
-        again = If(_BAD > 0, (advance(old, new, True),))
-        return (advance(old, new, False), *((again,) if any(loop.near for loop in loops) else ()))
+        again = If(BAD > 0, (advance(old, new, True),))
+        return (advance(old, new, False), *((again,) if twice else ()))
 
     even = (_DONE % 2).equals(whole(0))
     # The old state stays in its array until the new state is known to be finite. The two arrays then exchange
     # their roles, so no state is copied.
     body = (
         If(even, tried(_STATE, _WORK), tried(_WORK, _STATE)),
-        If(_BAD > 0, (Assign(STATUS, code(NOT_FINITE)),), (Assign(_DONE, _DONE + 1),)),
+        If(BAD > 0, (Assign(STATUS, code(NOT_FINITE)),), (Assign(_DONE, _DONE + 1),)),
     )
     place = count("place")
     copied = For(place, step.size * SITES, (Assign(_STATE[place], _WORK[place]),))
@@ -387,7 +402,7 @@ def _run(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
         If(given(_COMPLETED), (Assign(_COMPLETED[0], whole(0)),)),
         If(_too_small(step), (Return(code(BAD_SHAPE)),)),
         If(both(STEPS > 0, negated(is_finite(STEP))), (Return(code(BAD_STEP)),)),
-        Assign(SITES, _product(_shape(step), step.dimension)),
+        Assign(SITES, _product(shape_of(step), step.dimension)),
         Assign(STATUS, code(OK)),
         Assign(_DONE, whole(0)),
         While(both(_DONE < STEPS, STATUS.equals(code(OK))), body),
@@ -396,5 +411,5 @@ def _run(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
         Return(STATUS),
     )
     time = (TIME,) if plan.time else ()
-    parameters = (_shape(step), _STATE, *time, STEP, STEPS, *plan.parameters, _WORK, _COMPLETED)
+    parameters = (shape_of(step), _STATE, *time, STEP, STEPS, *plan.parameters, _WORK, _COMPLETED)
     return Function("run", "", parameters, statements, Kind.STATUS, public=True)

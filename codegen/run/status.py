@@ -35,7 +35,7 @@ MEANINGS = {
     BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is an infinity or a NaN",
-    BAD_SHAPE: "the lattice has too few sites in one of its dimensions",
+    BAD_SHAPE: "a lattice with too few sites, or, for pairs, an odd number of sites in a periodic dimension",
 }
 """The comment on each status code in the header of emitted code."""
 
@@ -50,7 +50,7 @@ REASONS = {
     BAD_TIMES: "the output times are not finite, not in order, or not between t and end",
     LEAST_STEP: "the end is not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is not finite",
-    BAD_SHAPE: "the lattice has too few sites in one of its dimensions",
+    BAD_SHAPE: "a lattice with too few sites, or, for pairs, an odd number of sites in a periodic dimension",
 }
 """The reason for each failure, with the label of the implicit block and the step size, for both targets."""
 

@@ -3,7 +3,16 @@
 from __future__ import annotations
 
 from codegen.ir.linear_array_step import LinearArrayStep
-from codegen.run import batch, deferred_flows, integration, jacobian, sites, step_control, taylor_control
+from codegen.run import (
+    batch,
+    deferred_flows,
+    integration,
+    jacobian,
+    site_flows,
+    sites,
+    step_control,
+    taylor_control,
+)
 from codegen.run.arithmetic import outlined
 from codegen.run.array_step import array_functions, array_tables
 from codegen.run.cause import cause, is_searched, step_arguments
@@ -24,7 +33,9 @@ def unit_of(plan: Plan) -> Unit:
     # Callees come first, because C needs a declaration before each call.
     if plan.kernel.sites is not None:
         scalars = ("t", "h", *(p.text for p in plan.parameters))
-        return Unit(scalars, (), (), tuple(sites.functions(plan, plan.kernel.sites)))
+        step = plan.kernel.sites
+        of_sites = site_flows.functions if step.flows else sites.functions
+        return Unit(scalars, (), (), tuple(of_sites(plan, step)))
     functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
     if plan.kernel.deferred is not None:
         functions += deferred_flows.functions(plan)

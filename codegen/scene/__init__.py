@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from codegen.scene.parameters import param as param
     from codegen.scene.parameters import signal as signal
     from codegen.scene.problem import Problem as Problem
+    from codegen.scene.site_parts import Pair as Pair
     from codegen.scene.site_scene import SiteScene as SiteScene
     from codegen.scene.sites import left as left
     from codegen.scene.sites import neighbour as neighbour
@@ -38,6 +39,7 @@ __all__ = [
     "HamiltonianScene",
     "LargeLinearScene",
     "LinearScene",
+    "Pair",
     "Problem",
     "SiteScene",
     "StiefelScene",
@@ -61,6 +63,7 @@ lazy(
     matrix_formula=("banded", "full", "unknown"),
     parameters=("Parameter", "Signal", "param", "signal"),
     problem=("Problem",),
+    site_parts=("Pair",),
     site_scene=("SiteScene",),
     sites=("left", "neighbour", "right"),
     stiefel_scene=("StiefelScene",),

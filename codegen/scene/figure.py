@@ -84,7 +84,8 @@ class PlaneCurves(Figure):
     """Curves in a plane. ``point`` has two formulas, ``axes`` their labels.
 
     With ``panels`` each run has a panel of its own. ``bounds`` are (left, right, low, high); by default they
-    contain all points. Markers are drawn at every state if ``marked`` is True.
+    contain all points of the panel. Markers are drawn at every state if ``marked`` is True. With ``dots`` the
+    states are drawn as dots without lines between them.
     """
 
     point: tuple[Quantity, Quantity]
@@ -92,6 +93,7 @@ class PlaneCurves(Figure):
     panels: bool = False
     bounds: tuple[float, float, float, float] | None = None
     marked: bool = False
+    dots: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,23 +121,23 @@ class SpaceCurves(Figure):
     point: tuple[Quantity, Quantity, Quantity]
     axes: tuple[str, str, str] = ("x", "y", "z")
     direction: tuple[float, float] = (30.0, 25.0)
-    panels: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
 class TorusCurves(Figure):
     """Curves on a torus in the chart of two angles; opposite edges are the same line of the torus.
 
-    ``angles`` are two formulas and ``axes`` their labels. ``directions`` are the rates of the angles as
-    formulas of the symbols ``variables``; they are drawn as arrows. ``levels`` is a formula of the same
-    symbols whose level lines are drawn.
+    ``angles`` are two formulas, in radians, and ``axes`` their labels. ``state`` has a formula of two symbols
+    ``variables`` for each coordinate of the state with these angles. At such states the formulas
+    ``directions``, the rates of the angles, are drawn as arrows, and ``levels`` as level lines.
     """
 
     angles: tuple[Quantity, Quantity]
     axes: tuple[str, str] = ("θ", "φ")
-    variables: tuple[sympy.Symbol, sympy.Symbol] | None = None
-    directions: tuple[sympy.Expr, sympy.Expr] | None = None
-    levels: sympy.Expr | None = None
+    variables: tuple[sympy.Symbol, ...] = ()
+    state: tuple[sympy.Expr, ...] = ()
+    directions: tuple[Quantity, ...] = ()
+    levels: Quantity | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,6 +19,7 @@ from codegen.scene.consistency import check_action, check_problem
 from codegen.scene.formulas import Reader
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem, StateField
+from codegen.scene.site_parts import Pair, check_parts, read_parts
 from codegen.scene.sites import Offset, Sites, neighbour, offset_of
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ def SiteScene(
     span: tuple[sympy.Expr, sympy.Expr],
     boundary: str = PERIODIC,
     outside: Sequence[sympy.Expr] | Outside | None = None,
+    parts: Mapping[str, Pair | Sequence[sympy.Expr]] | None = None,
     invariants: Mapping[str, sympy.Expr] | None = None,
     name: str = "scene",
     title: str = "",
@@ -56,8 +58,11 @@ def SiteScene(
     that does not exist: a column of formulas in ``y``, t and parameters, or a mapping from each offset to
     such a column. Zeros describe a free end for forces that are linear in the neighbours, ``y`` itself a free
     end for forces that depend on differences, constants a clamped end, and formulas in t a driven end.
+    ``parts`` are summands of the field with exact flows, which splittings compose: a column of formulas in
+    ``y``, or a :class:`codegen.scene.site_parts.Pair` for the interaction of two neighbours.
     :class:`SceneError` is raised for the errors of a field scene, for offsets of different lengths, and for a
-    neighbour outside an open boundary without a formula.
+    neighbour outside an open boundary without a formula, and for parts whose flow is not exact or whose sum
+    is not the field.
     """
     check_group(name, group)
     reader = Reader(name, list(y))
@@ -67,7 +72,8 @@ def SiteScene(
     known = tuple(s for column in symbols for s in column)
     roots = reader.column(f, group.dim, "f", more=known)
     start = reader.column(y0, len(y), "y0", constant=True)
-    sites = Sites(len(offsets[0]), offsets, symbols, _outside(reader, boundary, outside, offsets))
+    ends = _outside(reader, boundary, outside, offsets)
+    sites = Sites(len(offsets[0]), offsets, symbols, ends, read_parts(reader, y, group.dim, parts))
     if reader.signals:
         raise SceneError("a signal in the field of a site", where=name, expected="formulas in t")
     laws = {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
@@ -80,6 +86,7 @@ def SiteScene(
     frozen = with_frozen_neighbours(problem)
     check_action(orbit_of(frozen))
     check_problem(frozen, {})
+    check_parts(problem, orbit_of(frozen))
     return problem
 
 

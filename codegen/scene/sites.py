@@ -83,18 +83,31 @@ def right(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
 
 
 @dataclass(frozen=True)
+class SitePart:
+    """A part of the field with an exact flow: the generators of a site, or those of both sites of a pair
+    along an axis, and the symbols of the second site."""
+
+    name: str
+    roots: tuple[Expr, ...]
+    axis: int = -1
+    symbols: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Sites:
     """The lattice of a scene: its dimension, the offsets of the neighbours that the field reads, and the
     symbols of their coordinates.
 
     If the lattice is not periodic, ``outside`` contains the formulas for the states of neighbours that do not
     exist, one column for each offset, in the coordinates of the site itself, the time and parameters.
+    ``parts`` are the parts of the field whose flows splittings compose (:mod:`codegen.scene.site_parts`).
     """
 
     dimension: int
     offsets: tuple[Offset, ...]
     symbols: tuple[tuple[str, ...], ...]
     outside: tuple[tuple[Expr, ...], ...] = ()
+    parts: tuple[SitePart, ...] = ()
 
     @property
     def periodic(self) -> bool:

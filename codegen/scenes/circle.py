@@ -9,6 +9,7 @@ from sympy import Rational, symbols
 
 from codegen.groups import SO2, LeftMultiplication
 from codegen.scene import FieldScene, param
+from codegen.scene.figure import PlaneCurves, Run
 
 x, y = symbols("x y", real=True)
 w, a = param("w", 1), param("a", Rational(1, 2))
@@ -25,3 +26,19 @@ scene = FieldScene(
     velocity=[-f * y, f * x],
     invariants={"radius": x**2 + y**2},
 )
+
+figures = [
+    PlaneCurves(
+        name="spiral",
+        title="Euler's method leaves the circle, Lie-Euler stays on it",
+        caption="120 steps of size 1/10. The reference is the exact solution.",
+        source="Fig. 1.1 of the thesis",
+        point=(x, y),
+        marked=True,
+        runs=(
+            Run("ambient:euler", 0.1, 120, "Euler"),
+            Run("rkmk(0):euler", 0.1, 120, "Lie-Euler"),
+        ),
+        reference=Run("rkmk:butcher6", 0.02, 600),
+    ),
+]

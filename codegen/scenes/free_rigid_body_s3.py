@@ -10,6 +10,7 @@ from sympy import Expr, Matrix, Rational, diag
 
 from codegen.groups import S3, LeftMultiplication
 from codegen.scene import FieldScene
+from codegen.scene.figure import Deviation, PlaneCurves, Run
 
 G = S3()
 q = G.point("q")
@@ -38,3 +39,32 @@ scene = FieldScene(
     span=(0, 2),
     invariants={"length": q.dot(q), "energy": m.dot(I.inv() * m) / 2},
 )
+
+runs = (
+    Run("discrete_gradient:midpoint", 1 / 64, 64_000, "discrete gradient, h = 1/64", stride=16),
+    Run("ambient:dormand_prince5", 1 / 4, 4000, "Dormand-Prince, tolerance 1e-6", tolerance=1e-6),
+    Run("ambient:dormand_prince5", 1 / 4, 4000, "Dormand-Prince, tolerance 1e-14", tolerance=1e-14),
+    Run("rkmk(0):heun", 1 / 64, 64_000, "Heun RKMK, h = 1/64", stride=16),
+)
+figures = [
+    PlaneCurves(
+        name="momentum",
+        title="Momentum in the body up to t = 1000, four methods",
+        caption="Each dot is a state, four for each unit of time. The exact curve is closed; m3 is near -60.",
+        source="Fig. 2.7 of the thesis",
+        point=(m[0], m[1]),
+        axes=("m₁", "m₂"),
+        panels=True,
+        dots=True,
+        runs=runs,
+    ),
+    Deviation(
+        name="energy",
+        title="Energy error up to t = 1000, four methods",
+        caption="The energy is 31.125 at the start. Heun RKMK leaves the energy surface, not the group.",
+        source="Fig. 2.7 of the thesis",
+        quantity="energy",
+        axis="largest energy error so far",
+        runs=runs,
+    ),
+]

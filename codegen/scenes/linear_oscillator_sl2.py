@@ -15,6 +15,7 @@ from sympy import Matrix, Rational, Symbol, sin
 
 from codegen.groups import SL2, Columns
 from codegen.scene import LinearScene, param
+from codegen.scene.figure import Deviation, Run, TimeSeries
 from codegen.scene.matrix_step import IDENTITY, A, bracket, expm, h, logm, projected
 
 eps, alpha, omega = param("eps", Rational(1, 10)), param("alpha", Rational(123, 1000)), param("omega", 1)
@@ -41,3 +42,71 @@ scene = LinearScene(
         ),
     },
 )
+
+H = (stiffness * q.dot(q) + p.dot(p)) / 2
+both = {"H": H, "−u": -Symbol("u", real=True)}
+strong, matrices, canonical = (
+    f"linear_oscillator{end}" for end in ("_sl2+u[alpha=1/10,eps=3/10]", "_sl2+u", "+u")
+)
+figures = [
+    TimeSeries(
+        name="energies",
+        title="Both energies of Lie-Gauss minus the exact energy",
+        caption="eps = 0.3, alpha = 0.1, h = 0.3. The reference is Lie-Gauss with h = 0.03.",
+        source="Fig. 4.1a of the thesis",
+        quantities=both,
+        axis="difference from the exact energy",
+        difference=True,
+        runs=(Run("magnus:magnus4", 0.3, 33_330, "Lie-Gauss", scene=strong, stride=11),),
+        reference=Run("magnus:magnus4", 0.03, 333_300, scene=strong, stride=110),
+    ),
+    TimeSeries(
+        name="close_up",
+        title="Both energies of Lie-Euler beside the exact energy",
+        caption="eps = 0.3, alpha = 0.1, h = 0.6. The exact energy is that of Lie-Gauss with h = 0.03.",
+        source="Fig. 4.1b of the thesis",
+        quantities=both,
+        axis="energy",
+        reference_label="exact",
+        window=(230.0, 300.0),
+        runs=(Run("magnus:lie_euler", 0.6, 500, "Lie-Euler", scene=strong),),
+        reference=Run("magnus:magnus4", 0.03, 10_000, scene=strong, stride=5),
+    ),
+    TimeSeries(
+        name="symmetric_canonical",
+        title="Both energies of symmetric and of canonical methods",
+        caption="eps = 0.1, alpha = 0.123, h = 0.3. The printed eps is 0.6, which does not fit the axis.",
+        source="Fig. 4.2 of the thesis",
+        quantities=both,
+        axis="energy",
+        runs=(
+            Run("rk:midpoint", 0.3, 2334, "midpoint: symmetric and canonical", scene=canonical, stride=2),
+            Run("rk:kahan", 0.3, 2334, "Kahan: symmetric", scene=canonical, stride=2),
+            Run("step:projection", 0.3, 2334, "projection: canonical", scene=matrices, stride=2),
+            Run("rk:lobatto3c2", 0.3, 2334, "Lobatto IIIC: neither", scene=canonical, stride=2),
+        ),
+    ),
+    Deviation(
+        name="energy_errors",
+        title="Energy errors, the maximum of every 500 steps",
+        caption="eps = 0.1, alpha = 0.123, h = 0.3. The exact energy is that of Lie-Gauss with h = 0.02.",
+        source="Fig. 4.3 of the thesis",
+        quantity=H,
+        axis="largest difference from the exact energy",
+        window=500,
+        runs=(
+            Run("rk:radau2a2", 0.3, 166_666, "Radau IIA", scene="linear_oscillator"),
+            Run("vcg:euler", 0.3, 166_666, "symplectic Euler", scene="linear_oscillator"),
+            Run("step:exp_non_can", 0.3, 166_666, "ExpNonCan"),
+            Run("step:exp_sym_non_can", 0.3, 166_666, "ExpSymNonCan"),
+            Run("rk:midpoint", 0.3, 166_666, "midpoint", scene="linear_oscillator"),
+            Run("rk:triple_jump", 0.3, 166_666, "midpoint, triple jump", scene="linear_oscillator"),
+            Run("rk:gauss2", 0.3, 166_666, "Gauss-Legendre", scene="linear_oscillator"),
+            Run("magnus:lie_euler", 0.3, 166_666, "Lie-Euler"),
+            Run("magnus:magnus2", 0.3, 166_666, "Lie-midpoint"),
+            Run("magnus:lie_midpoint_triple_jump", 0.3, 166_666, "Lie-midpoint, triple jump"),
+            Run("magnus:magnus4", 0.3, 166_666, "Lie-Gauss"),
+        ),
+        reference=Run("magnus:magnus4", 0.02, 2_499_990, stride=15),
+    ),
+]

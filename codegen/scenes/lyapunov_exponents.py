@@ -12,6 +12,7 @@ from sympy import Matrix, Rational, Symbol, eye, symbols
 
 from codegen.groups import SO3, FactorwiseAction, LeftMultiplication, Product, Rn, Stiefel
 from codegen.scene import FieldScene, param
+from codegen.scene.figure import Run, SpaceCurves, TimeSeries
 from codegen.scene.problem import Problem
 
 sigma, rho, beta = param("sigma", 10), param("rho", 28), param("beta", Rational(8, 3))
@@ -42,3 +43,25 @@ def lyapunov(k: int) -> Problem:
 
 
 scene = lyapunov(3)
+
+t = Symbol("t")
+figures = [
+    SpaceCurves(
+        name="attractor",
+        title="The trajectory of Lorenz's system",
+        caption="5000 steps of size 1/100.",
+        point=tuple(x),
+        axes=("x₁", "x₂", "x₃"),
+        direction=(-60.0, 15.0),
+        runs=(Run("rkmk(2):rk4", 0.01, 5000),),
+    ),
+    TimeSeries(
+        name="exponents",
+        title="Integrals divided by the time tend to the Lyapunov exponents",
+        caption="Steps of size 1/100. The exponents are 0.9056, 0 and -14.5723.",
+        quantities={f"exponent {i + 1}": Symbol(f"s{i}", real=True) / t for i in range(3)},
+        axis="integral / t",
+        window=(1.0, 100.0),
+        runs=(Run("rkmk(2):rk4", 0.01, 10_000, stride=20),),
+    ),
+]

@@ -6,10 +6,11 @@ pi/2. The points are (cos theta, sin theta) and (cos varphi, sin varphi). The pr
 printed gamma and delta belong to the square, and they are the gradient, so the flow has the opposite sign.
 """
 
-from sympy import Matrix, Rational, symbols
+from sympy import Matrix, Rational, atan2, cos, sin, symbols
 
 from codegen.groups import SO2, LeftMultiplication, Product
 from codegen.scene import FieldScene
+from codegen.scene.figure import Run, TorusCurves
 
 a = Matrix(symbols("a0:2", real=True))
 b = Matrix(symbols("b0:2", real=True))
@@ -27,3 +28,20 @@ scene = FieldScene(
     velocity=[gamma * a[1], -gamma * a[0], delta * b[1], -delta * b[0]],
     invariants={"first_radius": a.dot(a), "second_radius": b.dot(b)},
 )
+
+theta, varphi = symbols("theta varphi", real=True)
+figures = [
+    TorusCurves(
+        name="flow",
+        title="Gradient flow on the torus",
+        caption="Arrows show -grad phi; their length is the root of its size. Lines: levels of phi.",
+        source="Fig. 2.5 of the thesis",
+        angles=(atan2(b[1], b[0]), atan2(a[1], a[0])),
+        axes=("φ", "θ"),
+        variables=(varphi, theta),
+        state=(cos(theta), sin(theta), cos(varphi), sin(varphi)),
+        directions=(-delta, -gamma),
+        levels=((1 + a[0]) * b[1] - 8) ** 2,
+        runs=(Run("rkmk(2):rk4", 0.005, 200),),
+    ),
+]

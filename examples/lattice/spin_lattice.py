@@ -1,26 +1,35 @@
-"""Heisenberg spins on a plane lattice: the Landau-Lifshitz equation with exchange, anisotropy and damping.
+"""Heisenberg spins on a plane lattice: the Landau-Lifshitz equation with exchange, anisotropy and a field.
 
 Each site has a spin S of length one. It turns about the effective field H, the sum of J S over the four
-neighbours, an anisotropy about the third axis, and an external field: S' = w x S with w = H + alpha S x H.
-Without damping (alpha = 0) the energy is constant. The lattice is periodic.
+neighbours, an anisotropy about the third axis, and an external field: S' = H x S. The lattice is periodic.
+The energy is constant. Its parts have exact flows: two spins turn about their sum, and the anisotropy and the
+external field turn a spin about the third axis.
 """
 
 from sympy import Matrix, Rational, symbols, zeros
 
 from codegen.groups import SO3, Rotation
-from codegen.scene import SiteScene, neighbour, param
+from codegen.scene import Pair, SiteScene, neighbour, param
 
 S = Matrix(symbols("S0:3", real=True))
-J, K, B, alpha = param("J", 1), param("K", Rational(1, 2)), param("B", Rational(1, 5)), param("alpha", 0)
-around = [neighbour(S, offset) for offset in ((1, 0), (-1, 0), (0, 1), (0, -1))]
-H = J * sum(around, zeros(3, 1)) + Matrix([0, 0, K * S[2] + B])
+J, K, B = param("J", 1), param("K", Rational(1, 2)), param("B", Rational(1, 5))
+offsets = [(1, 0), (0, 1)]
+around = [neighbour(S, (x * i, x * j)) for i, j in offsets for x in (1, -1)]
+single = Matrix([0, 0, K * S[2] + B])
+# The generator J (S + S') turns both spins of a pair. Its part along the own spin has no effect.
+sums = [J * (S + neighbour(S, offset)) for offset in offsets]
 
 scene = SiteScene(
     group=SO3(),
     action=Rotation(),
     y=S,
-    f=H + alpha * S.cross(H),
+    f=J * sum(around, zeros(3, 1)) + single,
     y0=[Rational(3, 5), 0, Rational(4, 5)],
     span=(0, 10),
+    parts={
+        "single": single,
+        "rows": Pair(offsets[0], sums[0], sums[0]),
+        "columns": Pair(offsets[1], sums[1], sums[1]),
+    },
     invariants={"length": S.dot(S)},
 )

@@ -65,6 +65,53 @@ class ExtensionOrder(Struct, frozen=True):
         }
 
 
+class RegisterForm(Struct, frozen=True):
+    """The scheme with two registers (2N) to which a tableau can be rewritten, or the reason why there is
+    none.
+
+    ``A`` and ``B`` are the coefficients of K <- A_i K + F(Y), Y <- exp(h B_i K) Y as text. ``space`` is
+    ``group`` if the scheme is equal to the method on every Lie group, and ``vector space`` if the tableau (A,
+    b) defines the method on a vector space. ``holds`` is None if rounded decimals do not decide the question.
+    """
+
+    holds: bool | None
+    space: str
+    A: tuple[str, ...] = ()
+    B: tuple[str, ...] = ()
+    reason: str = ""
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of the form with two registers."""
+        record: dict[str, object] = {"holds": self.holds, "space": self.space}
+        if self.holds is False:
+            return {**record, "reason": self.reason}
+        return {**record, "A": list(self.A), "B": list(self.B)}
+
+
+class SymmetryOrder(Struct, frozen=True):
+    """The largest q such that a step of size -h after a step of size h differs from the identity by O(h^(q +
+    1)), on vector spaces (``family`` is ``rk``) or on groups (``cf``).
+
+    ``order`` is None for a symmetric method, for which every q is possible. If ``at_least`` is true, larger
+    trees were not evaluated. ``certificate`` is ``decimal`` if the digits support the order but do not prove
+    it.
+    """
+
+    family: str
+    order: int | None
+    certificate: str = "exact"
+    at_least: bool = False
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of a symmetry."""
+        return {
+            "family": self.family,
+            "order": self.order,
+            "at_least": self.at_least,
+            "certificate": self.certificate,
+        }
+
+
 @dataclass(frozen=True, repr=False)
 class Report:
     """The result of ``check`` for one tableau; ``broken_claims`` are property claims that do not hold."""
@@ -81,6 +128,8 @@ class Report:
     work: dict[str, Work] = field(default_factory=dict)
     embedded: EmbeddedOrder | None = None
     dense: ExtensionOrder | None = None
+    low_storage: RegisterForm | None = None
+    symmetry: SymmetryOrder | None = None
     properties_claimed: bool = False
     hint: str = ""
     """A suggestion for the author of the tableau file, or an empty text."""
@@ -102,6 +151,16 @@ class Report:
         several = len(self.orders) > 1
         orders = (family.sentence + (f" ({family.family})" if several else "") for family in self.orders)
         return f"{', '.join(orders)}; {'no order' if self.properties_claimed else 'nothing'} claimed"
+
+    @property
+    def effective_symmetry(self) -> int | None:
+        """The order to which the method is symmetric, if the method is not symmetric and this order is higher
+        than its order implies; otherwise None."""
+        if self.symmetry is None or self.symmetry.order is None or self.symmetry.at_least:
+            return None
+        order = next((f.order for f in self.orders if f.family == self.symmetry.family), None)
+        implied = None if order is None else 2 * (order // 2) + 1
+        return self.symmetry.order if implied is not None and self.symmetry.order > implied else None
 
     def __repr__(self) -> str:
         orders = ", ".join(f"{family.family} {family.order}" for family in self.orders)
@@ -139,6 +198,10 @@ class Report:
             record["embedded"] = self.embedded.as_json()
         if self.dense is not None:
             record["dense"] = self.dense.as_json()
+        if self.low_storage is not None:
+            record["low_storage"] = self.low_storage.as_json()
+        if self.symmetry is not None:
+            record["symmetry"] = self.symmetry.as_json()
         if self.proof is not None:
             record["proof"] = self.proof.as_json()
         if self.undecided:

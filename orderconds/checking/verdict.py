@@ -13,11 +13,12 @@ from orderconds.argument import CONDITION_ORDER, TOLERANCE, described, integer, 
 from orderconds.checking.continuous import extension_order
 from orderconds.checking.limits import Limits, Meter
 from orderconds.checking.order import DOUBLE, FamilyOrder, family_order, first_failing
-from orderconds.checking.report import EmbeddedOrder, ExtensionOrder, Report
+from orderconds.checking.report import EmbeddedOrder, ExtensionOrder, RegisterForm, Report
+from orderconds.checking.symmetry import symmetry_order
 from orderconds.errors import InputError
 from orderconds.families import Family
-from orderconds.tableau import Tableau
-from orderconds.tableau.properties import properties, undecided
+from orderconds.tableau import RungeKutta, Tableau
+from orderconds.tableau.properties import low_storage, properties, undecided
 from orderconds.tableau.tolerance import with_tolerance
 
 if TYPE_CHECKING:
@@ -46,8 +47,7 @@ def check(
     fails unless the file claims an order in each claimable family. With ``certified`` the check fails if an
     order is supported by digits but not proved. A tableau without claims is checked in the family of its
     format, and its verdict is ``unclaimed``. ``limits`` bound the work; if a limit is reached, the order in
-    the report is a lower bound. ``tolerance`` is the uncertainty of doubles in units of rounding
-    (:mod:`orderconds.tableau.doubles`).
+    the report is a lower bound. ``tolerance`` is explained in :mod:`orderconds.tableau.doubles`.
 
     Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
     formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
@@ -67,8 +67,7 @@ def check(
     proof, broken = _proof(tableau)
     enclosed, facts = (proof.tableau, proof.facts) if proof else (tableau, ())
     embedded = _embedded(enclosed, [f for f, _ in wanted])
-    computed = properties(tableau)
-    dense = extension_order(tableau)
+    computed, dense = properties(tableau), extension_order(tableau)
     if family is None:
         broken += (*_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
     broken += _missing_claims(enclosed, tableau) if complete else []
@@ -86,9 +85,23 @@ def check(
         work={f.label(): cost for f, _ in wanted if (cost := f.work(tableau)) is not None},
         embedded=embedded,
         dense=dense,
+        low_storage=_register_form(tableau),
+        symmetry=symmetry_order(enclosed, computed.get("symmetric")),
         properties_claimed=bool(tableau.claims.properties),
         hint=_hint(given, orders),
     )
+
+
+def _register_form(tableau: Tableau) -> RegisterForm | None:
+    """Return the scheme with two registers to which the tableau can be rewritten, as text."""
+    rewriting = low_storage(tableau)
+    if rewriting is None:
+        return None
+    space = "vector space" if isinstance(tableau.method, RungeKutta) else "group"
+    if rewriting.scheme is None:
+        return RegisterForm(rewriting.holds, space, reason=rewriting.reason)
+    A, B = (tuple(map(tableau.ring.text, row)) for row in (rewriting.scheme.A, rewriting.scheme.B))
+    return RegisterForm(rewriting.holds, space, A, B)
 
 
 def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:

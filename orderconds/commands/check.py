@@ -26,7 +26,7 @@ from orderconds.processes import in_processes
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder, Report
-    from orderconds.checking.report import EmbeddedOrder
+    from orderconds.checking.report import EmbeddedOrder, RegisterForm
     from orderconds.proof.certificate import Certificate
     from orderconds.tableau.work import Work
 
@@ -36,6 +36,9 @@ one. The JSON output lists all failing conditions."""
 
 UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
+
+DIGITS = 12
+"""The number of characters of a coefficient in the line about two registers."""
 
 WIDTH = 200
 """The maximal length of a formula or residual in the text output. The JSON output contains the full text."""
@@ -354,6 +357,12 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         click.echo(f"  a step: {_work(report.work)}")
     holding = [name for name, value in report.properties.items() if value]
     click.echo(f"  properties: {', '.join(holding) or 'none'}")
+    if report.low_storage is not None and report.low_storage.holds:
+        click.echo(f"  {_register_form(report.low_storage)}")
+    if report.effective_symmetry is not None:
+        click.echo(
+            f"  effectively symmetric: a step of -h undoes a step of h up to h^{report.effective_symmetry}"
+        )
     for reason in dict.fromkeys(report.undecided.values()):
         names = [name for name, why in report.undecided.items() if why == reason]
         click.echo(f"  undecided: {', '.join(names)} ({reason})")
@@ -367,6 +376,16 @@ def _embedded(embedded: EmbeddedOrder) -> str:
     for label, order in embedded.orders.items():
         groups.setdefault(embedded.certificates[label], []).append(f"{order} ({label})")
     return "; ".join(f"{', '.join(orders)}, certificate: {name}" for name, orders in groups.items())
+
+
+def _register_form(form: RegisterForm) -> str:
+    """Return one line with the scheme with two registers to which a tableau can be rewritten."""
+    space = "on a vector space" if form.space == "vector space" else "on every group"
+    A, B = (
+        f"[{', '.join(x if len(x) <= DIGITS else x[:DIGITS] + '...' for x in row)}]"
+        for row in (form.A, form.B)
+    )
+    return f"two registers (2N) {space}: A = {A}, B = {B}"
 
 
 def _work(work: dict[str, Work]) -> str:

@@ -33,6 +33,11 @@ if TYPE_CHECKING:
 @click.option(
     "--order", "-p", type=click.IntRange(*SOLVED_ORDER), required=True, help="The order of the method."
 )
+@click.option(
+    "--low-storage",
+    is_flag=True,
+    help="Search only for schemes with two registers (2N), K <- A_i K + F(Y), Y <- exp(h B_i K) Y.",
+)
 @click.option("--explicit", is_flag=True, help="Search only for explicit methods: a_ij = 0 for j >= i.")
 @click.option("--dirk", is_flag=True, help="Search only for diagonally implicit methods: a_ij = 0 for j > i.")
 @click.option(
@@ -161,7 +166,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
-        **{key: options[key] for key in ("fix", "positive", "exponentials", "inner")},
+        **{key: options[key] for key in ("low_storage", "fix", "positive", "exponentials", "inner")},
         size=_size(options["size"]),
     )
     device = output is not None and Path(output).exists() and not Path(output).is_file()

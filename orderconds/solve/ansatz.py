@@ -23,6 +23,12 @@ class Ansatz:
     """The text of a tableau file in which the values of the free coefficients are missing. ``free`` contains
     the names of the unknowns, ``numbers`` the formulas of dependent coefficients by name, and ``body`` all
     other lines. ``cells`` contains the names of the coefficients that are not constants.
+
+    ``family`` is the label of the family whose conditions are solved, and ``reduction`` the reason in the
+    file why they suffice (:mod:`orderconds.proof.equations`). If ``abelian`` is true, they are the conditions
+    of the tableau to which the method reduces on an abelian group. The principal error is that of the family
+    ``measured``; None: of the same family. Random starts are near ``centre``, a value for each free
+    coefficient.
     """
 
     family: str
@@ -33,6 +39,10 @@ class Ansatz:
     numbers: Mapping[str, str]
     cells: tuple[str, ...]
     tail: tuple[str, ...] = ()
+    reduction: str = "spelling"
+    abelian: bool = False
+    measured: str | None = None
+    centre: Mapping[str, float] | None = None
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
         """Return the file in which the free coefficients have these values as text."""

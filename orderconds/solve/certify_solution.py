@@ -250,7 +250,7 @@ def _roots(forms: dict[str, ClosedForm]) -> list[str]:
 def _exact(problem: Problem, text: str, source: str) -> Solution | None:
     """Return the solution with exact coefficients, or None if the method does not have the required order."""
     tableau = Tableau.loads(text)
-    label = problem.ansatz.family
+    label = problem.measured.label()
     try:
         report = check(tableau, label, problem.order)
     except ZeroWeight:  # The formulas of the family divide by a weight that is zero.
@@ -291,7 +291,7 @@ def _proved(
         "[proof]",
         f'conditions = "{problem.ansatz.family}"',
         f"order = {problem.order}",
-        'reduction = "spelling"',
+        f'reduction = "{problem.ansatz.reduction}"',
     ]
     text = ansatz.text({**exact, **digits}, head=[f'source = "{source}"'], foot=proof)
     return _claimed(problem, Tableau.loads(text), exact=False)
@@ -308,6 +308,7 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
         certify(tableau)
     claims: list[OrderClaim] = []
     certificate, holds = "", False
+    wanted_family = problem.measured.label()
     for family in claimable_families(tableau):
         reached = 0
         for variant in family.claimed_variants():
@@ -317,14 +318,14 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
                 break
             reached = order.order
             claims.append(variant.claim(order.order))
-            if problem.ansatz.family in (family.label(), label):
+            if wanted_family in (family.label(), label):
                 certificate, holds = order.certificate, order.order >= problem.order
     if not certificate:
-        order = check(tableau, problem.ansatz.family).orders[0]
+        order = check(tableau, wanted_family).orders[0]
         certificate, holds = order.certificate, order.order >= problem.order
     if not holds or certificate == "decimal":
         raise NotProved(f"order {problem.order} is not proved")
-    wanted = ("explicit", "diagonally_implicit", "symmetric", "fsal", "symplectic")
+    wanted = ("explicit", "diagonally_implicit", "symmetric", "fsal", "symplectic", "low_storage")
     held = {key: True for key, value in properties(tableau).items() if value is True and key in wanted}
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)
@@ -332,7 +333,7 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
         # There are two texts of the file: one contains each coefficient in full, the other contains names for
         # repeated numbers. The shorter text is used.
         written = min(toml_text(without_names(claimed)), written, key=len)
-    error = principal_error(claimed, problem.ansatz.family, problem.order + 1)
+    error = principal_error(claimed, wanted_family, problem.order + 1)
     return Solution(Tableau.loads(written), written, certificate, error)
 
 

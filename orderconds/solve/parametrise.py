@@ -18,68 +18,10 @@ from orderconds.solve.abscissae import (
     transport,
 )
 from orderconds.solve.ansatz import Ansatz
-from orderconds.solve.linear import Constraint, Elimination, equal, equality, named, spell, sum_to_one, zero
+from orderconds.solve.coefficients import Cells, eliminated, row_text
+from orderconds.solve.linear import Constraint, Elimination, equal, named, spell, sum_to_one, zero
+from orderconds.solve.low_storage import low_storage
 from orderconds.solve.spec import Spec, refuse
-
-Nodes = Mapping[str, Sequence[str]]
-"""A map from the name of each node (abscissa) to the names of the coefficients whose sum is the node."""
-
-
-def _eliminated(
-    names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
-) -> Elimination:
-    """Return the coefficients after elimination of all constraints. A constraint ``--fix`` may name nodes."""
-    elimination = Elimination(tuple(names))
-    fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
-    for constraint in fixed:
-        for name in constraint.form:
-            if name and name not in names:
-                raise InputError(
-                    f"unknown coefficient {name!r} in {constraint.text!r}",
-                    where="--fix",
-                    expected=f"one of {', '.join([*names, *(nodes or {})])}",
-                )
-    elimination.impose([*constraints, *fixed])
-    return elimination
-
-
-@dataclass(frozen=True)
-class _Cells:
-    """The text of each coefficient after elimination of the constraints, and the formulas of named
-    numbers."""
-
-    elimination: Elimination
-    extra: Mapping[str, str] | None = None
-
-    def written(self, name: str) -> str:
-        """Return the text of a coefficient: a constant, or the name of a number in the file."""
-        form = self.elimination.cell(name)
-        if self.extra and name in self.extra:
-            return name
-        return spell(form) if set(form) <= {""} else name
-
-    def numbers(self, names: Sequence[str]) -> dict[str, str]:
-        """Return the formulas of dependent coefficients that are not constants."""
-        texts = {}
-        for name in names:
-            form = self.elimination.cell(name)
-            if name in self.elimination.solved and not set(form) <= {""}:
-                texts[name] = spell(form)
-        return {**texts, **(self.extra or {})}
-
-    def unknown(self, names: Sequence[str]) -> tuple[str, ...]:
-        """Return the coefficients that are not constants."""
-        return tuple(name for name in names if self.written(name) == name)
-
-
-def _row(cells: _Cells, names: Sequence[str], full: bool = False) -> str:
-    """Return the text of a row of coefficients. Zeros at the end of the row are left out, unless ``full`` is
-    true.
-    """
-    texts = [cells.written(name) for name in names]
-    while not full and texts and texts[-1] == "0":
-        texts.pop()
-    return "[" + ", ".join(f'"{x}"' for x in texts) + "]"
 
 
 def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
@@ -115,21 +57,21 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     if structure == "abscissae":
         constraints.append(sum_to_one(b))
     nodes = {named("c", i + 1): line for i, line in enumerate(A)}
-    elimination = _eliminated(names, spec, constraints, nodes)
+    elimination = eliminated(names, spec, constraints, nodes)
     extra = {}
     if structure == "abscissae":
-        weights = [_Cells(elimination).written(x) for x in b]
+        weights = [Cells(elimination).written(x) for x in b]
         extra = {**crouch_grossman_times(weights), **transport(A, weights, _fixed(A, elimination))}
     if family.symplectic:
         extra = _symplectic(A, b, elimination, spec.symmetric)
-    cells = _Cells(elimination, extra)
+    cells = Cells(elimination, extra)
     free = tuple(x for x in elimination.free if x not in extra)
-    rows = [_row(cells, line) for line in A]
+    rows = [row_text(cells, line) for line in A]
     body = (
         f'name = "{name}"',
         'family = "rk"',
         *_matrix(rows),
-        f"b = {_row(cells, b, full=True)}",
+        f"b = {row_text(cells, b, full=True)}",
     )
     label = family.solved_as(spec.rkn)
     return Ansatz(label, name, structure, body, free, cells.numbers(names), cells.unknown(names))
@@ -145,7 +87,7 @@ def _symplectic(
     the relation of a pair implies the relation of the mirrored pair. A pair that is equal to its mirrored
     pair always satisfies the relation.
     """
-    cells, last = _Cells(elimination), len(b) - 1
+    cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
     for j in range(len(b)):
         for i in range(j):
@@ -222,13 +164,13 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
     if totals:
         constraints += _totals(stages, update, totals)
         names = [*totals, *names]
-    elimination = _eliminated(names, spec, constraints)
+    elimination = eliminated(names, spec, constraints)
     extra |= {name: text for name, text in totals.items() if name in elimination.free}
     if structure == "abscissae":
         extra = _abscissae(stages, update, elimination)
     elif structure.endswith("abscissae"):
         extra = _symmetric_abscissae(stages, update, elimination)
-    cells = _Cells(elimination, extra)
+    cells = Cells(elimination, extra)
     free = tuple(x for x in elimination.free if x not in extra)
     free = (*free, *(x for x in extra if extra[x] == x))
     numbers = {x: text for x, text in cells.numbers(names).items() if text != x}
@@ -256,7 +198,7 @@ def _abscissae(
             )
     A = [[named("a", i, j) for j in every] for i in every]
     b = [named("b", i) for i in every]
-    written = [[_Cells(elimination).written(x) for x in line] for line in update]
+    written = [[Cells(elimination).written(x) for x in line] for line in update]
     determined = transport(A, b, {})
     extra = {**commutator_free_times(written, b)}
     extra |= {x: determined.get(x, x) for line in A for x in line}
@@ -298,7 +240,7 @@ def _symmetric_abscissae(
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
-    cells = _Cells(elimination)
+    cells = Cells(elimination)
     b = [named("b", i) for i in range(1, s + 1)]
     written = [[cells.written(x) for x in line] for line in update]
     x = [[named("x", i, j) for j in range(1, s + 1)] for i in range(1, half + 1)]
@@ -329,8 +271,8 @@ def _symmetric_abscissae(
     return extra
 
 
-def _exponentials(rows: Sequence[Sequence[str]], cells: _Cells) -> list[str]:
-    lines = [line for names in rows if (line := _row(cells, names)) != "[]"]
+def _exponentials(rows: Sequence[Sequence[str]], cells: Cells) -> list[str]:
+    lines = [line for names in rows if (line := row_text(cells, names)) != "[]"]
     if not lines:
         return []
     text = f"exp = [{', '.join(lines)}]"
@@ -356,13 +298,13 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
     names = [x for x in order if x not in elimination.solved]
-    elimination = _eliminated(order, spec, [*mirrored, total])
-    cells = _Cells(elimination)
+    elimination = eliminated(order, spec, [*mirrored, total])
+    cells = Cells(elimination)
     body = (
         f'name = "{name}"',
         'family = "composition"',
         'base = "symmetric-2"',
-        f"gamma = {_row(cells, gamma, full=True)}",
+        f"gamma = {row_text(cells, gamma, full=True)}",
     )
     label = family.solved_as(spec.rkn)
     return Ansatz(label, name, structure, body, elimination.free, cells.numbers(order), cells.unknown(names))
@@ -390,8 +332,8 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
         Constraint("the steps of a part sum to 1", {**dict.fromkeys(x, Fraction(1)), "": Fraction(-1)})
         for x in (a, b)
     ]
-    elimination = _eliminated(order, spec, constraints)
-    cells = _Cells(elimination)
+    elimination = eliminated(order, spec, constraints)
+    cells = Cells(elimination)
     steps = [f'["T", "{cells.written(a[0])}"]']
     for i in range(s):
         steps += [f'["V", "{cells.written(b[i])}"]', f'["T", "{cells.written(a[i + 1])}"]']
@@ -462,6 +404,9 @@ LAYOUTS = {
 """The parametrisation of each tableau format. The keys are the values of
 :attr:`orderconds.families.Family.unknowns`."""
 
+TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
+"""The parametrisation of schemes with two registers (2N)."""
+
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
     """Return the ansatz for a specification in the family with the label ``family``.
@@ -473,7 +418,7 @@ def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found"
     (('b1', 'b2'), 'A = [[], ["1/2"]]')
     """
     member = families.get(family)
-    layout = _layout(member)
+    layout = _layout(member, spec)
     if spec.stages < 1:
         raise InputError(f"{spec.stages} stages", where="--stages", expected="at least one")
     return layout.ansatz(member, spec, structure, name)
@@ -486,10 +431,12 @@ def structures(family: str, spec: Spec) -> tuple[str, ...]:
     (('abscissae', 'full'), ('full',))
     """
     chosen = families.get(family)
-    return _layout(chosen).structures(chosen, spec)
+    return _layout(chosen, spec).structures(chosen, spec)
 
 
-def _layout(family: Family) -> Layout:
+def _layout(family: Family, spec: Spec) -> Layout:
+    if spec.low_storage:
+        return TWO_REGISTERS
     if family.unknowns not in LAYOUTS:
         searched = [n for n in families.names() if families.family_class(n).unknowns in LAYOUTS]
         raise InputError(

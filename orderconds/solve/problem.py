@@ -51,6 +51,11 @@ class Problem:
         return families.get(self.ansatz.family)
 
     @cached_property
+    def measured(self) -> Family:
+        """Return the family in which the principal error is measured."""
+        return families.get(self.ansatz.measured or self.ansatz.family)
+
+    @cached_property
     def conditions(self) -> tuple[OrderCondition, ...]:
         """Return those conditions up to the order of the search that are independent for the ansatz.
 
@@ -59,7 +64,7 @@ class Problem:
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
-        return independent_conditions(self.family, self.ansatz.symbolic(), highest)
+        return independent_conditions(self.family, self.ansatz.symbolic(), highest, self._read)
 
     @cached_property
     def tape(self) -> Tape:
@@ -76,8 +81,14 @@ class Problem:
         self, values: Sequence[Element], ring: RootedRing, conditions: Sequence[OrderCondition]
     ) -> list[Element]:
         """Return left-hand sides minus right-hand sides for free coefficients in any ring."""
-        method = self.ansatz.method(values, ring)
+        method = self._read(self.ansatz.method(values, ring), ring)
         return list(self.family.residuals(method, ring, conditions))
+
+    def _read(self, method: Method, ring: Ring) -> Method:
+        """Return the method whose coefficients the solved conditions contain."""
+        if self.ansatz.abelian and isinstance(method, CommutatorFree):
+            return method.as_runge_kutta(ring)
+        return method
 
     @cached_property
     def error(self) -> Tape:
@@ -85,7 +96,9 @@ class Problem:
         of these residuals is the principal error."""
         ring = Traces(len(self.ansatz.free))
         method = self.ansatz.method(ring.inputs, ring)
-        return Tape(self.family.principal_residuals(method, ring, self.order + 1), len(self.ansatz.free))
+        if self.measured.label() == self.family.label():
+            method = self._read(method, ring)
+        return Tape(self.measured.principal_residuals(method, ring, self.order + 1), len(self.ansatz.free))
 
     @cached_property
     def coefficients(self) -> Tape:
@@ -138,6 +151,9 @@ class Problem:
         """Return random points near the point at which all weights are equal and other coefficients are
         zero."""
         free = self.ansatz.free
+        if self.ansatz.centre is not None:
+            centre = np.array([self.ansatz.centre[name] for name in free])
+            return centre + 0.4 * generator.standard_normal((count, len(free)))
         weights = [name for name in self.ansatz.cells if name[0] in "bg"]
         mean = np.array([1 / max(len(weights), 1) if name[0] in "bg" else 0.0 for name in free])
         return mean + 0.5 * generator.standard_normal((count, len(free)))

@@ -94,6 +94,7 @@ def solve(
     exponentials: int = 2,
     inner: int = 2,
     rkn: bool = False,
+    low_storage: bool = False,
     minimise: Literal["error"] | None = None,
     starts: int | None = None,
     seed: int = 0,
@@ -107,9 +108,8 @@ def solve(
     The constraints are the options of ``orderconds solve``; ``fix`` is a sequence of equations such as
     ``"a21=1/2"``. Contradictory constraints raise InputError. ``report`` is called with lines of text.
 
-    >>> heun = solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"])
-    >>> heun.tableau.b, heun.certificate
-    ((Fraction(1, 2), Fraction(1, 2)), 'exact')
+    >>> solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"]).tableau.b
+    (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
     refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need only these conditions.
@@ -122,9 +122,9 @@ def solve(
         fix=texts(fix, "fix", "a21=1/2"),
         positive=texts(positive, "positive", "b1"),
         size=_size(size),
-        exponentials=integer(exponentials, "exponentials", EXPONENTIALS),
-        inner=integer(inner, "inner", EXPONENTIALS),
+        **{k: integer(n, k, EXPONENTIALS) for k, n in (("exponentials", exponentials), ("inner", inner))},
         rkn=rkn,
+        low_storage=low_storage,
     )
     request = Order(
         family,

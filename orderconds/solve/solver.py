@@ -61,6 +61,7 @@ class Order:
         """
         w = self.spec
         words = ["orderconds", "solve", self.family, "--stages", str(w.stages), "--order", str(self.order)]
+        words += ["--low-storage"] if w.low_storage else []
         words += [f"--{key}" for key in ("explicit", "dirk", "symmetric", "fsal", "rkn") if getattr(w, key)]
         for option, values in (("--fix", w.fix), ("--positive", w.positive)):
             for value in values:

@@ -16,7 +16,7 @@ class Spec:
     ``exponentials`` is the number of exponentials in the update of a commutator-free method, and ``inner`` is
     the number of exponentials in each stage. ``positive`` contains the names of coefficients that must be
     positive; the name ``b`` denotes all weights. ``size`` is a bound on the absolute values of all
-    coefficients.
+    coefficients. ``low_storage`` requests a scheme with two registers (2N).
     """
 
     stages: int
@@ -30,6 +30,7 @@ class Spec:
     exponentials: int = 2
     inner: int = 2
     rkn: bool = False
+    low_storage: bool = False
 
 
 def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
@@ -40,6 +41,7 @@ def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
     plain = Spec(spec.stages)
     for option in options:
         if getattr(spec, option) != getattr(plain, option):
+            written = option.replace("_", "-")
             raise InputError(
-                f"family {family} has no methods with --{option}", where="solve", expected=f"no --{option}"
+                f"family {family} has no methods with --{written}", where="solve", expected=f"no --{written}"
             )

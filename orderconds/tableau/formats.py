@@ -31,6 +31,7 @@ from orderconds.tableau.methods import (
 )
 from orderconds.tableau.product_formats import CompositionFile, MagnusFile, SplittingFile
 from orderconds.tableau.products import Method
+from orderconds.tableau.two_registers import TwoRegisters
 
 MAX_DEGREE = 40
 """The largest degree of the polynomials of a continuous extension."""
@@ -283,7 +284,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
         if self.low_storage:
             s = len(self.low_storage.B)
             A, B = (filled_row(values, f"low_storage.{key}", s, ring) for key in "AB")
-            method = _low_storage(A, B, ring)
+            method = TwoRegisters(A, B).as_commutator_free(ring)
         else:
             s = len(self.stage)
             *stages, update = (_product(entry, place, values, s, ring) for place, entry in self._entries())
@@ -321,23 +322,6 @@ def _identically_zero(where: str, expected: str) -> TableauError:
         where=where,
         expected=expected,
     )
-
-
-def _low_storage(A: Row, B: Row, ring: Ring) -> CommutatorFree:
-    """Convert a 2N (low-storage) scheme to a commutator-free method: stage i + 1 is the exponential of B_i
-    K_i applied to stage i.
-
-    K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j. The variable ``register`` contains the coefficients of the
-    sum over j < i. The coefficient 1 of F_i is not stored.
-    """
-    s = len(B)
-    register: list[Element] = []
-    products = [Stage(None, ())]
-    for i in range(s):
-        register = [*(A[i] * x for x in register), A[i]] if i else []
-        row = (*(B[i] * x for x in register), B[i], *([ring.zero] * (s - i - 1)))
-        products.append(Stage(i, (row,)))
-    return CommutatorFree(tuple(products[:-1]), products[-1])
 
 
 FORMATS: dict[str, type[Format]] = {

@@ -135,7 +135,7 @@ DEFINITIONS: dict[str, Callable[[RungeKutta, Ring], Verdict]] = {
     "stiffly_accurate": stiffly_accurate,
 }
 
-PROPERTIES = (*DEFINITIONS, "a_stable", "l_stable")
+PROPERTIES = (*DEFINITIONS, "low_storage", "a_stable", "l_stable")
 """Every property that a file may claim."""
 
 

@@ -6,6 +6,7 @@ Each property is True, False, or None if the coefficients are balls too wide to 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from orderconds.ring import Balls
 from orderconds.ring.protocol import Ring
@@ -21,12 +22,13 @@ from orderconds.tableau.palindromes import symmetric_paths
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Tableau
 from orderconds.tableau.stability import stability, stability_of_midpoints
+from orderconds.tableau.two_registers import Rewriting, two_registers
 
 
 def properties(tableau: Tableau) -> dict[str, Verdict]:
     """Return the properties that are defined for this tableau, in the order of :data:`PROPERTIES`.
 
-    For a commutator-free method these are ``explicit``, ``symmetric`` and ``fsal``.
+    For a commutator-free method these are ``explicit``, ``symmetric``, ``fsal`` and ``low_storage``.
 
     >>> from orderconds.tableau import Tableau
     >>> midpoint = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]')
@@ -40,6 +42,7 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
             "explicit": all(_commutator_free_explicit(method, ring)),
             "symmetric": _symmetric_for_all_decimals(tableau) if palindrome is None else palindrome,
             "fsal": _ends_at_update(method, ring),
+            **_low_storage(tableau),
         }
     if isinstance(method, Composition):
         return _of_composition(method, ring)
@@ -48,7 +51,39 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
     if isinstance(method, AdjointComposition | Splitting | Magnus):
         verdict = symmetric_product(method, ring)
         return {"symmetric": _symmetric_for_all_decimals(tableau) if verdict is None else verdict}
-    return {**_of_tableau(method, ring), **stability(method, ring)}
+    return {**_of_tableau(method, ring), **_low_storage(tableau), **stability(method, ring)}
+
+
+def low_storage(tableau: Tableau) -> Rewriting | None:
+    """Return the scheme with two registers (2N) that is equal to the method, or the reason why there is none;
+    None for other formats than tableaux (A, b) and commutator-free methods.
+
+    Rounded decimals decide the question if the method is a 2N scheme for all values of the decimals.
+
+    >>> from orderconds.tableau import find
+    >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
+    True
+    """
+    method, ring = tableau.method, tableau.ring
+    if not isinstance(method, RungeKutta | CommutatorFree):
+        return None
+    rewriting = two_registers(method, ring)
+    if rewriting.holds is None and tableau.proof is not None:
+        from orderconds.tableau.random_member import OUTSIDE, RandomMember
+
+        member = RandomMember(tableau.proof.symbolic)
+        try:
+            drawn = member.method()
+        except OUTSIDE:
+            return rewriting
+        if isinstance(drawn, RungeKutta | CommutatorFree) and two_registers(drawn, member).holds:
+            return replace(rewriting, holds=True)
+    return rewriting
+
+
+def _low_storage(tableau: Tableau) -> dict[str, Verdict]:
+    rewriting = low_storage(tableau)
+    return {} if rewriting is None else {"low_storage": rewriting.holds}
 
 
 def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, str]:
@@ -97,6 +132,7 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     gamma = method.gamma
     verdicts = {
         **_of_tableau(method.as_runge_kutta(ring), ring),
+        "low_storage": False,
         **stability_of_midpoints(gamma, ring),
     }
     palindrome = reads_backwards(gamma, ring)

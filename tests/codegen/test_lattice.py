@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from sympy import Matrix, Rational, Symbol
 
 from codegen import emit, load, load_lattice
 from codegen.arrival import Status
@@ -22,7 +23,7 @@ from codegen.printers.c.module import FLAGS, VECTOR_FLAGS
 from codegen.run.execute import Machine
 from codegen.run.plan import Plan
 from codegen.run.unit import unit_of
-from codegen.scene import SiteScene, neighbour
+from codegen.scene import Pair, SiteScene, neighbour
 from codegen.scene.unrolled import unrolled
 from orderconds.cli import program
 from orderconds.errors import InputError
@@ -137,6 +138,110 @@ def test_a_failed_step_leaves_the_last_good_state():
     if result.completed == 0:
         assert np.array_equal(result.states, start)
     assert lattice.run(start, np.inf, 1).status == Status.BAD_STEP
+
+
+def magnet(dimension, **options):
+    """Return a spin lattice without damping whose field is the sum of parts with exact flows."""
+    steps = [tuple(int(e == k) for e in range(dimension)) for k in range(dimension)]
+    around = [neighbour(S, tuple(s * x for x in step)) for step in steps for s in (1, -1)]
+    single = Matrix([0, 0, S[2] / 2 + Rational(1, 5)])
+    sums = [S + neighbour(S, step) for step in steps]
+    parts = {f"axis{k}": Pair(step, x, x) for k, (step, x) in enumerate(zip(steps, sums, strict=True))}
+    given = {"f": sum(around, single), "parts": {**parts, "single": single}, "name": "magnet"}
+    return site_scene(**(given | options))
+
+
+def energy(spins):
+    """Return the energy of a periodic magnet."""
+    axes = range(spins.ndim - 1)
+    pairs = sum((spins * np.roll(spins, 1, axis)).sum() for axis in axes)
+    return -pairs - (spins[..., 2] ** 2 / 4 + spins[..., 2] / 5).sum()
+
+
+OPEN = {"boundary": "open", "outside": [0, 0, 0]}
+
+
+@pytest.mark.parametrize(
+    ("options", "shape", "method", "order"),
+    [
+        ({}, (4,), "composition:triple_jump", 4),
+        pytest.param({}, (4,), "splitting:strang", 2, marks=pytest.mark.slow),
+        pytest.param({}, (4,), "splitting:lie_trotter", 1, marks=pytest.mark.slow),
+        pytest.param({}, (2, 4), "splitting:blanes_moan4", 4, marks=pytest.mark.slow),
+        pytest.param(OPEN, (5,), "splitting:strang", 2, marks=pytest.mark.slow),
+        pytest.param(OPEN, (3, 5), "splitting:strang", 2, marks=pytest.mark.slow),
+    ],
+)
+def test_splittings_have_their_order_and_turn_spins(options, shape, method, order):
+    scene = magnet(len(shape), **options)
+    lattice = load_lattice(emit(scene, method, target="c"))
+    assert lattice.artifact.manifest["order"] == order
+    start = states(shape)
+    exact = load_lattice(emit(scene, "cf:cf4", target="c")).run(start, 1 / 1024, 1024).states
+    errors = []
+    for n in (64, 128):
+        result = lattice.run(start, 1 / n, n)
+        assert result.ok
+        assert np.abs(np.linalg.norm(result.states, axis=-1) - 1).max() < 1e-13
+        errors.append(np.abs(result.states - exact).max())
+    assert order - 0.1 < np.log2(errors[0] / errors[1]) < order + 0.15
+    # The largest angles of this step exceed one radian.
+    assert np.abs(np.linalg.norm(lattice.run(start, 9.0, 5).states, axis=-1) - 1).max() < 1e-13
+
+
+def test_pairs_alone_need_no_part_of_single_sites():
+    pairs = {"bonds": Pair((1,), S + neighbour(S, (1,)), S + neighbour(S, (1,)))}
+    scene = site_scene(f=neighbour(S, (1,)) + neighbour(S, (-1,)), parts=pairs, name="bonds")
+    lattice, start = load_lattice(emit(scene, "splitting:strang", target="c")), states((6,))
+    result = lattice.run(start, 0.05, 100)
+    # The flow of a pair preserves the sum of its spins.
+    assert np.abs(result.states.sum(axis=0) - start.sum(axis=0)).max() < 1e-13
+    assert lattice.run(np.full((6, 3), 1e200), 0.05, 3).status == Status.NOT_FINITE
+    with pytest.raises(ValueError, match="odd number of sites"):
+        lattice.run(states((5,)), 0.05, 1)
+
+
+@pytest.mark.slow
+def test_the_energy_of_a_splitting_is_bounded_and_spins_keep_their_length():
+    lattice = load_lattice(emit(magnet(2), "splitting:strang", target="c"))
+    spins = states((8, 8))
+    first, errors = energy(spins), []
+    for _ in range(100):
+        spins = lattice.run(spins, 0.05, 1000).states
+        errors.append(energy(spins) - first)
+    lengths = np.abs(np.linalg.norm(spins, axis=-1) - 1)
+    # 1e5 steps: the error of the energy has no trend, and the lengths change by rounding errors only.
+    assert lengths.max() < 1e-12
+    early, late = np.array(errors[:50]), np.array(errors[50:])
+    assert np.abs(errors).max() < 0.02 * 64
+    assert abs(late.mean() - early.mean()) < 3 * (late.std() + early.std())
+
+
+@pytest.mark.parametrize(
+    ("parts", "message"),
+    [
+        ({"single": S}, "the parts add up to the velocity"),
+        ({"single": S * S[0]}, "the parts add up"),
+        ({"single": Matrix([S[1], 0, 0])}, "generator 0 of the part single is not constant along"),
+        (
+            {"bonds": Pair((1,), neighbour(S, (1,)), S)},
+            "generator 0 of the part bonds is not constant along the flow",
+        ),
+        ({"bonds": Pair((-1,), S, S)}, r"the offset \(-1,\) of the part bonds"),
+        ({"bonds": Pair((0, 1), S, S)}, "offset of another length"),
+        ({"bonds": Pair((1,), S, [0])}, "has 1 components"),
+        ({"single": [Symbol("t"), 0, 0]}, "the part single depends on t"),
+        ({"single": neighbour(S, (1,))}, "has no value"),
+    ],
+)
+def test_parts_without_exact_flows_are_refused(parts, message):
+    with pytest.raises(SceneError, match=message):
+        magnet(1, parts=parts)
+
+
+def test_splittings_need_parts_and_an_autonomous_field():
+    with pytest.raises(MethodError, match="a lattice without parts"):
+        emit(chain(), "splitting:strang", target="c")
 
 
 @pytest.mark.slow

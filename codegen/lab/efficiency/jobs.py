@@ -65,13 +65,15 @@ class Jobs(Sequence[Job]):
     queues take turns, and queues of orders that are usual for an error are first. If a kind of recipe is
     predicted to be slower than another kind, its queues have a delay, the logarithm of the ratio of the
     times. ``controlled`` contains the recipes that can also run with step-size control, each with the goals
-    for which it can do so.
+    for which it can do so. The recipes of the methods ``early`` are first, so that slow recipes are
+    recognised early.
     """
 
     def __init__(
         self,
         goals: Mapping[Recipe, Iterable[Goal]],
         controlled: Mapping[Recipe, Collection[Goal]] = MappingProxyType({}),
+        early: Collection[str] = (),
     ) -> None:
         self.controlled = controlled
         self.goals = {recipe: tuple(dict.fromkeys(own)) for recipe, own in goals.items()}
@@ -85,6 +87,7 @@ class Jobs(Sequence[Job]):
         self.turns: dict[Queue, int] = defaultdict(int)
         for recipe in sorted(self.goals, key=lambda r: r.stages):
             self.queues[self.kind(recipe), recipe.order].append(recipe)
+        self.early = deque(recipe for recipe in self.goals if recipe.method in early)
 
     def __len__(self) -> int:
         return len(self.goals)
@@ -99,13 +102,23 @@ class Jobs(Sequence[Job]):
         """
         if k >= len(self):
             raise IndexError(k)
-        queue = min((q for q in self.queues if self.queues[q]), key=self._place)
-        self.turns[queue] += 1
-        recipe = self.queues[queue].popleft()
+        recipe = self._next()
         self.given.append(recipe)
         bars = (self._bar(goal, recipe) for goal in self.goals[recipe])
         job = replace(recipe, adaptive=bool(self.controlled.get(recipe)))
         return job, tuple(bar for bar in bars if not bar.hopeless(recipe.family))
+
+    def _next(self) -> Recipe:
+        """Remove the next recipe from its queue."""
+        if self.early:
+            recipe = self.early.popleft()
+            queue = self.kind(recipe), recipe.order
+        else:
+            queue = min((q for q in self.queues if self.queues[q]), key=self._place)
+            recipe = self.queues[queue][0]
+        self.turns[queue] += 1
+        self.queues[queue].remove(recipe)
+        return recipe
 
     def _place(self, queue: Queue) -> float:
         """Return a number that is small for queues with a fast family, few turns and a usual order. The queue
@@ -131,8 +144,10 @@ class Jobs(Sequence[Job]):
         return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
-        """Use a prediction for later jobs."""
-        if prediction.failure:
+        """Use a prediction for later jobs. Vague predictions are not used, because their times are too
+        short.
+        """
+        if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
         recipe = replace(recipe, adaptive=False)
         for goal in self.goals[recipe]:

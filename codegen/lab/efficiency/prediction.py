@@ -82,7 +82,8 @@ class Prediction:
     operations. ``explicit`` is True if no equation is solved. If the interpreted runs failed, ``error`` is
     infinite. ``rough`` is True if no interpreted run on the whole span had a small error, for example because
     the motion is fast in a part of the span. Step-size control may then save a large part of the time;
-    ``controlled`` is the prediction with step-size control, if a run with it succeeded.
+    ``controlled`` is the prediction with step-size control, if a run with it succeeded. ``vague`` is True if
+    ``error`` is large; the predicted time for a small error is then too short.
     ``failure`` is the reason if the scene or the family does not accept the method.
     """
 
@@ -97,6 +98,7 @@ class Prediction:
     error: float = math.inf
     rough: bool = False
     controlled: Prediction | None = None
+    vague: bool = False
     failure: str = ""
 
     def count(self, error: float) -> float:
@@ -202,16 +204,20 @@ class Predictor:
             end = time.process_time() + PATIENCE
             reached = _reached(numeric, problem, self.equations, self.exact, first, most, end)
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
-        rough = reached[1] > SMALL * size_of(self.exact)
-        if self.beginning is not None and not math.isfinite(reached[1]):
+        large = SMALL * size_of(self.exact)
+        rough = reached[1] > large
+        # A run that the bars limit to few steps shows that the method is slow.
+        if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
             end = time.process_time() + PATIENCE
             steps, error, sweeps = _reached(numeric, part, equations, exact, FEW_STEPS, MANY_STEPS, end)
-            reached = PARTS * steps, PARTS * error, sweeps
+            if math.isfinite(error):
+                reached = PARTS * steps, PARTS * error, sweeps
         steps, error, sweeps = reached
         amounts = (outside, sweep, sweeps, steps, error)
         known = Prediction(method.label, order, method.family, explicit, *amounts, rough)
+        known = replace(known, vague=large < error < math.inf and steps <= MANY_STEPS)
         if controlled is None or not rough:
             return known
         return replace(known, controlled=self.controlled(controlled, known, min(bar.error for bar in bars)))
@@ -240,11 +246,11 @@ class Predictor:
             except (ArithmeticError, ValueError):
                 break
             if error < known.error:
-                known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False)
+                known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False, vague=False)
             # The next run has a smaller tolerance and takes longer than all runs so far.
             if error <= target or 2 * time.process_time() > start + end:
                 break
-        reached = math.isfinite(known.error)
+        reached = known.error <= SMALL * size_of(self.exact)
         self.uncontrolled[kind] = 0 if reached else self.uncontrolled[kind] + 1
         return known if reached else None
 

@@ -137,6 +137,9 @@ class Racer:
         h = length / max(steps, 1)
         return tuple(self.integrator.run(self.initial, h, spans * steps, self.first)), spans * steps
 
+    def prepare(self, control: float) -> None:
+        """Prepare runs with a control, outside of measured times. An emitted module needs no preparation."""
+
     def error(self, control: float) -> float:
         """Return the error of a run; infinity if the run fails."""
         if control not in self.errors:
@@ -184,8 +187,10 @@ class Racer:
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
+            finer = self._finer(control)
+            self.prepare(finer)
             start = time.process_time()
-            seen.append(self.error(self._finer(control)))
+            seen.append(self.error(finer))
             if seen[-2] <= error and seen[-1] <= 2 * error:
                 return control, True
             if time.process_time() - start > longest or self._at_rounding(seen):

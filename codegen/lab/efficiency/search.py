@@ -20,6 +20,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
+from codegen.lab.default_methods import REPORT_ADAPTIVE
 from codegen.lab.efficiency.candidates import Recipe
 from codegen.lab.efficiency.goal import Goal, possible_needs
 from codegen.lab.efficiency.jobs import Jobs
@@ -132,7 +133,7 @@ class Search:
         for recipe, suited in self.suited.items():
             methods[replace(recipe, adaptive=False)] += suited
         controlled = {replace(r, adaptive=False): suited for r, suited in self.suited.items() if r.adaptive}
-        jobs = Jobs(methods, controlled)
+        jobs = Jobs(methods, controlled, REPORT_ADAPTIVE)
         for k, prediction in enumerate(in_processes(partial(predicted, self.task), jobs)):
             if k % GROUP == 0:
                 self.progress(f"{self.problem.name}: predicting method {k + 1} of {len(jobs)}")
@@ -156,8 +157,13 @@ class Search:
             return seconds * self._corrections[kind, error] / self.safety
         if kind in self._of_kind:
             return seconds * self._of_kind[kind] / self.safety
-        gained = CONTROLLED if recipe.adaptive and prediction.rough else 1.0
-        return seconds * self._least / (UNSEEN * gained)
+        return seconds * self._least / UNSEEN
+
+    def hoped(self, recipe: Recipe, error: float) -> float:
+        """Return the expected time, divided by CONTROLLED if the gain of step-size control is unknown."""
+        prediction, seconds = self.prediction(recipe), self.expected(recipe, error)
+        unknown = recipe.adaptive and prediction is not None and prediction.rough
+        return seconds / CONTROLLED if unknown and self.kind(recipe) not in self._of_kind else seconds
 
     def prediction(self, recipe: Recipe) -> Prediction | None:
         """Return the prediction for a recipe with equal steps or with step-size control."""
@@ -204,6 +210,7 @@ class Search:
 
         The predicted gain for a goal is log(best measured time/predicted time). If no measured recipe
         reaches the goal, the safety factor times the least predicted time replaces the best measured time.
+        Recipes whose gain from step-size control is unknown are last.
 
         If no recipe of a kind was measured yet, only one recipe of this kind is returned.
         """
@@ -221,7 +228,7 @@ class Search:
             if not math.isfinite(bound) and promised:
                 bound = self.safety * min(seconds for _, seconds in promised)
             for recipe, seconds in promised:
-                if seconds < bound or not math.isfinite(bound):
+                if self.hoped(recipe, goal.error) < bound or not math.isfinite(bound):
                     gains[recipe] += math.log(bound / seconds) if seconds < bound < math.inf else UNREACHED
         chosen: list[Recipe] = []
         fresh: set[Kind] = set()
@@ -270,7 +277,7 @@ class Search:
         met = [goal for goal in self.suited[recipe] if goal.met(racer.entry.features)]
         for error in sorted({goal.error for goal in met}, reverse=True):
             worst = max(self.best(goal) for goal in met if goal.error == error)
-            if self.expected(recipe, error) >= worst:
+            if self.hoped(recipe, error) >= worst:
                 continue
             result = racer.reach(error, worst)
             self.results[error][recipe] = result

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal, TypeAlias, TypedDict
+from typing import TYPE_CHECKING, TypeAlias, TypedDict
 
 import numpy
 from markupsafe import Markup
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
 WIDE = 7.4
 """Width in inches of a figure with several columns of panels: the width of a page."""
+
+DOT = 1.1
+"""The diameter of a dot in printer's points."""
 
 MARKS = 8
 """The number of markers on a long curve."""
@@ -40,7 +43,6 @@ class Looks(TypedDict, total=False):
     linewidth: float
     alpha: float
     zorder: float
-    solid_capstyle: Literal["butt", "round"]
 
 
 Points: TypeAlias = "tuple[Sequence[float] | numpy.ndarray, Sequence[float] | numpy.ndarray]"
@@ -104,6 +106,26 @@ class Canvas:
         (line,) = axes.plot(x, y, label=listed, markevery=list(marks), **settings)
         line.set_gid(f"series:{number}")
         self.texts[number] += texts
+
+    def dots(self, axes: Axes, points: Points, label: str, style: Style, alpha: float = 1.0) -> None:
+        """Draw a series as dots.
+
+        A dot is a line of length zero with round ends. A marker would need more text in the SVG element.
+        """
+        from matplotlib.patches import PathPatch
+        from matplotlib.path import Path
+
+        number, looks = self.number(label), appearance(style)
+        x, y = (numpy.asarray(row) for row in points)
+        shown = numpy.isfinite(x) & numpy.isfinite(y)
+        corners = numpy.repeat(numpy.array([x[shown], y[shown]]).T, 2, axis=0)
+        path = Path(corners, [Path.MOVETO, Path.LINETO] * int(shown.sum()))
+        path.should_simplify = False  # The simplification would remove lines of length zero.
+        patch = PathPatch(path, fill=False, edgecolor=looks["color"], linewidth=DOT, alpha=alpha)
+        patch.set(gid=f"series:{number}", capstyle="round")
+        axes.add_patch(patch)
+        if label not in self.titled:
+            axes.plot([], [], label=label, linestyle="", marker="o", markersize=3, color=looks["color"])
 
     def title(self, axes: Axes, label: str) -> None:
         """Write the label of a series above its panel."""

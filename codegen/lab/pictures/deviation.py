@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy
 
 from codegen.lab.page.axes import label_axes
+from codegen.lab.page.figures import spread
 from codegen.lab.page.formatting import scientific
-from codegen.lab.pictures.canvas import WIDE, Canvas, failures, marks, styles
+from codegen.lab.pictures.canvas import MARKS, WIDE, Canvas, failures, styles
 from codegen.lab.pictures.picture import Drawn
 from codegen.lab.pictures.source import Source
 from codegen.scene.figure import Deviation, Run
@@ -27,7 +28,7 @@ def draw(figure: Deviation, source: Source) -> Drawn:
     axes.set_yscale("log")
     for k, run in enumerate(figure.runs):
         times, sizes = maxima(figure, source, run)
-        chosen = marks(len(times), k / len(figure.runs))
+        chosen = spread(times.tolist(), MARKS, k / len(figure.runs))
         texts = [f"{run.name}: {scientific(sizes[i])} at t = {times[i]:.4g}" for i in chosen]
         canvas.line(axes, (times, sizes), run.name, looks[run.name], chosen, texts, {"linewidth": 1.0})
         numbers[run.name] = float(sizes.max())

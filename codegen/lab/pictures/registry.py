@@ -23,6 +23,8 @@ Draw: TypeAlias = Callable[[Any, Source], Drawn]
 BUILT_IN: dict[type[Figure], str] = {
     kinds.PlaneCurves: "codegen.lab.pictures.plane:draw",
     kinds.SphereCurves: "codegen.lab.pictures.sphere:draw",
+    kinds.SpaceCurves: "codegen.lab.pictures.space:draw",
+    kinds.TorusCurves: "codegen.lab.pictures.torus:draw",
     kinds.TimeSeries: "codegen.lab.pictures.time_series:draw",
     kinds.Deviation: "codegen.lab.pictures.deviation:draw",
     kinds.Scan: "codegen.lab.pictures.scan:draw",

@@ -29,9 +29,6 @@ if TYPE_CHECKING:
 HIDDEN = 0.3
 """Opacity of the curves on the hidden half."""
 
-DOT = 1.1
-"""The diameter of a dot in printer's points."""
-
 
 THIN: Looks = {"linewidth": 0.9, "marker": ""}
 
@@ -92,14 +89,11 @@ def _curve(
     dots: bool = False,
 ) -> None:
     """Draw the visible and the hidden part of a curve; ``seen`` are projected points."""
-    if dots:
-        # A line of length zero with round ends is a dot; NaN separates the dots.
-        seen = numpy.repeat(seen, 3, axis=1)
-        seen[:2, 2::3] = math.nan
-        looks = {**looks, "linewidth": DOT, "solid_capstyle": "round"}
     for hidden in (False, True):
         x = numpy.where((seen[2] < 0) == hidden, seen[0], math.nan)
-        if numpy.isfinite(x).any():
+        if dots:
+            canvas.dots(axes, (x, seen[1]), label, style, HIDDEN if hidden else 1.0)
+        elif numpy.isfinite(x).any():
             shown: Looks = {**looks, "alpha": HIDDEN} if hidden else looks
             canvas.line(axes, (x, seen[1]), label, style, looks=shown)
 

@@ -56,6 +56,11 @@ ALIKE = (
     "satellite",
     "independent_components",
     "wilson_flow",
+    "lyapunov_exponents",
+    "allen_cahn",
+    "toda_lattice",
+    "body_in_fluid",
+    "torus_gradient_flow",
 )
 """Scenes whose equations are solved as those of another scene, or have long formulas; for the slow run."""
 

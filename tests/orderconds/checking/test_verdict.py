@@ -160,7 +160,18 @@ def test_every_family_that_takes_it_finds_order_1_of_the_euler_method() -> None:
 
 def test_json_of_a_report_has_the_documented_keys() -> None:
     record = check(rk(*RK4, "rk = 3")).as_json()
-    assert list(record) == ["name", "file", "format", "verdict", "orders", "properties", "work"]
+    assert list(record) == [
+        "name",
+        "file",
+        "format",
+        "verdict",
+        "orders",
+        "properties",
+        "work",
+        "dense",
+        "low_storage",
+        "symmetry",
+    ]
     (found,) = record["orders"].values()  # type: ignore[attr-defined]
     assert list(found) == ["claimed", "order", "verdict", "certificate", "failing", "error_norm"]
     assert list(found["failing"][0]) == ["order", "tree", "expression", "residual"]

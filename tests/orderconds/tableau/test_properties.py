@@ -9,7 +9,7 @@ from orderconds.tableau.method_properties import PROPERTIES
 from orderconds.tableau.properties import properties
 
 HOLDING = {
-    "euler": {"explicit"},
+    "euler": {"explicit", "low_storage"},
     "rk4": {"explicit"},
     "gauss1": {"diagonally_implicit", "symplectic", "symmetric", "a_stable"},
     "gauss2": {"symplectic", "symmetric", "a_stable"},
@@ -87,7 +87,7 @@ def test_a_composition_is_symplectic_by_construction_and_symmetric_only_if_palin
 
 def test_commutator_free_methods_tell_whether_they_are_explicit_and_end_at_their_update() -> None:
     text = 'name = "t"\nfamily = "cf"\n[[stage]]\nexp = [["{}"]]\n[update]\nexp = [["1"]]\n'
-    midpoint = {"explicit": False, "symmetric": True, "fsal": False}
+    midpoint = {"explicit": False, "symmetric": True, "fsal": False, "low_storage": False}
     assert properties(Tableau.loads(text.format("1/2"))) == midpoint
-    euler = {"explicit": True, "symmetric": False, "fsal": False}
+    euler = {"explicit": True, "symmetric": False, "fsal": False, "low_storage": True}
     assert properties(Tableau.loads(text.format("0"))) == euler

@@ -26,7 +26,7 @@ PUBLISHED = {
         10: "gauss5",
     },
     "cg": {3: "cg3 cg3b", 4: "cg4 cg4a"},
-    "cf": {3: "cf3 luescher3 williamson3", 4: "cf4 carpenter_kennedy4"},
+    "cf": {3: "cf3 luescher3 williamson3", 4: "cf4 carpenter_kennedy4 berland4", 5: "yan5"},
     "composition": {
         2: "midpoint",
         4: "triple_jump suzuki4 mclachlan4",

@@ -26,6 +26,7 @@ from codegen.scene.figure import (
     PlaneCurves,
     Run,
     Scan,
+    SpaceCurves,
     SphereCurves,
     Sweep,
     TimeSeries,
@@ -79,6 +80,30 @@ def test_a_sphere_curve_measures_the_distance_from_the_sphere(source):
     distances = draw(figure, source).numbers
     assert distances[EULER.name] < 1e-14
     assert distances[AMBIENT.name] > 1e-2  # Euler's method leaves the sphere
+
+
+def test_dots_are_drawn_at_every_state(source):
+    figure = PlaneCurves(name="p", title="P", runs=(EULER,), point=(M[0], M[1]), panels=True, dots=True)
+    (dots,) = re.findall(r'<g data-series="0">\s*<path d="([^"]*)"', draw(figure, source).svg)
+    assert dots.count("M") == dots.count("L") == len(source.path(EULER).states)
+
+
+def test_a_space_curve_states_the_ranges_of_its_coordinates(source):
+    figure = SpaceCurves(name="s", title="S", runs=(EULER,), point=M)
+    states = source.path(EULER).states
+    expected = [[low, high] for low, high in zip(states.min(axis=0), states.max(axis=0), strict=True)]
+    assert draw(figure, source).numbers[EULER.name] == expected
+
+
+def test_the_flow_on_the_torus_ends_at_the_minimum_and_follows_the_arrows():
+    problem = load("torus_gradient_flow")
+    source, figure = Source(problem), find(problem, "flow")
+    assert draw(figure, source).numbers["rkmk(2):rk4"] == pytest.approx([math.pi / 2, 0.0], abs=1e-3)
+    path = source.path(figure.runs[0])
+    angles = source.values(figure.runs[0], figure.angles)
+    rates = source.values(figure.runs[0], figure.directions)
+    slopes = np.gradient(angles, path.times, axis=1)
+    assert abs(slopes - rates)[:, 5:-5].max() < 0.02 * abs(rates).max()
 
 
 def test_windows_and_running_maxima_are_the_largest_deviations(source):

@@ -1,0 +1,53 @@
+"""Exact flows of the parts of a lattice. They move all sites, so no formula for a single state exists."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NoReturn
+
+from codegen.flows.part import Part, Summand
+from codegen.groups.capabilities import Coadjoint
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+from codegen.scene.flow import Flow
+from codegen.scene.problem import Problem
+
+COLOURS = ("even", "odd")
+"""The names of the two sets of pairs along an axis: the first sites have even or odd indices."""
+
+
+@dataclass(frozen=True)
+class SiteFlow(Flow):
+    """The flow of part number ``part`` of a lattice; ``colour`` is the set of pairs, 0 for a local part."""
+
+    part: int
+    colour: int
+
+    def advance(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
+    ) -> NoReturn:
+        """Raise ArithmeticError: the flow moves all sites."""
+        raise ArithmeticError("a flow of a lattice moves all sites")
+
+    def field(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
+    ) -> NoReturn:
+        """Raise ArithmeticError: the flow moves all sites."""
+        raise ArithmeticError("a flow of a lattice moves all sites")
+
+    def text(self) -> str:
+        """Return a description of the motion."""
+        return "the same group element for the whole time"
+
+
+def site_flows(scene: Problem) -> list[Part]:
+    """Return the parts of a lattice with their exact flows, local parts first. The flows of the two sets of
+    pairs along an axis do not commute, so each set is a part of its own."""
+    assert scene.sites is not None
+    listed = []
+    for number, part in sorted(enumerate(scene.sites.parts), key=lambda x: bool(x[1].symbols)):
+        for colour in range(2 if part.symbols else 1):
+            name = f"{part.name}_{COLOURS[colour]}" if part.symbols else part.name
+            listed.append(Part(name, (Summand(((name, SiteFlow(number, colour)),)),)))
+    return listed

@@ -1,0 +1,112 @@
+"""From splittings of a lattice to sweeps: a flow of a part is one loop over sites, or over pairs of sites."""
+
+from __future__ import annotations
+
+from codegen.errors import MethodError
+from codegen.flows.part import Summand
+from codegen.flows.site_flow import SiteFlow as FlowOfPart
+from codegen.ir.expr import Expr, evaluate
+from codegen.ir.kernel import Field as StateBlock
+from codegen.ir.kernel import Kernel, Let
+from codegen.ir.number import Number
+from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import SiteFlowOf
+from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteFlow, SiteStep, Sweep
+from codegen.ir.values import Coefficient, Kind, Var
+from codegen.kernel.assignments import Assignments
+from codegen.kernel.shared_angles import SharedArguments
+from codegen.lower.flow_words import FlowLowering
+from codegen.method import Method
+from codegen.scene.problem import TIME, Problem
+from codegen.scene.sites import SitePart
+
+COPY = "the state is copied"
+"""The description of the sweep that begins and ends a step without local parts: it copies the state, and
+tests whether the new state is finite."""
+
+
+def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:
+    """Return the program and the kernel of a splitting of a lattice.
+
+    MethodError is raised for a scene that depends on time, and for a tableau that does not suit the parts.
+    """
+    assert scene.sites is not None
+    if not scene.autonomous:
+        raise MethodError(
+            f"a splitting of {scene.name}, whose field depends on t",
+            expected="a field that does not depend on t",
+        )
+    word = lowering.read(scene, method).word
+    y = Var("y", Kind.POINT)
+    body, last = [], y
+    for number, (summand, duration) in enumerate(word, 1):
+        ((name, _),) = summand.flows
+        target = Var(f"y{number}", Kind.POINT)
+        body.append(Assign((target,), SiteFlowOf(name, Coefficient(duration, 1)), (last,)))
+        last = target
+    program = Program(method.label, (y,), tuple(body), (("y", last),))
+    return program, _kernel(scene, method.label, word)
+
+
+def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]) -> Kernel:
+    assert scene.sites is not None
+    listed = [(flow, duration) for summand, duration in word for _, flow in summand.flows]
+    sweeps: list[Sweep] = []
+    index: dict[int, int] = {}
+    flows: list[SiteFlow] = []
+    for flow, duration in listed:
+        assert isinstance(flow, FlowOfPart)
+        if flow.part not in index:
+            index[flow.part] = len(sweeps)
+            sweeps.append(_sweep(scene, label, scene.sites.parts[flow.part]))
+        flows.append(SiteFlow(index[flow.part], flow.colour, duration))
+    ends = [k for k in (0, -1) if not flows or sweeps[flows[k].sweep].axis != OWN]
+    if ends:
+        sweeps.append(_copy(scene, label))
+        copied = SiteFlow(len(sweeps) - 1, 0, Number.rational(0))
+        flows = [*([copied] if 0 in ends else []), *flows, *([copied] if -1 in ends else [])]
+    sites, size = scene.sites, len(scene.symbols)
+    step = SiteStep(sites.dimension, sites.offsets, sites.periodic, tuple(sweeps), size, 0, tuple(flows))
+    about = "state of one site; row k of an array of states contains number k of all sites"
+    state = (StateBlock(scene.state[0].name, scene.symbols, about),)
+    return Kernel(label, state, (TIME, "h", *scene.runtime), (), (), sites=step)
+
+
+def _copy(scene: Problem, label: str) -> Sweep:
+    domain = SharedArguments()
+    outputs = tuple(map(domain.space.sym, scene.symbols))
+    loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))
+    stores = tuple(Row(RESULT, k) for k in range(len(outputs)))
+    block = StateBlock("site", scene.symbols, COPY)
+    return Sweep(COPY, Kernel(label, (block,), (), (), outputs), loads, stores)
+
+
+def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
+    """Return the sweep for the flow of a part; in its kernel h is the duration of the flow."""
+    domain, dim, size = SharedArguments(), scene.group.dim, len(scene.symbols)
+    names = [scene.symbols, *([part.symbols] if part.symbols else [])]
+    symbols = {s: domain.space.sym(s) for own in names for s in own}
+    roots = evaluate(list(part.roots), domain, {**symbols, **scene.scalars(domain)})
+    duration = domain.space.sym("h")
+    ends: list[Expr] = []
+    for k, own in enumerate(names):
+        x = tuple(duration * r for r in roots[k * dim : (k + 1) * dim])
+        ends += scene.action.actexp(domain, scene.group, x, tuple(symbols[s] for s in own))
+    taken = {*symbols, *scene.runtime, "h", TIME}
+
+    def fresh(base: str) -> str:
+        name = base
+        while name in taken:
+            name += "_"
+        taken.add(name)
+        return name
+
+    schedule = Assignments((), ends, {}, fresh)
+    body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
+    array = RESULT if part.symbols else STATE
+    loads = [Load(s, Row(array, k), side - 1) for side, own in enumerate(names) for k, s in enumerate(own)]
+    stores = [Row(RESULT, k) for _ in names for k in range(size)]
+    about = f"flow of {part.name}" + (f", pairs along axis {part.axis}" if part.symbols else "")
+    block = StateBlock("site", tuple(symbols), "the numbers that the sweep reads")
+    kernel = Kernel(label, (block,), ("h", *scene.runtime), body, schedule.outputs)
+    return Sweep(about, kernel, tuple(loads), tuple(stores), axis=part.axis)

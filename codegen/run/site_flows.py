@@ -1,0 +1,209 @@
+"""Steps of a lattice that compose flows of parts, as functions of a unit.
+
+Each part has a function ``flow_K`` with a loop over adjacent sites, or over pairs of neighbours that have
+no site in common, and a function ``part_K`` that calls it for all sites or for all pairs of a set. The first
+sites of the pairs of a set have even or odd indices along the axis of the part. ``whole_K`` is ``flow_K``
+with functions for all arguments (:mod:`codegen.run.sites`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.ir.domain import ExprDomain
+from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteStep, Sweep
+from codegen.run.batch import VECTORISED, called_by
+from codegen.run.language import Assign, Call, For, Function, If, Return, Statement
+from codegen.run.plan import STEP, Plan, symbols_of
+from codegen.run.sites import (
+    ADVANCE,
+    ARRAYS,
+    BAD,
+    COLUMNS,
+    INDEX,
+    NUMBER,
+    PLACE,
+    SITE,
+    SITES,
+    WHOLE,
+    advance_parameters,
+    checked,
+    complete,
+    first_site,
+    shape_of,
+    split,
+)
+from codegen.run.terms import Kind, Term, count, own, select, value, whole
+
+_NEAR, _START, _COLOUR, _PAIR, _ROW, _OTHER = (
+    count(name) for name in ("near", "start", "colour", "pair", "row", "other")
+)
+
+
+def functions(plan: Plan, step: SiteStep) -> list[Function]:
+    """Return the functions of a method that composes flows, callees first."""
+    parts = [_Part(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps)]
+    listed = [f for part in parts for f in part.functions()]
+    return complete(plan, step, [*listed, _advance(plan, step, parts)])
+
+
+@dataclass(frozen=True)
+class _Part:
+    """The functions of one part."""
+
+    plan: Plan
+    step: SiteStep
+    own: Sweep
+    index: int
+
+    @property
+    def paired(self) -> bool:
+        """True if the part is an interaction of pairs."""
+        return self.own.axis != OWN
+
+    @property
+    def special(self) -> bool:
+        """True if a function that the part calls has a form without branches."""
+        _, inside, _ = split(self.own.kernel, set())
+        called = called_by(inside) - {"sqrt", "fabs", "choose"}
+        able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
+        return bool(called) and able
+
+    @property
+    def strided(self) -> bool:
+        """True if the first sites of pairs are two places apart."""
+        return self.paired and self.own.axis == self.step.dimension - 1
+
+    @property
+    def scalars(self) -> tuple[Term, ...]:
+        """The duration and the parameters that the part reads."""
+        read = symbols_of(self.own.kernel)
+        return tuple(x for x in (STEP, *self.plan.parameters) if x.text in read)
+
+    @property
+    def arrays(self) -> tuple[Term, ...]:
+        """The arrays of the part."""
+        return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
+
+    def functions(self) -> list[Function]:
+        """Return the functions."""
+        loops = [self.loop("flow", self.special), *([self.loop("whole", False)] if self.special else [])]
+        return [*loops, self.pairs() if self.paired else self.all_sites()]
+
+    def entry(self, row: Row, neighbour: int) -> Term:
+        """Return an entry of a row at the site or at the other site of the pair."""
+        place = PLACE if neighbour == OWN else _NEAR
+        array = ARRAYS[row.array]
+        return (
+            array[(row.number * SITES if row.number > 1 else SITES) + place] if row.number else array[place]
+        )
+
+    def loop(self, name: str, near: bool) -> Function:
+        """Return the function with the loop."""
+        before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
+        step = 2 * INDEX if self.strided else INDEX
+        body: list[Statement] = [Assign(PLACE, SITE + step)]
+        body += [Assign(_NEAR, _START + step)] if self.paired else []
+        read = symbols_of(self.own.kernel)
+        body += [Assign(own(x.symbol), self._loaded(x)) for x in self.own.loads if x.symbol in read]
+        body += inside
+        size = self.step.size
+        news = [own(f"new {load.symbol}") for load in self.own.loads]
+        body += [Assign(new, end) for new, end in zip(news, ends, strict=True)]
+        for k, (row, new) in enumerate(zip(self.own.stores, news, strict=True)):
+            body.append(Assign(self.entry(row, OWN if k < size else 0), new))
+        if not self.paired:
+            body += checked(news)
+        loop = For(INDEX, NUMBER, tuple(body), independent=True)
+        starts = (SITE, _START, NUMBER) if self.paired else (SITE, NUMBER)
+        parameters = (*starts, SITES, *self.arrays, *self.scalars)
+        about = f"Adjacent sites: {self.own.about}."
+        if self.paired:
+            about = f"Pairs of sites without a common site: {self.own.about}."
+        return self._function(f"{name}_{self.index}", about, parameters, [*before, loop], near)
+
+    def _loaded(self, load: Load) -> Term:
+        return self.entry(load.row, load.neighbour)
+
+    def _function(
+        self, name: str, about: str, parameters: tuple[Term, ...], body: list[Statement], near: bool = False
+    ) -> Function:
+        if self.paired:
+            return Function(name, about, parameters, tuple(body), often=True, near=near)
+        body = [Assign(BAD, whole(0)), *body, Return(BAD)]
+        return Function(name, about, parameters, tuple(body), Kind.COUNT, often=True, near=near)
+
+    def _called(self, arguments: tuple[Term, ...]) -> list[Statement]:
+        """Return the call of the loop, in the form that the flag whole selects."""
+        given = (*arguments, SITES, *self.arrays, *self.scalars)
+        results = () if self.paired else (BAD,)
+        call = Call(f"flow_{self.index}", given, results)
+        if not self.special:
+            return [call]
+        return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
+
+    def all_sites(self) -> Function:
+        """Return the function for all sites."""
+        parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
+        body = self._called((whole(0), SITES))
+        return self._function(f"part_{self.index}", f"All sites: {self.own.about}.", parameters, body)
+
+    def pairs(self) -> Function:
+        """Return the function for all pairs of a set."""
+        shape = shape_of(self.step)
+        last, periodic = self.step.dimension - 1, self.step.periodic
+        outer = [count(f"i{e}") for e in range(last)]
+        length = shape[self.own.axis]
+        number = length // 2 if periodic else (length - _COLOUR) // 2
+        body: list[Statement]
+        if self.strided:
+            body = [Assign(_ROW, first_site(outer, shape))]
+            body += self._called((_ROW + _COLOUR, _ROW + _COLOUR + 1, (COLUMNS - _COLOUR) // 2))
+            if periodic:
+                # The last pair of the odd set consists of the last and the first site of a row.
+                wrapped = self._called((_ROW + COLUMNS - 1, _ROW, whole(1)))
+                body.append(If(_COLOUR > 0, tuple(wrapped)))
+        else:
+            body = self._rows(outer, shape)
+        for e in range(last - 1, -1, -1):
+            mine = e == self.own.axis
+            body = [For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))]
+        parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
+        first = [Assign(COLUMNS, shape[last])]
+        about = f"The even (colour 0) or odd (colour 1) pairs: {self.own.about}."
+        return self._function(f"part_{self.index}", about, parameters, [*first, *body])
+
+    def _rows(self, outer: list[Term], shape: Term) -> list[Statement]:
+        """Return the statements for a pair of rows."""
+        axis, length = self.own.axis, shape[self.own.axis]
+        index = outer[axis]
+        there = count("there")
+        following = [there if e == axis else x for e, x in enumerate(outer)]
+        moved = select(index + 1 < length, index + 1, whole(0)) if self.step.periodic else index + 1
+        return [
+            Assign(index, 2 * _PAIR + _COLOUR),
+            Assign(there, moved),
+            Assign(_ROW, first_site(outer, shape)),
+            Assign(_OTHER, first_site(following, shape)),
+            *self._called((_ROW, _OTHER, COLUMNS)),
+        ]
+
+
+def _advance(plan: Plan, step: SiteStep, parts: list[_Part]) -> Function:
+    """Return the function that makes one step without a test of the shape."""
+    domain = ExprDomain()
+    old, new = ARRAYS[STATE], ARRAYS[RESULT]
+    body: list[Statement] = []
+    for number, flow in enumerate(step.flows):
+        part = parts[flow.sweep]
+        duration = value(domain.number(flow.duration) * domain.space.sym("h"))
+        scalars = tuple(duration if x is STEP else x for x in part.scalars)
+        if part.paired:
+            given = (WHOLE, shape_of(step), whole(flow.colour), SITES, new, *scalars)
+            body.append(Call(f"part_{flow.sweep}", given))
+        else:
+            given = (WHOLE, SITES, old if number == 0 else new, new, *scalars)
+            body.append(Call(f"part_{flow.sweep}", given, (BAD,)))
+    about = "One step of all sites; return the number of sites whose new state is not finite."
+    parameters = advance_parameters(plan, step)
+    return Function(ADVANCE, about, parameters, (*body, Return(BAD)), Kind.COUNT)

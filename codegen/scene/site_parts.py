@@ -1,0 +1,205 @@
+"""Parts of the field of a lattice with exact flows: local parts, and interactions of pairs of neighbours.
+
+A part has generators: the velocity of a site is the sum over all parts. If the generators of a part are
+constant along the solutions of this part alone, its flow is y -> exp(tau f(y)).y, which is exact. The flows
+of pairs that have no site in common commute. The pairs along an axis of the lattice therefore form two sets:
+the first sites of a set have even indices, those of the other odd indices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from codegen.errors import SceneError
+from codegen.ir.differentiate import gradient
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, evaluate, walk
+from codegen.scene.formulas import Reader
+from codegen.scene.orbit import Orbit
+from codegen.scene.problem import TIME, Problem
+from codegen.scene.sites import Offset, SitePart, Sites, neighbour
+
+if TYPE_CHECKING:
+    import mpmath
+    import sympy
+
+
+@dataclass(frozen=True)
+class Pair:
+    """The interaction of the sites i and i + offset: the generators ``first`` of site i and ``second`` of the
+    other site, in the coordinates of both."""
+
+    offset: Sequence[int]
+    first: Sequence[sympy.Expr]
+    second: Sequence[sympy.Expr]
+
+
+Stated = Mapping[str, "Pair | Sequence[sympy.Expr]"]
+
+
+def read_parts(
+    reader: Reader, y: Sequence[sympy.Symbol], size: int, parts: Stated | None
+) -> tuple[SitePart, ...]:
+    """Return the parts of a scene; ``size`` is the dimension of the group.
+
+    SceneError is raised for formulas that contain other symbols, and for offsets that are not a step forwards
+    along one axis.
+    """
+    return tuple(_read(reader, y, size, name, given) for name, given in (parts or {}).items())
+
+
+def _read(
+    reader: Reader, y: Sequence[sympy.Symbol], size: int, name: str, given: Pair | Sequence[sympy.Expr]
+) -> SitePart:
+    what = f"part {name}"
+    if not isinstance(given, Pair):
+        return SitePart(name, reader.column(given, size, what))
+    symbols = tuple(str(s.name) for s in neighbour(y, given.offset))
+    offset = tuple(given.offset)
+    if sorted(offset) != [*[0] * (len(offset) - 1), 1]:
+        raise SceneError(
+            f"the offset {offset} of the {what}",
+            where=reader.name,
+            expected="one entry 1 and zeros, such as (1,) or (0, 1)",
+        )
+    both = [
+        *reader.column(given.first, size, f"{what}, first", more=symbols),
+        *reader.column(given.second, size, f"{what}, second", more=symbols),
+    ]
+    return SitePart(name, tuple(both), offset.index(1), symbols)
+
+
+def check_parts(scene: Problem, orbit: Orbit) -> None:
+    """Raise SceneError if a part depends on time, if its generators are not constant along its own flow, or
+    if the velocity of all parts differs from the velocity of the field. ``orbit`` is that of one site."""
+    sites = scene.sites
+    assert sites is not None
+    for part in sites.parts:
+        if any(n.op == "sym" and n.payload == TIME for n in walk(part.roots)):
+            raise SceneError(f"the part {part.name} depends on t", where=scene.name, expected="no time")
+        if part.axis >= sites.dimension:
+            raise SceneError(
+                f"the part {part.name} has an offset of another length",
+                where=scene.name,
+                expected=f"{sites.dimension} entries",
+            )
+        _check_constant(scene, orbit, part)
+    if sites.parts:
+        _check_sum(scene, orbit, sites)
+
+
+def _velocity(scene: Problem, part: SitePart) -> tuple[tuple[str, ...], list[Expr]]:
+    """Return the coordinates of the sites of a part, and their derivatives by the part."""
+    domain, dim = ExprDomain(part.roots[0].space), scene.group.dim
+    names = [scene.symbols, *([part.symbols] if part.symbols else [])]
+    slopes: list[Expr] = []
+    for k, own in enumerate(names):
+        point = tuple(map(domain.space.sym, own))
+        x = tuple(part.roots[k * dim : (k + 1) * dim])
+        slopes += scene.action.velocity(domain, scene.group, x, point)
+    return tuple(s for own in names for s in own), slopes
+
+
+def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
+    symbols, slopes = _velocity(scene, part)
+    for k, root in enumerate(part.roots):
+        terms = [a * b for a, b in zip(gradient(root, symbols), slopes, strict=True)]
+        for number in range(len(orbit.points)):
+            values = orbit.values(terms, _two(scene, orbit, part.symbols, number))
+            if values is not None and not orbit.sized(sum(values[1:], values[0]), (*values, 1)):
+                raise SceneError(
+                    f"generator {k} of the part {part.name} is not constant along the flow of the part",
+                    where=scene.name,
+                    expected="generators for which exp(tau f(y)).y is the exact flow",
+                    hint="split the part, or write the same velocity with other generators: J (S + S') "
+                    "in place of J S' for spins",
+                )
+
+
+def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
+    """Return the values of all symbols at a point, with the next point as the state of a neighbour."""
+    point = dict(orbit.points[number])
+    other = orbit.points[(number + 1) % len(orbit.points)]
+    return point | {s: other[own] for s, own in zip(partner, scene.symbols, strict=bool(partner))}
+
+
+def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
+    """Compare the velocities at a site with all neighbours, and at sites without some neighbours."""
+    axes = [part.axis for part in sites.parts if part.symbols]
+    offsets = {*sites.offsets}
+    for axis in axes:
+        offsets |= {_step(sites, axis, 1), _step(sites, axis, -1)}
+    listed = sorted(offsets)
+    missing: list[frozenset[Offset]] = [frozenset()]
+    if not sites.periodic:
+        missing += [frozenset({offset}) for offset in listed] + [frozenset(listed)]
+    for absent in missing:
+        for number, point in enumerate(orbit.points):
+            states = {
+                offset: {s: orbit.points[(number + k) % len(orbit.points)][s] for s in scene.symbols}
+                for k, offset in enumerate(listed, 1)
+            }
+            given = _with_outside(orbit, sites, point, states, absent)
+            expected = orbit.velocity(given)
+            total = _summed(scene, orbit, sites, point, {o: x for o, x in states.items() if o not in absent})
+            for x, y in zip(total, expected, strict=True):
+                if not orbit.sized(x - y, (x, y, 1)):
+                    where = f" where the neighbours {sorted(absent)} do not exist" if absent else ""
+                    raise SceneError(
+                        f"the parts add up to the velocity {orbit.text(x)}{where}",
+                        where=scene.name,
+                        expected=f"{orbit.text(y)}, by f",
+                        hint="list all terms of f in parts; a pair needs the generators of both sites",
+                    )
+
+
+def _step(sites: Sites, axis: int, length: int) -> Offset:
+    return tuple(length if e == axis else 0 for e in range(sites.dimension))
+
+
+def _with_outside(
+    orbit: Orbit,
+    sites: Sites,
+    point: Mapping[str, mpmath.mpf],
+    states: Mapping[Offset, Mapping[str, mpmath.mpf]],
+    absent: frozenset[Offset],
+) -> dict[str, mpmath.mpf]:
+    """Return the values of all symbols of the field at a site."""
+    values = dict(point)
+    for k, offset in enumerate(sites.offsets):
+        column = list(states[offset].values())
+        if offset in absent:
+            column = list(evaluate(list(sites.outside[k]), orbit.domain, point))
+        values |= dict(zip(sites.symbols[k], column, strict=True))
+    return values
+
+
+def _summed(
+    scene: Problem,
+    orbit: Orbit,
+    sites: Sites,
+    point: Mapping[str, mpmath.mpf],
+    states: Mapping[Offset, Mapping[str, mpmath.mpf]],
+) -> list[mpmath.mpf]:
+    """Return the velocity of a site by all parts whose other site exists."""
+    total = [orbit.domain.rational(0)] * len(scene.symbols)
+    own = tuple(point[s] for s in scene.symbols)
+    dim = scene.group.dim
+    for part in sites.parts:
+        generators = []
+        if not part.symbols:
+            generators.append(evaluate(list(part.roots), orbit.domain, dict(point)))
+        for side, length in enumerate((1, -1) if part.symbols else ()):
+            other = states.get(_step(sites, part.axis, length))
+            if other is None:
+                continue
+            first, second = (point, other) if length > 0 else ({**point, **other}, point)
+            values = dict(first) | {s: second[x] for s, x in zip(part.symbols, scene.symbols, strict=True)}
+            roots = part.roots[side * dim : (side + 1) * dim]
+            generators.append(evaluate(list(roots), orbit.domain, values))
+        for x in generators:
+            slope = scene.action.velocity(orbit.domain, scene.group, tuple(x), own)
+            total = [a + b for a, b in zip(total, slope, strict=True)]
+    return total

@@ -1,0 +1,65 @@
+"""The order to which a method is symmetric: a step of size -h after a step of size h.
+
+Let Phi_h be a step. The composition of Phi_h and Phi_{-h} is the identity for symmetric methods. A method
+that is not symmetric has a largest number q such that this composition differs from the identity by O(h^(q +
+1)). The number q is odd, because the leading term of the logarithm of the composition is an even power of h;
+a method of order p has q >= p. If q is larger than this bound, the method is called effectively symmetric
+(Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from orderconds import families
+from orderconds.checking.report import SymmetryOrder
+from orderconds.families.cf import CommutatorFreeFamily
+from orderconds.series.b_series import runge_kutta_series
+from orderconds.series.characters import ORDERED, ROOTED, Character
+from orderconds.tableau import Tableau
+from orderconds.tableau.methods import CommutatorFree, RungeKutta
+from orderconds.trees.ordered import ordered_forests
+from orderconds.trees.rooted import rooted_trees
+
+MOST_ROOTED, MOST_ORDERED = 8, 6
+"""The largest rooted trees and the largest ordered forests that are evaluated."""
+
+
+def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
+    """Return the order to which a method is symmetric; None if the format has no series of one step with one
+    vector field.
+
+    ``symmetric`` states whether the method is known to be symmetric. A Runge-Kutta tableau is examined on
+    vector spaces, a commutator-free method on groups.
+
+    >>> symmetry_order(Tableau.load("rk4"), False).order, symmetry_order(Tableau.load("gauss2"), True).order
+    (5, None)
+    """
+    series = _series(tableau)
+    if series is None:
+        return None
+    label, step, trees, most = series
+    if symmetric is True:
+        return SymmetryOrder(label, None)
+    ring, certificate = tableau.ring, "exact"
+    there_and_back = step.then(step.scaled(ring.rational(-1)))
+    for n in range(2, most + 1, 2):
+        verdicts = {ring.is_zero(there_and_back(tree)) for tree in trees(n)}
+        if False in verdicts:
+            return SymmetryOrder(label, n - 1, certificate)
+        if None in verdicts:
+            certificate = "decimal"
+    return SymmetryOrder(label, most + 1, certificate, at_least=True)
+
+
+def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
+    """Return the family, the step, the trees of its series, and the largest number of vertices."""
+    method, ring = tableau.method, tableau.ring
+    if isinstance(method, RungeKutta):
+        weights = runge_kutta_series(ring, method.A, method.b)
+        return "rk", Character(ring, ROOTED, weights), rooted_trees, MOST_ROOTED
+    if isinstance(method, CommutatorFree):
+        family = families.get("cf")
+        assert isinstance(family, CommutatorFreeFamily)
+        return "cf", Character(ring, ORDERED, family.series(method, ring)), ordered_forests, MOST_ORDERED
+    return None

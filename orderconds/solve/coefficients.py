@@ -1,0 +1,70 @@
+"""The coefficients of an ansatz after elimination of linear constraints, and their text in the file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from orderconds.errors import InputError
+from orderconds.solve.linear import Constraint, Elimination, equality, spell
+from orderconds.solve.spec import Spec
+
+Nodes = Mapping[str, Sequence[str]]
+"""A map from the name of each node (abscissa) to the names of the coefficients whose sum is the node."""
+
+
+def eliminated(
+    names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
+) -> Elimination:
+    """Return the coefficients after elimination of all constraints. A constraint ``--fix`` may name nodes."""
+    elimination = Elimination(tuple(names))
+    fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
+    for constraint in fixed:
+        for name in constraint.form:
+            if name and name not in names:
+                raise InputError(
+                    f"unknown coefficient {name!r} in {constraint.text!r}",
+                    where="--fix",
+                    expected=f"one of {', '.join([*names, *(nodes or {})])}",
+                )
+    elimination.impose([*constraints, *fixed])
+    return elimination
+
+
+@dataclass(frozen=True)
+class Cells:
+    """The text of each coefficient after elimination of the constraints, and the formulas of named
+    numbers."""
+
+    elimination: Elimination
+    extra: Mapping[str, str] | None = None
+
+    def written(self, name: str) -> str:
+        """Return the text of a coefficient: a constant, or the name of a number in the file."""
+        form = self.elimination.cell(name)
+        if self.extra and name in self.extra:
+            return name
+        return spell(form) if set(form) <= {""} else name
+
+    def numbers(self, names: Sequence[str]) -> dict[str, str]:
+        """Return the formulas of dependent coefficients that are not constants."""
+        texts = {}
+        for name in names:
+            form = self.elimination.cell(name)
+            if name in self.elimination.solved and not set(form) <= {""}:
+                texts[name] = spell(form)
+        return {**texts, **(self.extra or {})}
+
+    def unknown(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Return the coefficients that are not constants."""
+        return tuple(name for name in names if self.written(name) == name)
+
+
+def row_text(cells: Cells, names: Sequence[str], full: bool = False) -> str:
+    """Return the text of a row of coefficients. Zeros at the end of the row are left out, unless ``full`` is
+    true.
+    """
+    texts = [cells.written(name) for name in names]
+    while not full and texts and texts[-1] == "0":
+        texts.pop()
+    return "[" + ", ".join(f'"{x}"' for x in texts) + "]"

@@ -1,0 +1,164 @@
+"""Schemes with two registers (2N): K <- A_i K + F(Y), Y <- exp(h B_i K) Y, and their recognition in tableaux.
+
+The state Y and one element K of the Lie algebra are all that a step stores (Williamson, J. Comput. Phys. 35
+(1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). As a commutator-free method a 2N scheme
+has one exponential for each stage, and each stage begins where the last one ended. On a vector space it is
+the Runge-Kutta method whose rows differ by B_i K_i.
+
+The recognition compares the increment from each stage to the next, or to the update, with B_i K_i, where K_i
+= F_i + sum_{j < i} A_{j+1} ... A_i F_j. The coefficient of F_i in an increment is B_i, and A_i is the
+quotient of the coefficients of F_{i-1} and F_i. If B_i is zero, a later increment gives A_i. At the end the
+scheme is expanded and compared with every coefficient of the tableau, so that a quotient is never trusted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from operator import sub
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.method_properties import Verdict
+from orderconds.tableau.methods import CommutatorFree, Row, RungeKutta, Stage
+
+
+@dataclass(frozen=True)
+class TwoRegisters:
+    """A 2N scheme: ``A`` and ``B`` have one entry for each stage, and A_1 is zero."""
+
+    A: Row
+    B: Row
+
+    @property
+    def s(self) -> int:
+        """The number of stages."""
+        return len(self.B)
+
+    def increments(self, ring: Ring) -> tuple[Row, ...]:
+        """Return the rows B_i K_i, one for each stage, as combinations of F_1, ..., F_s.
+
+        >>> from orderconds.ring import QQ
+        >>> half, two = QQ.rational(1, 2), QQ.rational(2)
+        >>> TwoRegisters((QQ.zero, -half), (half, two)).increments(QQ)
+        ((1/2, 0), (-1, 2))
+        """
+        rows: list[Row] = []
+        # The coefficients of F_j in K_i for j < i. The coefficient 1 of F_i is not stored.
+        register: list[Element] = []
+        for i, (a, b) in enumerate(zip(self.A, self.B, strict=True)):
+            register = [*(a * x for x in register), a] if i else []
+            rows.append((*(b * x for x in register), b, *([ring.zero] * (self.s - i - 1))))
+        return tuple(rows)
+
+    def as_commutator_free(self, ring: Ring) -> CommutatorFree:
+        """Return the scheme as a commutator-free method: stage i + 1 is exp(h B_i K_i) applied to stage i."""
+        steps = [Stage(i, (row,)) for i, row in enumerate(self.increments(ring))]
+        return CommutatorFree((Stage(None, ()), *steps[:-1]), steps[-1])
+
+
+@dataclass(frozen=True)
+class Rewriting:
+    """The result of a recognition: ``holds`` is None if balls are too wide to decide. ``scheme`` is the 2N
+    scheme unless ``holds`` is False. ``reason`` says why a tableau has no such form; otherwise it is
+    empty."""
+
+    holds: Verdict
+    scheme: TwoRegisters | None = None
+    reason: str = ""
+
+
+def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
+    """Return the 2N scheme that is equal to ``method``, or the reason why there is none.
+
+    A tableau (A, b) is compared on a vector space, a commutator-free method on every group.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
+    >>> print(two_registers(kutta3.method, kutta3.ring).reason)
+    stage 2: the increment is not B_2 K_2: the coefficient of k_1 is -3/2; expected -3/10
+    >>> [str(x) for x in two_registers(heun.method, heun.ring).scheme.A]
+    ['0', '-1']
+    """
+    rows = _row_increments(method, ring) if isinstance(method, RungeKutta) else _path_increments(method, ring)
+    if isinstance(rows, str):
+        return Rewriting(False, reason=rows)
+    for i, row in enumerate(rows):
+        for j in range(i + 1, method.s):
+            if ring.is_zero(row[j]) is False:
+                return Rewriting(False, reason=f"stage {i + 1} depends on k_{j + 1}: the method is implicit")
+    B = tuple(row[i] for i, row in enumerate(rows))
+    A: list[Element] = [ring.zero]
+    for i in range(1, method.s):
+        quotient = _quotient(rows, i, ring)
+        if isinstance(quotient, str):
+            return Rewriting(False, reason=quotient)
+        A.append(quotient)
+    scheme = TwoRegisters(tuple(A), B)
+    return _compared(scheme, rows, ring)
+
+
+def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | str:
+    """Return A_i (i counts from 0), or the reason why no A_i exists: a zero denominator."""
+    above = ""
+    for m in range(i, len(rows)):
+        denominator = rows[m][i]
+        if ring.is_zero(denominator) is not True:
+            return rows[m][i - 1] / denominator
+        if ring.is_zero(rows[m][i - 1]) is False and not above:
+            above = (
+                f"zero denominator: A_{i + 1} is the coefficient of k_{i} divided by that of k_{i + 1} in "
+                f"the increment of stage {m + 1}, which are {ring.text(rows[m][i - 1])} and 0"
+            )
+    # No later stage contains F_{i-1}, so that any A_i would do.
+    return above or ring.zero
+
+
+def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
+    """Compare every coefficient of the scheme with those of the tableau."""
+    holds: Verdict = True
+    for i, (row, expected) in enumerate(zip(rows, scheme.increments(ring), strict=True)):
+        for j, (x, y) in enumerate(zip(row, expected, strict=True)):
+            equal = True if x is y else ring.is_zero(x - y)
+            if equal is False:
+                reason = (
+                    f"stage {i + 1}: the increment is not B_{i + 1} K_{i + 1}: the coefficient of k_{j + 1} "
+                    f"is {ring.text(x)}; expected {ring.text(y)}"
+                )
+                return Rewriting(False, reason=reason)
+            holds = None if equal is None else holds
+    return Rewriting(holds, scheme)
+
+
+def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
+    """Return the differences of successive rows of A, the last one with b; a text if the first stage is not
+    the start value."""
+    if any(ring.is_zero(x) is False for x in method.A[0]):
+        return "the first stage is not the start value"
+    rows = (*method.A, method.b)
+    return [tuple(map(sub, later, row)) for row, later in pairwise(rows)]
+
+
+def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
+    """Return the single exponential from each stage to the next, the last one to the update; a text if there
+    are more exponentials."""
+    *paths, update = (
+        [row for row in method.from_start(stage) if any(ring.is_zero(x) is not True for x in row)]
+        for stage in (*method.stages, method.update)
+    )
+    if paths[0]:
+        return "the first stage is not the start value"
+    increments: list[Row] = []
+    for i, (path, later) in enumerate(zip(paths, [*paths[1:], update], strict=True)):
+        end = f"stage {i + 2}" if i + 1 < method.s else "the update"
+        if len(later) not in (len(path), len(path) + 1) or not _same(path, later[: len(path)], ring):
+            return f"{end} is not one exponential applied to stage {i + 1}"
+        increments.append(later[-1] if len(later) > len(path) else (ring.zero,) * method.s)
+    return increments
+
+
+def _same(path: list[Row], other: list[Row], ring: Ring) -> bool:
+    return all(
+        x is y or ring.is_zero(x - y) is not False
+        for row, same in zip(path, other, strict=True)
+        for x, y in zip(row, same, strict=True)
+    )
