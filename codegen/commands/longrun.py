@@ -44,7 +44,7 @@ FEWEST = 200
     "--properties",
     "with_properties",
     is_flag=True,
-    help="Also print a table: symplectic, symmetric, without drift.",
+    help="Also measure if a step is symplectic and symmetric, and if the first quantity has no drift.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -65,8 +65,7 @@ def command(
     deviation grows but the confidence interval of the slope contains zero. For quantities that a method
     conserves exactly, the growth of rounding errors is measured: their root mean square over several initial
     states, and the power of the number of steps with which it grows, with and without compensated summation.
-    --properties prints a table of three measured properties: a step is symplectic, a step is symmetric, and
-    the first quantity does not drift. The exit status is 1 if a run ends early or a method fails.
+    The exit status is 1 if a run ends early or a method fails.
 
     \b
     Examples:
@@ -106,13 +105,14 @@ def command(
     else:
         for run in runs:
             show(run)
-        if measured:
-            show_properties(measured)
+        show_properties(measured)
     return 1 if any(run.failure for run in runs) else 0
 
 
 def show_properties(rows: Sequence[Properties]) -> None:
-    """Print the table of properties: one line for each method."""
+    """Print the table of properties, one line for each method; print nothing without rows."""
+    if not rows:
+        return
     words = {True: "yes", False: "no", None: "-"}
     quantity = next((row.quantity for row in rows if row.quantity), "quantity")
     print_table(

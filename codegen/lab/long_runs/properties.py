@@ -29,7 +29,7 @@ class Properties:
     """The measured properties of a method; None means that a property was not measured.
 
     ``reversal`` is the distance from the start after a step with h and a step with -h, divided by the change
-    of the state by a step. ``steady`` is False if the first conserved quantity ``quantity`` drifts or is lost.
+    of the state by a step. ``steady`` is False if the first quantity, ``quantity``, drifts or is lost.
     """
 
     method: str
