@@ -4,6 +4,7 @@ integrators.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import click
@@ -15,6 +16,7 @@ from orderconds.errors import InputError
 
 if TYPE_CHECKING:
     from codegen.lab.long_runs.long_run import LongRun
+    from codegen.lab.long_runs.properties import Properties
 
 FEWEST = 200
 """The smallest number of steps for which a drift is fitted."""
@@ -38,6 +40,12 @@ FEWEST = 200
 )
 @click.option("--one-way", is_flag=True, help="Omit the run back to the initial state.")
 @click.option("--no-rounding", is_flag=True, help="Do not measure the growth of rounding errors.")
+@click.option(
+    "--properties",
+    "with_properties",
+    is_flag=True,
+    help="Also measure if a step is symplectic and symmetric, and if the first quantity has no drift.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
     scene: str,
@@ -47,6 +55,7 @@ def command(
     steps: int,
     one_way: bool,
     no_rounding: bool,
+    with_properties: bool,
     as_json: bool,
 ) -> int:
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
@@ -62,11 +71,13 @@ def command(
     Examples:
         orderconds longrun dipole --method vcg:midpoint --steps 100000
         orderconds longrun free_rigid_body --method cf4 --h 0.05 --one-way
+        orderconds longrun heavy_top --method slgi:euler --h 0.05 --properties
     """
     from codegen import scenes
     from codegen.emitter import compile_method
     from codegen.lab.default_methods import methods_for
     from codegen.lab.long_runs.long_run import LongRun, long_run
+    from codegen.lab.long_runs.properties import properties
 
     problem = scenes.load(scenes.with_values(scene, parameters))
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
@@ -76,21 +87,38 @@ def command(
             f"the step size {h:g}", where="--h", expected="an absolute value between 1e-300 and 1e300"
         )
     runs: list[LongRun] = []
+    measured: list[Properties] = []
     chosen = methods_for(problem, methods)
     with counting(f"{problem.name}: {steps} steps", total=len(chosen)) as done:
         for method in chosen:
             try:
                 compiled = compile_method(problem, method)
                 runs.append(long_run(compiled, h, steps, back=not one_way, rounding=not no_rounding))
+                if with_properties:
+                    measured.append(properties(compiled, runs[-1]))
             except (InputError, ArithmeticError) as error:
                 runs.append(LongRun(problem.name, method.label, h, 0, (), (), None, str(error)))
             done(method.label)
     if as_json:
-        print_json([run.as_json() for run in runs])
+        table = {row.method: {"properties": row.as_json()} for row in measured}
+        print_json([run.as_json() | table.get(run.method, {}) for run in runs])
     else:
         for run in runs:
             show(run)
+        show_properties(measured)
     return 1 if any(run.failure for run in runs) else 0
+
+
+def show_properties(rows: Sequence[Properties]) -> None:
+    """Print the table of properties, one line for each method; print nothing without rows."""
+    if not rows:
+        return
+    words = {True: "yes", False: "no", None: "-"}
+    quantity = next((row.quantity for row in rows if row.quantity), "quantity")
+    print_table(
+        ["method", "symplectic", "symmetric", f"no drift of {quantity}"],
+        [[r.method, words[r.symplectic], words[r.symmetric], words[r.steady]] for r in rows],
+    )
 
 
 def show(run: LongRun) -> None:

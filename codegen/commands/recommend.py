@@ -142,6 +142,9 @@ def unreached(result: Recommendation) -> str:
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
     missed = f"no method{needs} reaches the error {asked.error:g}"
+    if result.best is None and not result.complete:
+        missed = f"no method{needs} was measured before the time budget ended"
+        return f"{asked.scene}: {missed}; --budget S allows more time"
     if result.best is None:
         return f"{asked.scene}: {missed}; no method satisfies the needs; relax --need or --stack"
     best = result.best

@@ -6,6 +6,7 @@ import json
 import math
 import shlex
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +14,11 @@ import pytest
 from click.testing import CliRunner, Result
 
 from codegen import scenes
+from codegen.commands.recommend import unreached
 from codegen.lab import timing
 from codegen.lab.distance import distance
 from codegen.lab.efficiency import race
+from codegen.lab.efficiency.recommend import Recommendation, Request
 from codegen.lab.reference import cached_reference
 from codegen.loader import load
 from orderconds.cli import program
@@ -126,3 +129,11 @@ def test_bad_input_is_one_message(words: tuple[str, ...], said: str) -> None:
     assert result.stdout == ""
     assert said in result.stderr
     assert "Traceback" not in result.stderr
+
+
+def test_a_budget_without_time_for_a_measurement_is_no_statement_about_methods():
+    ended = Recommendation(Request("circle", 1e-6), (), None, 3, 0, 1.0, complete=False)
+    assert unreached(ended) == (
+        "circle: no method was measured before the time budget ended; --budget S allows more time"
+    )
+    assert "no method reaches the error 1e-06" in unreached(replace(ended, complete=True))

@@ -168,7 +168,6 @@ def test_json_of_a_report_has_the_documented_keys() -> None:
         "orders",
         "properties",
         "work",
-        "dense",
         "low_storage",
         "symmetry",
     ]

@@ -29,6 +29,7 @@ from orderconds.tableau.work import Work
         ("magnus8", "magnus", None, Work(4, 1, 6)),  # and six
         ("fer4", "fer", None, Work(2, 2, 2)),
         ("cf_magnus6", "cf_magnus", None, Work(3, 5, 0)),
+        ("cf_magnus8_8", "cf_magnus", None, Work(4, 8, 0)),  # as many exponentials as in Hofstaetter 2019
         ("cf_magnus8_11", "cf_magnus", None, Work(4, 11, 0)),
         ("cayley6", "cayley", None, Work(3, 1, 3)),
     ],

@@ -1,0 +1,83 @@
+"""Three measured properties of a method on a scene: symplectic, symmetric, without drift of a quantity.
+
+The columns are those of Table 2.1 of H. Marthinsen's thesis. A step is symplectic if its symplectic defect
+vanishes (:mod:`codegen.lab.long_runs.symplecticity`). It is symmetric if a step with h and a step with -h
+return to the start. Both are tested in more digits than doubles have, so rounding errors do not decide.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.emitter import Compiled
+from codegen.ir.domain import NotConverged, PreciseDomain
+from codegen.lab.distance import distance
+from codegen.lab.long_runs.long_run import LongRun
+from codegen.lab.runner import Emitted
+from codegen.lab.stability.extreme_steps import DIGITS, solved_step
+from codegen.lower import problem_for
+
+SYMPLECTIC = 1e-12
+"""The largest defect of a symplectic step. The difference quotients of the defect have an error of 1e-20."""
+
+SYMMETRIC = 1e-30
+"""The largest ``reversal`` of a symmetric step."""
+
+
+@dataclass(frozen=True)
+class Properties:
+    """The measured properties of a method; None means that a property was not measured.
+
+    ``reversal`` is the distance from the start after a step with h and a step with -h, divided by the change
+    of the state by a step. ``steady`` is False if the first quantity, ``quantity``, drifts or is lost.
+    """
+
+    method: str
+    symplectic: bool | None
+    symmetric: bool | None
+    steady: bool | None
+    quantity: str
+    reversal: float | None
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data."""
+        return {
+            "symplectic": self.symplectic,
+            "symmetric": self.symmetric,
+            "no_drift": self.steady,
+            "quantity": self.quantity,
+            "reversal": self.reversal,
+        }
+
+
+def properties(compiled: Compiled, run: LongRun) -> Properties:
+    """Return the properties of a method from its long run and from two steps in 60 digits."""
+    back = reversal(compiled, run.h)
+    kept = run.kept[0] if run.kept and not run.failure else None
+    drifts = None if kept is None else kept.drift.drifts
+    return Properties(
+        run.method,
+        None if run.symplectic is None else run.symplectic < SYMPLECTIC,
+        None if back is None else back < SYMMETRIC,
+        None if drifts is None else not drifts,
+        "" if kept is None else kept.name,
+        back,
+    )
+
+
+def reversal(compiled: Compiled, h: float) -> float | None:
+    """Return the distance from the start after a step with h and a step with -h, divided by the change of the
+    state by the first step; None if the steps are not possible.
+    """
+    problem, domain = problem_for(compiled.scene, compiled.method), PreciseDomain(0, DIGITS)
+    runner, start = Emitted(compiled), problem.initial(domain)
+    t = domain.context.mpf(float(compiled.scene.span[0]))
+    try:
+        # The initial state of a scene may be special, so the test begins one step later.
+        first = solved_step(compiled, runner, start, t, h)
+        after = solved_step(compiled, runner, first, t + h, h)
+        back = solved_step(compiled, runner, after, t + 2 * h, -h)
+    except (NotConverged, ArithmeticError, ValueError):
+        return None
+    change = distance(compiled.scene, after, first)
+    return distance(compiled.scene, back, first) / change if change > 0 else None
