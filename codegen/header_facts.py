@@ -45,6 +45,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
             ("method", method.described),
             ("source", method.source),
             *coordinates_of(compiled),
+            *_storage_facts(compiled),
             ("order", order.text()),
             *digits,
             *scene_facts(compiled),
@@ -74,6 +75,12 @@ def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
         return ()
     text = f"inside steps by the continuous extension of the tableau, of order {extension.order} and degree"
     return (("output", f"{text} {extension.degree} in the coordinates of the exponential"),)
+
+
+def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
+    """Return the line of the header about the storage of a step, if the family states it."""
+    text = lowering(compiled.method.family).storage(compiled.method)
+    return (("storage", text),) if text else ()
 
 
 def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:

@@ -95,6 +95,10 @@ class Lowering(ABC):
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
         return None
 
+    def storage(self, method: Method) -> str:
+        """Return what a step stores, as a line of the header; an empty text if nothing special."""
+        return ""
+
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene in the form that programs of this family require.

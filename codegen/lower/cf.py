@@ -7,16 +7,19 @@ earlier stage; the first exponential acts first. The unknowns are the k_i.
 from __future__ import annotations
 
 from functools import reduce
+from itertools import accumulate
 from operator import add
 
 from codegen.ir.program import EMBEDDED, Program
-from codegen.ir.values import Kind, Var
+from codegen.ir.values import Coefficient, Kind, Var
 from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
 from orderconds.tableau import CommutatorFree, Stage
+from orderconds.tableau.properties import low_storage
+from orderconds.tableau.two_registers import TwoRegisters
 
 
 class CommutatorFreeLowering(FieldLowering):
@@ -28,8 +31,71 @@ class CommutatorFreeLowering(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
         embedded = method.embedded()
+        registers = _registers(method)
+        if registers is not None:
+            return two_registers(problem, method, registers)
         lower = None if embedded is None else embedded.commutator_free().update
         return products(problem, method, method.commutator_free(), lower)
+
+    def storage(self, method: Method) -> str:
+        """Return the line about two registers for a low-storage scheme."""
+        return "" if _registers(method) is None else STORAGE
+
+
+STORAGE = "two registers (2N): the state and one element K of the Lie algebra, K <- A_i K + f(Y)"
+
+
+def _registers(method: Method) -> TwoRegisters | None:
+    """Return the scheme with two registers that is equal to the method on every group, if there is one.
+
+    An embedded update needs the values of the stages, so that two registers do not suffice.
+    """
+    if not isinstance(method.tableau.method, CommutatorFree) or method.embedded() is not None:
+        return None
+    rewriting = low_storage(method.tableau)
+    return rewriting.scheme if rewriting is not None and rewriting.holds else None
+
+
+def two_registers(problem: Problem, method: Method, scheme: TwoRegisters) -> Program:
+    """Return the program of a low-storage scheme: K_i = A_i K_{i-1} + k_i, Y_{i+1} = exp(h B_i K_i) Y_i.
+
+    A step stores the state and one element K of the Lie algebra. The general program computes every exponent
+    from all stage values, which then remain in use until the end of the step.
+    """
+    y = Var("y", Kind.POINT)
+    stages = Stages(problem, method, (y,))
+    build = stages.builder
+    k = [build.fresh(f"k{i + 1}", Kind.ALG) for i in range(scheme.s)]
+    one = Coefficient(stages.number(method.ring.one))
+    state: list[Var] = [y]
+    register: list[Var] = []
+
+    def advance(i: int) -> None:
+        """Append the operations of stage i that need k_i."""
+        terms = [(one, k[i])]
+        if register:
+            terms = [(Coefficient(stages.number(scheme.A[i])), register[-1]), *terms]
+        register.append(build.lin(f"K{i + 1}", Kind.ALG, terms))
+        x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
+        state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
+
+    # The time of a stage is the sum of the coefficients in the exponents before it.
+    steps = [reduce(add, row) for row in scheme.increments(method.ring)]
+    times = list(accumulate(steps, initial=method.ring.zero))
+
+    def images() -> list[Var]:
+        result = []
+        for i in range(scheme.s):
+            if i:
+                advance(i - 1)
+            result.append(stages.f(f"f{i + 1}", state[i], times[i] if i else None))
+        return result
+
+    def update() -> dict[str, Var]:
+        advance(scheme.s - 1)
+        return {"y": state[-1]}
+
+    return stages.program(k, images, lambda: [stages.f("k0", y, None)] * scheme.s, update)
 
 
 def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: Stage | None) -> Program:

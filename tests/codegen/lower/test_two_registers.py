@@ -1,0 +1,46 @@
+"""Low-storage (2N) schemes: the program with two registers computes the step of the general program."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+import codegen
+from codegen.ir.domain import PreciseDomain
+from codegen.ir.interpret import interpret
+from codegen.lower import lowering, names, problem_for
+from codegen.lower.cf import products, two_registers
+from codegen.method import parse
+from codegen.scenes import load
+from orderconds.tableau.properties import low_storage
+
+
+@pytest.mark.parametrize("scene", ["free_rigid_body", "driven_spin"])
+@pytest.mark.parametrize("name", ["williamson3", "carpenter_kennedy4"])
+def test_both_programs_have_one_step(scene: str, name: str) -> None:
+    method = parse(f"cf:{name}", names())
+    problem = problem_for(load(scene), method)
+    registers = two_registers(problem, method, low_storage(method.tableau).scheme)
+    general = products(problem, method, method.commutator_free(), None)
+    domain = PreciseDomain(Fraction(1, 10), 40)
+    values = [
+        domain.rational(x.numerator, x.denominator) for x in (Fraction(3, 5), Fraction(0), Fraction(4, 5))
+    ]
+    inputs = {v.name: tuple(values) if v.name == "y" else domain.rational(1, 3) for v in general.inputs}
+    one, two = (interpret(p, problem, domain, inputs) for p in (general, registers))
+    assert sorted(one) == sorted(two)
+    for key, value in one.items():
+        assert all(abs(x - y) < 1e-36 for x, y in zip(value, two[key], strict=True))
+    assert any(x != y for x, y in zip(two["y"], values, strict=True))
+
+
+def test_the_header_states_two_registers_only_where_they_suffice() -> None:
+    def header(name: str, **options: bool) -> str:
+        files = codegen.emit("free_rigid_body", name, target="python", **options).files
+        return " ".join("".join(files.values()).split())
+
+    assert "storage: two registers (2N)" in header("cf:williamson3")
+    assert "two registers" not in header("cf:cf4")
+    assert "two registers" not in header("cf:luescher3", adaptive=True)
+    assert lowering("cf").storage(parse("cf:cf4", names())) == ""
