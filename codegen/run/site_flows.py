@@ -88,7 +88,8 @@ class _Part:
     def functions(self) -> list[Function]:
         """Return the functions."""
         loops = [self.loop("flow", self.special), *([self.loop("whole", False)] if self.special else [])]
-        return [*loops, self.pairs() if self.paired else self.all_sites()]
+        ends = [self.single_pair()] if self.strided and self.step.periodic else []
+        return [*loops, *ends, self.pairs() if self.paired else self.all_sites()]
 
     def entry(self, row: Row, neighbour: int) -> Term:
         """Return an entry of a row at the site or at the other site of the pair."""
@@ -101,26 +102,43 @@ class _Part:
     def loop(self, name: str, near: bool) -> Function:
         """Return the function with the loop."""
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
-        step = 2 * INDEX if self.strided else INDEX
-        body: list[Statement] = [Assign(PLACE, SITE + step)]
-        body += [Assign(_NEAR, _START + step)] if self.paired else []
-        read = symbols_of(self.own.kernel)
-        body += [Assign(own(x.symbol), self._loaded(x)) for x in self.own.loads if x.symbol in read]
-        body += inside
-        size = self.step.size
-        news = [own(f"new {load.symbol}") for load in self.own.loads]
-        body += [Assign(new, end) for new, end in zip(news, ends, strict=True)]
-        for k, (row, new) in enumerate(zip(self.own.stores, news, strict=True)):
-            body.append(Assign(self.entry(row, OWN if k < size else 0), new))
+        body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
+        if self.paired:
+            # With a constant distance between the sites of a pair, compilers load both with one instruction.
+            body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
+        body += self._moved(inside, ends)
         if not self.paired:
-            body += checked(news)
+            body += checked(self._news)
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
-        starts = (SITE, _START, NUMBER) if self.paired else (SITE, NUMBER)
-        parameters = (*starts, SITES, *self.arrays, *self.scalars)
+        starts = (SITE, _START) if self.paired and not self.strided else (SITE,)
+        parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Adjacent sites: {self.own.about}."
         if self.paired:
             about = f"Pairs of sites without a common site: {self.own.about}."
         return self._function(f"{name}_{self.index}", about, parameters, [*before, loop], near)
+
+    @property
+    def _news(self) -> list[Term]:
+        return [own(f"new {load.symbol}") for load in self.own.loads]
+
+    def _moved(self, inside: list[Statement], ends: list[Term]) -> list[Statement]:
+        """Return the statements that move one site or one pair."""
+        read = symbols_of(self.own.kernel)
+        body: list[Statement] = [
+            Assign(own(x.symbol), self._loaded(x)) for x in self.own.loads if x.symbol in read
+        ]
+        body += inside
+        body += [Assign(new, end) for new, end in zip(self._news, ends, strict=True)]
+        for k, (row, new) in enumerate(zip(self.own.stores, self._news, strict=True)):
+            body.append(Assign(self.entry(row, OWN if k < self.step.size else 0), new))
+        return body
+
+    def single_pair(self) -> Function:
+        """Return the function for one pair, which consists of the last and the first site of a row."""
+        before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
+        parameters = (PLACE, _NEAR, SITES, *self.arrays, *self.scalars)
+        body = [*before, *self._moved(inside, ends)]
+        return self._function(f"pair_{self.index}", f"One pair: {self.own.about}.", parameters, body)
 
     def _loaded(self, load: Load) -> Term:
         return self.entry(load.row, load.neighbour)
@@ -158,11 +176,11 @@ class _Part:
         body: list[Statement]
         if self.strided:
             body = [Assign(_ROW, first_site(outer, shape))]
-            body += self._called((_ROW + _COLOUR, _ROW + _COLOUR + 1, (COLUMNS - _COLOUR) // 2))
+            body += self._called((_ROW + _COLOUR, (COLUMNS - _COLOUR) // 2))
             if periodic:
                 # The last pair of the odd set consists of the last and the first site of a row.
-                wrapped = self._called((_ROW + COLUMNS - 1, _ROW, whole(1)))
-                body.append(If(_COLOUR > 0, tuple(wrapped)))
+                ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
+                body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:
             body = self._rows(outer, shape)
         for e in range(last - 1, -1, -1):

@@ -46,6 +46,7 @@ from codegen.ir.scene_operations import (
     Legendre,
     Sandwich,
     Secant,
+    SiteFlowOf,
     TaylorStep,
     ToOrbit,
 )
@@ -68,6 +69,7 @@ ALL = [
         Bivector(),
         FlowOf("V", HALF_H),
         FlowOf("V", HALF_H, timed=True),
+        SiteFlowOf("bonds", HALF_H),
         FlowFor("V"),
         FlowFor("V", timed=True),
     ),
@@ -160,6 +162,7 @@ def test_nouns_have_a_plural(operation):
         (InverseDexp(2, dual=True), ["x", "mu"], "dexpinv*(2)(x, mu)"),
         (AdSeries(WORD), ["x", "y"], "series[dexp(t) exp(-1/2t)](x, y)"),
         (FlowOf("V", HALF_H), ["q", "mu"], "flow[V](q, mu, 1/2 h)"),
+        (SiteFlowOf("V", HALF_H), ["y"], "flow[V](y, 1/2 h)"),
         (Advance(HALF_H), ["t"], "advance(t, 1/2 h)"),
         (Linear((ONE, MINUS_ONE)), ["x", "y"], "(1) x + (-1) y"),
         (Linear((ONE,)), ["x", "y"], "(1) x + ? y"),
