@@ -81,20 +81,20 @@ class Peer:
 class Emitted:
     """An emitted batch of one method with a number of equal steps."""
 
-    def __init__(self, scene: str, method: str, states: Floats) -> None:
+    def __init__(self, scene: str, method: str, states: Floats, end: float = END) -> None:
         self.integrator = codegen.load(codegen.emit(scene, method, target="c", batch=True))
-        self.states = states
+        self.states, self.end = states, end
         self.out = np.empty(states.T.shape, order="F")
         self.steps = 8
 
     def run(self) -> bool:
         """Run all systems; return False if a step fails."""
         self.out[:] = self.states.T
-        return self.integrator.run_batch(self.out, h=END / self.steps, steps=self.steps, out=self.out).ok
+        return self.integrator.run_batch(self.out, h=self.end / self.steps, steps=self.steps, out=self.out).ok
 
-    def reach(self, reference: Floats, error: float) -> float | None:
+    def reach(self, reference: Floats, error: float, most: int = MOST) -> float | None:
         """Choose the number of steps; return the error that they reach, or None if it is above the bound."""
-        while self.steps <= MOST:
+        while self.steps <= most:
             if self.run() and (found := _deviation(self.out.T, reference)) <= error:
                 return found
             self.steps = int(1.1 * self.steps) + 1
@@ -105,7 +105,8 @@ def _deviation(states: Floats, reference: Floats) -> float:
     return float(abs(states - reference).max())
 
 
-def _seconds(work: Callable[[], object]) -> float:
+def seconds(work: Callable[[], object]) -> float:
+    """Return the CPU time of a call."""
     begin = time.process_time()
     work()
     return time.process_time() - begin
@@ -138,10 +139,10 @@ def rows(case: Case, systems: int, turns: int, error: float) -> Iterator[str]:
             found[method] = candidate, deviation
     times: dict[str, list[float]] = {name: [] for name in ("heyoka", *found)}
     for _ in range(turns):
-        empty = _seconds(lambda: peer.run(states, 0.0))
-        times["heyoka"].append(_seconds(lambda: peer.run(states, END)) - empty)
+        empty = seconds(lambda: peer.run(states, 0.0))
+        times["heyoka"].append(seconds(lambda: peer.run(states, END)) - empty)
         for method, (candidate, _) in found.items():
-            times[method].append(_seconds(candidate.run))
+            times[method].append(seconds(candidate.run))
     scale = 1e6 / systems
     base = statistics.median(times["heyoka"])
     yield (

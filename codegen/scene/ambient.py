@@ -27,6 +27,9 @@ def ambient(problem: Problem) -> Problem:
     values |= {name: domain.space.sym(name) for name in problem.signals}
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
+        if problem.matrices is not None:
+            # The stated velocity of a matrix needs fewer operations than its generator times the matrix.
+            return problem.matrices.velocity(domain, state, values)
         f = tuple(evaluate(roots, domain, values))
         return field.action.velocity(Formulas(domain), field.group, f, state)
 

@@ -1,0 +1,34 @@
+"""The ambient equation of a scene."""
+
+import random
+
+from codegen import scenes
+from codegen.emitter import compile_method
+from codegen.ir.domain import ExprDomain, FloatDomain
+from codegen.ir.expr import evaluate, walk
+from codegen.scene.ambient import ambient
+
+
+def test_the_field_of_a_matrix_scene_is_its_velocity_and_not_its_generator_times_the_matrix():
+    scene = scenes.load("principal_components")
+    field, domain, draw = ambient(scene), FloatDomain(0.0), random.Random(1)
+    # On the manifold the velocity is the generator times the matrix; elsewhere they differ.
+    for state, bound in ((scene.initial(domain), 1e-14), ([draw.random() for _ in scene.symbols], None)):
+        given = evaluate(field.roots, domain, field.values(domain, tuple(state), 0.0))
+        stated = scene.velocity(domain, tuple(state), 0.0)
+        assert max(abs(x - y) for x, y in zip(given, stated, strict=True)) < 1e-13
+        f = evaluate(scene.roots, domain, scene.values(domain, tuple(state), 0.0))
+        moved = scene.action.velocity(domain, scene.group, f, tuple(state))
+        gap = max(abs(x - y) for x, y in zip(given, moved, strict=True))
+        assert gap < bound if bound else gap > 1e-3
+
+
+def test_a_step_has_as_many_operations_as_the_velocity_needs():
+    scene = scenes.load("principal_components")
+    domain = ExprDomain(scene.roots[0].space)
+    symbols = tuple(map(domain.space.sym, scene.symbols))
+    velocity = sum(n.op not in ("const", "sym") for n in walk(scene.velocity(domain, symbols)))
+    step = compile_method("principal_components", "ambient:euler").kernel
+    operations = sum(n.op not in ("const", "sym") for n in walk(tuple(step.expressions())))
+    # Euler's step adds one product and one sum for each coordinate.
+    assert operations <= velocity + 2 * len(symbols) + 2
