@@ -1,4 +1,4 @@
-"""Arguments of integrators: real numbers, counts, and times, each with a message that names the argument."""
+"""Checks of the arguments of integrators: numbers, counts and times. Error messages name the argument."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import pairwise
 from numbers import Complex, Integral, Number, Real
 
 MOST = 2**63 - 1
-"""The largest count that emitted C takes."""
+"""The largest integer that emitted C accepts as a count."""
 
 
 def real(x: object, name: str) -> float:
@@ -49,15 +49,15 @@ def count(x: object, name: str, least: int = 0) -> int:
 
 
 def numbers(inputs: object) -> tuple[float, ...]:
-    """Return the values of run-time inputs that are constant during a step."""
+    """Return the run-time inputs of one step, which are constant during the step, as floats."""
     if isinstance(inputs, str) or not isinstance(inputs, Iterable):
         raise TypeError(f"expected a sequence of numbers for inputs, found {described(inputs)}")
     return tuple(real(x, "inputs") for x in inputs)
 
 
 def monotone(t: float, times: object) -> list[float]:
-    """Return the times ``t_eval`` as floats; ValueError unless they are finite and increase or decrease
-    from t.
+    """Return the times ``t_eval`` as floats; ValueError unless they are finite and the sequence of t and the
+    times is monotone.
 
     >>> monotone(0.0, [0, 1])
     [0.0, 1.0]
@@ -74,7 +74,7 @@ def monotone(t: float, times: object) -> list[float]:
 
 
 def described(x: object) -> str:
-    """Return a value and its type for a message; the value only if it is a number or a text.
+    """Return a text for a message: value and type of a number or a text, the type alone of any other object.
 
     >>> described(1j), described(iter(()))
     ('1j of type complex', 'an object of type tuple_iterator')

@@ -40,8 +40,8 @@ class StepFailed(ArithmeticError):
     """The error of a failed step: its status, the number of steps completed before it, and the state after
     these steps.
 
-    After a run that chooses its steps, and after ``integrate``, ``arrival`` contains the last good state, its
-    time, and the size of the next step. The run can be continued from there.
+    If the step belongs to an adaptive run or to a call of ``integrate``, ``arrival`` contains the last good
+    state, its time, and the size of the next step. The run can be continued from this state.
     """
 
     arrival: Arrival | None = None
@@ -66,13 +66,15 @@ class Arrival:
     crossings: tuple[Crossing, ...] = ()
     """The events that a run of ``integrate`` has found, in order."""
     status: Status = Status.OK
-    """EVENT if a terminal event ended the run; the status of the failed step in the arrival of an error."""
+    """EVENT if a terminal event ended the run. In the ``arrival`` of :class:`StepFailed` it is the status of
+    the failed step."""
 
 
 @dataclass(frozen=True)
 class Reached:
-    """The results of one call of the emitted run to an end time, before they have the form of the caller's
-    state. Each of the ``events`` is (index, time, direction, state)."""
+    """The results of one call of the emitted run to an end time. States are flat sequences of numbers, not
+    yet converted to the type of the caller's state. Each of the ``events`` is (index, time, direction,
+    state)."""
 
     status: int
     state: Sequence[float]
@@ -87,11 +89,11 @@ class Reached:
 
 @dataclass
 class Statistics:
-    """Counts of a run: ``sweeps`` of each block in all steps, and ``most``, the largest number of sweeps of a
-    block in one step. ``failed`` is the index of the block that failed, counted from 1, or 0 if no block
-    failed.
+    """Counts of the iterations, called sweeps, that solve the implicit blocks of a run.
 
-    ``matrices`` is the number of Newton matrices that were computed.
+    ``sweeps`` has a number for each block: its sweeps in all steps. ``most`` is the largest number of sweeps
+    of a block in one step. ``failed`` is the index of the block that failed, counted from 1, or 0 if no block
+    failed. ``matrices`` is the number of Newton matrices that were computed.
     """
 
     sweeps: list[int] = field(default_factory=list)
@@ -102,8 +104,8 @@ class Statistics:
 
 @dataclass(frozen=True)
 class Begun:
-    """The checked arguments of a call: the form of the state, the numbers of the state, the parameter values,
-    the inputs and the statistics."""
+    """The checked arguments of a call. ``form`` converts results to the type of the caller's state,
+    ``numbers`` are the coordinates of the state, ``values`` the values of the parameters."""
 
     form: StateForm
     numbers: list[float]

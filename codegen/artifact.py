@@ -1,9 +1,9 @@
 """An emitted module: its files, its manifest entry, and the folder that contains them.
 
-``manifest.json`` has an entry for each module and target of the folder, with the digest of each file. Files
-are written completely before they get their final names, the manifest last. If the writing process is killed
-between two files, files and digests do not match. Writing the module again repairs the folder. Only one
-process at a time writes to a folder.
+``manifest.json`` has an entry for each module and target of the folder, with the digest of each file. Each
+file is written completely before it gets its final name; the manifest is written last. If the writing process
+is killed between two files, files and digests do not match. Writing the module again repairs the folder. Only
+one process at a time writes to a folder.
 """
 
 from __future__ import annotations

@@ -112,7 +112,7 @@ def keep(entry: Path, content: bytes) -> None:
 
 
 def write_entries(contents: Mapping[Path, bytes]) -> None:
-    """Write files that only the user can read, each atomically; a folder with the name of a file is removed.
+    """Write files that only the user can read, each atomically; first remove folders with the same names.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     (Path(folder) / "x" / "y").mkdir(parents=True)

@@ -178,7 +178,8 @@ class CompiledIntegrator(Integrator):
 
 
 class _Buffers:
-    """The event functions of a call as a function that C can call, and the arrays for the events."""
+    """All event functions of a call, joined in one function that C can call, and the arrays in which C stores
+    the events that it finds."""
 
     ROOM = 1024
 
@@ -198,7 +199,7 @@ class _Buffers:
 
     @property
     def arguments(self) -> list[Any]:
-        """The arguments of the call."""
+        """The arguments of the C call that concern events."""
         buffers = [self.times, self.rows, self.numbers, self.count]
         return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
 
@@ -213,8 +214,8 @@ class _Buffers:
 
 
 class _Callback:
-    """A function of time that C can call. If the Python function raises an error, the error is stored, and
-    the inputs are NaNs, with which the step fails."""
+    """The run-time inputs as a function of time that C can call. If the Python function raises an error, the
+    error is stored and C receives NaNs, so the step fails."""
 
     def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:
         self.function, self.count = function, len(interface.inputs)

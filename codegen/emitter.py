@@ -75,8 +75,8 @@ class Compiled(Optimised):
     """A method on a scene, ready to be printed: the optimised program with its kernel.
 
     ``solvers`` are the solvers of the implicit blocks; ``asked`` is the value of the option ``--solver``.
-    ``form`` is the classical form whose equations ``scene`` contains. None means that ``scene`` contains its
-    own equations.
+    If a classical form of the equations was chosen, ``form`` is this form, and ``scene`` contains its
+    equations. Otherwise ``form`` is None.
     """
 
     kernel: Kernel
@@ -84,7 +84,7 @@ class Compiled(Optimised):
     asked: str = AUTO
     form: ClassicalForm | None = None
     compensated: bool = False
-    """True if the state contains a carry for each coordinate."""
+    """True if the state contains the carry of compensated summation for each coordinate."""
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
@@ -110,19 +110,19 @@ def compile_method(
     family: str = "",
     **run: Unpack[RunOptions],
 ) -> Compiled:
-    """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
+    """Return a method on a scene, lowered, optimised and translated to a kernel.
 
-    ``parameters`` stay run-time arguments, or become constants with a given value (``alpha=1/2``). All other
-    parameters become constants with the scene's values. ``inputs`` are signals that become run-time inputs.
-    ``frame`` is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the
-    solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
-    embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
-    scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
+    ``scene`` and ``method`` may be given by their names. ``parameters`` stay run-time arguments, or become
+    constants with a given value (``alpha=1/2``). All other parameters become constants with the scene's
+    values. ``inputs`` are signals that become run-time inputs. ``frame`` is the frame of momenta
+    (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the solver of implicit blocks
+    (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an embedded method,
+    ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the scene
+    (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
     times, ``events`` is the number of its event functions, and ``dense`` uses the continuous extension of the
     tableau at output times. ``compensate`` extends the state by the carries of compensated summation
-    (:mod:`codegen.kernel.compensation`). Errors: SceneError, MethodError, UnknownName,
-    TableauError.
+    (:mod:`codegen.kernel.compensation`). Errors: SceneError, MethodError, UnknownName, TableauError.
     """
     request = RunRequest(**run)
     scene = _with_arguments(scenes.problem_of(scene), parameters, inputs)
@@ -166,8 +166,8 @@ def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[
 
 
 def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a compiled method with carries, the derivative of a step and a run to an end time, as
-    requested."""
+    """Return a compiled method with the requested additions: the carries of compensated summation, the
+    derivative of a step, and a run to an end time."""
     method = compiled.method
     if request.compensate:
         others = {"jacobian": jacobian, "adaptive": method.adaptive, "dense": request.dense}
@@ -184,7 +184,8 @@ def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunReque
 
 
 def compensated(compiled: Compiled) -> Compiled:
-    """Return a compiled method with carries; raise MethodError if the step adds no increment to the state."""
+    """Return a compiled method with compensated summation; raise MethodError if the step adds no increment to
+    the state."""
     kernel = add_carries(compiled.kernel, compiled.program, compiled.problem)
     return replace(compiled, kernel=kernel, compensated=True)
 
@@ -192,8 +193,8 @@ def compensated(compiled: Compiled) -> Compiled:
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module also has a function that steps many independent systems.
 
-    A loop over systems with a call is not turned into vector instructions. So an explicit step whose repeated
-    computations are functions is translated again without functions.
+    C compilers do not vectorise a loop over systems if its body calls a function. Therefore, if an explicit
+    step has repeated computations in functions of their own, it is translated again without these functions.
     """
     kernel = compiled.kernel
     changed = kernel.deferred or kernel.expansion or kernel.carried or compiled.compensated
@@ -271,19 +272,19 @@ def emit(
     """Return the integrator of a method on a scene as a module of a target.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a problem. ``method`` is
-    ``FAMILY:TABLEAU`` or ``TABLEAU``, or an :class:`orderconds.Tableau`, which is used in ``family``, by
-    default in the family in which its order is highest. External names begin with ``prefix``, by default
-    scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that
-    become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run
-    with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks:
-    ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
-    classical form of the scene, by default the equations as printed. ``batch`` adds a C function that steps
-    many independent systems (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a
-    given end time with output at given times and, if adaptive, bounds on step sizes. ``events`` is the number
-    of event functions of this run; ``dense`` uses the continuous extension of the tableau at output times.
-    ``compensate`` extends the state by the carries of compensated summation, which are zero initially.
-    Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and InputError for a
-    prefix that is not a valid name in C.
+    ``FAMILY:TABLEAU``, ``TABLEAU``, or an :class:`orderconds.Tableau`. A tableau is used in ``family``; the
+    default is the family in which its order is highest. External names begin with ``prefix``; the default is
+    made from the names of scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are signals
+    of the scene that become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``.
+    ``adaptive`` adds a run with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver
+    of implicit blocks: ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest.
+    ``form`` is the key of a classical form of the scene, by default the equations as printed. ``batch`` adds
+    a C function that steps many independent systems (:meth:`codegen.integrator.Integrator.run_batch`).
+    ``integrate`` adds a run to a given end time with output at given times and, if adaptive, bounds on step
+    sizes. ``events`` is the number of event functions of this run; ``dense`` uses the continuous extension of
+    the tableau at output times. ``compensate`` extends the state by the carries of compensated summation,
+    which are zero initially. Errors: the errors of :func:`compile_method`, UnknownName for an unknown target,
+    and InputError for a prefix that is not a valid name in C.
     """
     known_target(target)
     known_precision(precision)

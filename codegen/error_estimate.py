@@ -3,10 +3,10 @@
 The estimate is the difference between the results of the main row and of the embedded row of a tableau. If
 both rows have the same leading error term, the estimate has a higher order than the local error. It is then
 called blind. RKMK methods with a small cut-off are an example: the same brackets are missing in both rows. If
-the orders of the rows differ, the estimate is not blind, unless the problem is linear in time: rows may be
-equal if f does not depend on the state. In the other cases the orders of the estimate and of the
-local error are computed from very short steps in 100 digits. The local error is measured by the difference
-between one step of size h and two steps of size h/2.
+the rows have different orders, the estimate can be blind only if f does not depend on the state, because both
+rows may then give the same result. For rows of the same order, and for such an f, the orders of the estimate
+and of the local error are computed from very short steps in 100 digits. The local error is measured by the
+difference between one step of size h and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""The size of the shortest step is such that its local error is about 10^-SMALLEST."""
+"""The shortest step is chosen such that its local error is about 10^-SMALLEST."""
 
 RATIO = 8
 HIGHER = 0.5
@@ -39,8 +39,8 @@ State = tuple[Scalar, ...]
 def order_of_estimate(method: Method, scene: Problem) -> int:
     """Return the power of h in the error estimate of an adaptive method.
 
-    :class:`MethodError` is raised if the method has no embedded row, or if the estimate is blind on the
-    scene.
+    :class:`MethodError` is raised if the method has no embedded row, or if the estimate has a higher order
+    than the local error on this scene.
     """
     embedded = method.embedded()
     if embedded is None:
@@ -118,7 +118,8 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 
 
 def _hint(method: Method, scene: Problem) -> str:
-    """Return a hint for the user: it names the next larger cut-off for which the estimate is not blind."""
+    """Return a hint for the user: it names the next larger cut-off for which the estimate has the order of
+    the local error."""
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):
             longer = replace(method, cutoff=cutoff)

@@ -12,7 +12,8 @@ EventFunction = Callable[[float, Any], float]
 """A function of the time and the state; the state has the form of the caller's state."""
 
 RISING, FALLING = 1, -1
-"""The directions of an event: the values of its function rise or fall."""
+"""The direction of a zero: the values of the event function change from negative to positive (RISING) or from
+positive to negative (FALLING)."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +29,8 @@ class Event:
 
     @property
     def stops(self) -> int:
-        """The argument of emitted code: 1 to end the run at rising values, 2 at falling values, 3 at both."""
+        """The argument of emitted code: the run ends at zeros with rising values (1), with falling values
+        (2), with either (3), or at no zero of this event (0)."""
         return {RISING: 1, FALLING: 2, 0: 3}[self.direction] if self.terminal else 0
 
 
@@ -43,7 +45,8 @@ class Crossing:
 
 
 def events_of(given: object, most: int) -> tuple[Event, ...]:
-    """Return the events of a call; functions become events that do not end the run.
+    """Return functions and events as a tuple of events; a function becomes an event that does not end the
+    run.
 
     TypeError is raised for other objects, ValueError for more than ``most`` events or another direction.
 
@@ -73,8 +76,8 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
 class EventValues:
     """The values of all event functions of a call, in the order of emitted code.
 
-    ``restore`` returns a state in the form of the caller's state. If a function raises an error, the error is
-    stored, and the values are NaNs, with which the run ends.
+    ``restore`` converts a flat state to the type of the caller's state. If a function raises an error, the
+    error is stored, and all values are NaNs, which end the run.
     """
 
     def __init__(self, events: Sequence[Event], size: int, restore: Callable[[Sequence[float]], Any]) -> None:
@@ -82,12 +85,13 @@ class EventValues:
         self.failure: BaseException | None = None
 
     def __call__(self, t: float, state: Sequence[float]) -> list[float]:
-        """Return the values."""
+        """Return the values at a time and a state."""
         try:
             form = self.restore(list(state))
             values = [real(event.function(t, form), "the value of an event") for event in self.events]
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Functions that the caller does not use have no zeros.
+        # Emitted code reads ``size`` values. If there are fewer events, the other values are 1, without
+        # zeros.
         return values + [1.0] * (self.size - len(values))

@@ -1,4 +1,5 @@
-"""The content of the header of an emitted module: facts about the method and the scene, and omitted parts."""
+"""The content of the header of an emitted module: facts about the method and the scene, and what the module
+omits."""
 
 from __future__ import annotations
 

@@ -38,8 +38,8 @@ class Integrator(RunToEnd):
 
     @cached_property
     def fields(self) -> Fields:
-        """The names and sizes of the parts of a state, in the order of a tuple; empty if the integrator was
-        not loaded from an artifact."""
+        """The names and sizes of the parts of a state, such as q and mu, in the order in which a tuple
+        contains them. There are none if the integrator was not loaded from an artifact."""
         entries = () if self.artifact is None else self.artifact.manifest.get("state", ())
         return tuple((entry["name"], len(entry["symbols"])) for entry in entries)
 
@@ -128,8 +128,9 @@ class Integrator(RunToEnd):
     ) -> State:
         """Return a list of states: the initial state and every stride-th state after it.
 
-        With ``t_eval`` the result is the states at these times, in monotone order; ``t`` is the time of the
-        initial state. Between two times the steps are equal, and at most as long as h.
+        ``t_eval`` is a monotone sequence of times; if it is given, the result is a list of the states at
+        these times. ``t`` is the time of the initial state. Between two times the steps are equal, and at
+        most as long as h.
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             rows = [
@@ -181,8 +182,8 @@ class Integrator(RunToEnd):
     ) -> Arrival:
         """Integrate from t to end with steps as large as the tolerances allow; the first step has size ``h``.
 
-        With ``t_eval`` the result also has the states at these times, at each of which a step ends; ``end``
-        is by default the last of them. A batch is integrated state by state; the result has an array of
+        With ``t_eval`` the result also has the states at these times; a step ends at each of them. ``end`` is
+        by default the last of the times. A batch is integrated state by state; the result has an array of
         states and the counts of all steps.
 
         TypeError is raised for a module without an error estimate (``emit(..., adaptive=True)``). StepFailed
@@ -223,7 +224,7 @@ class Integrator(RunToEnd):
         tolerances: tuple[float, float],
         limit: int,
     ) -> Arrival:
-        """Run with step control from time to time; the run ends at the last of these times."""
+        """Run with step control to each of the ``times`` in turn; the run ends at the last of them."""
         rows: list[Sequence[float]] = []
         accepted = rejected = 0
         for time in times:

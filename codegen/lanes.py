@@ -1,8 +1,8 @@
 """Batches: many independent systems of one module, each with its own state, parameters and inputs.
 
 A batch of N systems is an array of N states, one in each row. Emitted C stores a batch as a structure of
-arrays: row k of an array of shape (size, N) contains number k of all states. So arrays of shape (N, size) in
-Fortran order are passed to C without a copy.
+arrays: row k of an array of shape (size, N) contains component k of each state. An array of shape (N, size)
+in Fortran order has the same layout in memory, so it is passed to C without a copy.
 """
 
 from __future__ import annotations
@@ -71,9 +71,10 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
 
 
 def in_place(out: object, size: int, real: str) -> Any:
-    """Return the transpose of an array ``out`` of shape (N, size) in Fortran order, which shares its memory.
+    """Return the transpose of ``out``, an array of shape (N, size) in Fortran order; both share one memory.
 
-    ValueError is raised for another shape, order or type.
+    ValueError is raised for an array of another shape, memory order or type, and for an array that is not
+    writeable.
     """
     import numpy as np
 
@@ -90,8 +91,8 @@ def in_place(out: object, size: int, real: str) -> Any:
 
 
 def rows_of(values: Sequence[tuple[str, object]], count: int, real: str) -> Any:
-    """Return an array of shape (len(values), count) with a row for each named value: a number, or a sequence
-    with one number for each system.
+    """Return an array of shape (len(values), count) with one row for each named value. A value is one number
+    for all systems, or a sequence with one number for each system.
 
     >>> rows_of([("b", 2.0), ("nu", [1, 3])], 2, "double").tolist()
     [[2.0, 2.0], [1.0, 3.0]]
@@ -110,7 +111,7 @@ def rows_of(values: Sequence[tuple[str, object]], count: int, real: str) -> Any:
 def chosen(
     known: Sequence[str], defaults: Mapping[str, float], given: Mapping[str, object]
 ) -> list[tuple[str, object]]:
-    """Return the name and value of each parameter; TypeError for an unknown name or a missing value."""
+    """Return the name and value of each parameter; raise TypeError for an unknown name or a missing value."""
     for name in given:
         if name not in known:
             raise TypeError(f"unknown parameter {name}; the parameters are: {', '.join(known) or 'none'}")

@@ -52,8 +52,8 @@ class Lattice(ABC):
 
         ``states`` has the shape (n1, ..., nd, size): one state for each site of the lattice. If a step fails,
         no error is raised: the result contains the status and the last good states. ValueError is raised for
-        an array of another shape or type, for states that are not finite and for a lattice that is too small,
-        TypeError for unknown parameters, and InputError if there is not enough memory.
+        an array of another shape or type, for states that are not finite, and for a lattice that is too
+        small. TypeError is raised for unknown parameters, and InputError if there is not enough memory.
         """
         import numpy as np
 

@@ -1,6 +1,7 @@
 """Load emitted modules as Python objects with one interface, :class:`codegen.integrator.Integrator`.
 
-A target names the function that loads its modules (:attr:`codegen.printers.Target.loader`).
+Each target (C, Python) names the function that loads the modules of this target
+(:attr:`codegen.printers.Target.loader`).
 """
 
 from __future__ import annotations
@@ -82,14 +83,14 @@ def load_compiled(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Integrator:
     """Return the integrator of a C module; the module is compiled unless the cache contains it."""
-    # Loops over many systems become vector instructions only at -O3, with the instructions of this machine,
-    # and if square roots need not set errno.
+    # These flags let the compiler turn loops over many systems into vector instructions. It needs -O3,
+    # permission for all instructions of this machine, and square roots that need not set errno.
     flags = (*FLAGS, *(VECTOR_FLAGS if interface.batch else ()))
     try:
         return CompiledIntegrator(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
-        # The content of the cached file has the recorded digest, but it is no library, or functions of the
-        # module are missing in it. The file is built again.
+        # The cached file has the recorded digest, but it is no library, or it lacks functions of the module.
+        # The module is built again.
         return CompiledIntegrator(interface, defaults, build(files, flags, again=True))
 
 

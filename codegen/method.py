@@ -169,8 +169,8 @@ class Method:
         return replace(self, coefficients=lower, adaptive=False)
 
     def abscissae(self) -> tuple[Element, ...]:
-        """Return c_i, the sum of all coefficients of stage i in the method's form as a commutator-free
-        method."""
+        """Return the abscissae c_i: the sum of all coefficients of stage i, if the method is written as a
+        commutator-free method."""
         return self.commutator_free().as_runge_kutta(self.ring).c
 
 
@@ -288,9 +288,9 @@ def _divides_by_zero(family: str, tableau: Tableau) -> bool:
 
 
 def _example(families: Sequence[str]) -> str:
-    """Return the label of a method: the first of these families with a tableau of the library that claims an
-    order in the family. Tableaux of the library claim no order in some families, which then only need to
-    read the tableau."""
+    """Return the label of a method, as an example for an error message. The family is the first of
+    ``families`` for which the library contains a tableau. The tableau is the first one that claims an order
+    in the family. Without such a claim, it is the first one that defines a method of the family."""
     for name in (f for f in families if family_class(f).has_tableau):
         for tableau in _library():
             claims = [c for c in tableau.claims.orders if c.family == name]
@@ -309,7 +309,7 @@ def _library() -> Iterator[Tableau]:
 
 
 def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
-    """Return the method that an argument of a function in Python denotes: a method, a tableau, or a text.
+    """Return the method that a user passed to a Python function as a method, a tableau, or a text.
 
     ``families`` are the families that accept the scene. ``family`` chooses a family for a tableau, as
     ``"rkmk(2)"``. Without ``family``, the claims of the tableau determine the family, as in :func:`parse`. A
@@ -365,9 +365,9 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
     If the text names no family, the family with the highest claimed order is chosen; among families of equal
     order, the first in ``families``. ``rkmk`` without a cut-off is compiled with the fewest brackets if the
-    tableau is explicit and exact. Otherwise, and for ``vrkmk``, the cut-off is the smallest one that has the
-    highest claimed order. :class:`MethodError` is raised for a text that cannot be read, and if no claim
-    determines the choice.
+    tableau is explicit and exact. Otherwise, and for ``vrkmk``, the cut-off is the smallest one for which the
+    tableau claims its highest order. :class:`MethodError` is raised for a text that cannot be read, and if no
+    claim determines the choice.
     """
     alone = _without_tableau(text, families)
     if alone is not None:

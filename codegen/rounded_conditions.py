@@ -30,7 +30,7 @@ time of ``emit``.
 
 
 def rounded_residual(method: Method, family: Family, order: int, target: Precision) -> float | None:
-    """Return the largest residual of the conditions up to ``order`` at the coefficients in ``target``.
+    """Return the largest residual of the conditions up to ``order``, for coefficients rounded to ``target``.
 
     Every coefficient is rounded once to the target's format. :func:`largest_residual` evaluates the
     conditions.

@@ -23,9 +23,10 @@ MOST_EVENTS = 64
 def extension_of(method: Method, scene: Problem) -> Continuous:
     """Return the kernels of the continuous extension of a method.
 
-    The order is the computed order of the extension in the family ``rk``, and at most the order of the
-    method: the coordinates of the solution satisfy a differential equation in the Lie algebra, which is a
-    vector space. :class:`MethodError` is raised for a method without an extension.
+    The order of the extension is the order that the tableau's extension has for differential equations in a
+    vector space, but at most the order of the method. This is correct, because the coordinates of the
+    solution satisfy a differential equation in the Lie algebra, which is a vector space. :class:`MethodError`
+    is raised for a method without an extension.
     """
     from orderconds.checking.continuous import extension_order
 
@@ -85,7 +86,7 @@ def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
 
 def observed_run(method: Method, scene: Problem, degree: int, events: int, dense: bool) -> Observed:
     """Return the request for a run to a given end time. ``degree`` is the degree of the Taylor polynomial of
-    a step, 0 without one."""
+    a step, or 0 if a step evaluates no Taylor polynomial."""
     if count(events, "events") > MOST_EVENTS:
         raise InputError(f"{events} event functions", where="events", expected=f"at most {MOST_EVENTS}")
     if degree and method.adaptive:

@@ -40,8 +40,8 @@ class RunToEnd(ABC):
         """Integrate from t to end, with output at the times ``t_eval``, and find zeros of ``events``.
 
         A module that was emitted as adaptive chooses its steps, of sizes between ``least`` and ``greatest``;
-        ``h`` is the size of the first step. Other modules make steps of size ``h``, of which the last one may
-        be shorter, and ignore the tolerances and bounds. Output times and events do not change the steps,
+        ``h`` is the size of the first step. Other modules make steps of size ``h``; only the last step may be
+        shorter. They ignore the tolerances and bounds. Output times and events do not change the steps,
         except that a terminal event ends the run. ``end`` is by default the last output time.
 
         TypeError is raised for a module without this run (``emit(..., integrate=True)``), ValueError for
@@ -72,7 +72,8 @@ class RunToEnd(ABC):
         limit: int,
         times: Sequence[float],
     ) -> Arrival:
-        """Integrate, and continue after each call whose buffer of events is full."""
+        """Integrate to the end. A call returns early if its buffer of events is full; the next call then
+        continues from there."""
         t, end, h = span
         restore = begun.form.restore
         rows: list[Sequence[float]] = []

@@ -1,13 +1,13 @@
-"""The forms of a state: a flat sequence, a NumPy array of any shape, or a tuple such as (q, mu); and batches.
+"""The forms of a state: a flat sequence, a NumPy array of any shape, or a tuple such as (q, mu).
 
 A compiled step reads and writes one flat list of numbers. A :class:`StateForm` stores the form in which the
 caller passed the state, and returns results in this form: lists for lists, arrays for arrays, tuples for
 tuples. In a tuple, each part may have its own shape, such as a 3 x 3 matrix q and a vector mu; matrices are
 flattened by rows. A batch is an array with a state in each row, or a tuple of such arrays.
 
-The parts of a tuple are in the order of the fields in the manifest's entry ``state``, on T*G (q, mu). The
-size of each part must agree with the fields. If two parts of equal size are exchanged, this cannot be
-detected.
+The parts of a tuple are in the order of the fields in the entry ``state`` of the manifest; on T*G this order
+is (q, mu). The size of each part must agree with the fields. If two parts of equal size are exchanged, this
+cannot be detected.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ Fields = tuple[tuple[str, int], ...]
 
 @dataclass(frozen=True)
 class StateForm:
-    """The form of a state: the shape of each part, whether the state is a tuple of parts, and whether parts
-    are NumPy arrays. Other parts are lists."""
+    """The form of a state: the shape of each part, whether the state is a tuple of parts, and for each part
+    whether it is a NumPy array or a list."""
 
     shapes: tuple[tuple[int, ...], ...]
     is_tuple: bool
@@ -165,7 +165,7 @@ def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
 
 
 def _nested(part: object) -> bool:
-    """Return True if a part has two or more levels."""
+    """Return True if a part has at least two axes, or lists within a list."""
     if _is_array(part):
         return bool(getattr(part, "ndim", 0) > 1)
     return isinstance(part, list | tuple) and bool(part) and _has_entries(part[0])

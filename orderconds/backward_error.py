@@ -166,7 +166,7 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of ``field``, an element of a free Lie algebra, that have this order. The trees in the
+    """Yield the terms of this order of ``field``, which is an element of a free Lie algebra. The trees in the
     text of a term are in the order of action."""
 
     def product(word: Word) -> Element:

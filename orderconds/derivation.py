@@ -15,7 +15,7 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True, repr=False)
 class Derivation:
-    """The conditions of ``family`` (a label, as ``rkmk(1)``) up to ``order``, grouped by order.
+    """The conditions of ``family`` (a label such as ``rkmk(1)``) up to ``order``, grouped by order.
 
     ``by_order[n - 1]`` contains the conditions of exactly order n. As a Python sequence, a derivation is the
     sequence of its conditions.
@@ -107,10 +107,10 @@ def derive(
     ``options`` are options of the family, such as ``cutoff`` for RKMK. They may also be part of the name, as
     in ``"rkmk(1)"``.
 
-    Raises :class:`~orderconds.errors.UnknownName` for an unknown family and
-    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 20, above the highest
-    order for which the family has conditions, or with too many trees, and for stages that are not an integer
-    from 1 to 12.
+    Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises
+    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 20, for an order
+    above the highest order for which the family has conditions, and for an order with too many trees. The
+    same error is raised if ``stages`` is not an integer from 1 to 12.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts

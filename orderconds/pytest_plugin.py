@@ -70,8 +70,8 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Prevent pytest from importing a Python file that contains a tableau. Pytest would import the file if
-    the command line names it."""
+    """Prevent pytest from importing a Python file that contains a tableau. Without this function, pytest
+    imports every Python file that the command line names."""
     if not _is_on(parent.config) or _is_test_module(module_path, parent.config):
         return None
     from orderconds.exchange.folder import reason_to_skip

@@ -122,7 +122,8 @@ def show_properties(rows: Sequence[Properties]) -> None:
 
 
 def show(run: LongRun) -> None:
-    """Print one run: its quantities, the error after the run back to the start, and the symplectic defect."""
+    """Print one run: its quantities, the distance from the start after equally many steps forward and back,
+    and the symplectic defect."""
     click.echo(f"{run.method} on {run.scene}, {run.steps} steps of {run.h:g}")
     rows = [
         [

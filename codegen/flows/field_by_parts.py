@@ -1,9 +1,9 @@
 """The field of a Hamiltonian as the sum of the fields of its parts, if the sum needs fewer operations.
 
-The formula of the field that differentiation gives contains many entries of q. For a part with a known exact
-flow there is a shorter formula. Both have equal values, because q is an element of the group. For the
-symmetric top the shorter formula of xi is mu/I_1 + s (mu.d) d, which contains only the entries of q that form
-the axis d.
+Differentiation of the Hamiltonian gives a formula for the field that contains many entries of q. For a part
+with a known exact flow there is a shorter formula. Both formulas have equal values, because q is an element
+of the group. For the symmetric top the shorter formula of xi is mu/I_1 + s (mu.d) d. It contains only those
+entries of q that are the components of the axis d.
 """
 
 from __future__ import annotations

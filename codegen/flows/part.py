@@ -100,7 +100,7 @@ class Formula:
         return orbit_of(self.problem)
 
     def constants(self, roots: Sequence[Expr], q: Vector[Element]) -> list[Fraction] | None:
-        """Return the values of formulas at (q, mu = 0); None if they are not rational numbers."""
+        """Return the values of formulas at (q, mu = 0); None if one of them is not a rational number."""
         symbols = {n.payload for n in walk(roots) if n.op == "sym"}
         if symbols & {*self.problem.runtime, TIME}:
             return None

@@ -14,12 +14,14 @@ from codegen.scene.flow import Flow
 from codegen.scene.problem import Problem
 
 COLOURS = ("even", "odd")
-"""The names of the two sets of pairs along an axis: the first sites have even or odd indices."""
+"""The names of the two sets of pairs of neighbours along an axis: the first site of each pair has an even
+index, or an odd index."""
 
 
 @dataclass(frozen=True)
 class SiteFlow(Flow):
-    """The flow of part number ``part`` of a lattice; ``colour`` is the set of pairs, 0 for a local part."""
+    """The flow of part number ``part`` of a lattice. ``colour`` is the index in :data:`COLOURS` of the set of
+    pairs that move; it is 0 for a part that couples no sites."""
 
     part: int
     colour: int
@@ -42,8 +44,8 @@ class SiteFlow(Flow):
 
 
 def site_flows(scene: Problem) -> list[Part]:
-    """Return the parts of a lattice with their exact flows, local parts first. The flows of the two sets of
-    pairs along an axis do not commute, so each set is a part of its own."""
+    """Return the parts of a lattice with their exact flows, local parts first. Flows of the two sets of
+    pairs along an axis do not commute, so each set is listed as a separate part."""
     assert scene.sites is not None
     listed = []
     for number, part in sorted(enumerate(scene.sites.parts), key=lambda x: bool(x[1].symbols)):

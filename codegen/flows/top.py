@@ -79,7 +79,8 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
 
 
 def _invariant(group: LieGroup) -> bool:
-    """Return whether Ad preserves the dot product of coordinates: <[x, y], z> is alternating."""
+    """Return whether Ad preserves the dot product of coordinates. The criterion: <[x, y], z> changes its sign
+    if two of x, y and z are exchanged."""
     basis: tuple[Vector[Element], ...] = units(CONSTANTS, group.dim)
     brackets = [[group.ad(CONSTANTS, x, y) for y in basis] for x in basis]
     n, is_zero = range(group.dim), CONSTANTS.ring.is_zero

@@ -56,7 +56,7 @@ class Turn(Flow):
         return group.Ad(d, q, axis) if self.body else axis
 
     def _speed(self, d: Domain, axis: Vector[S], mu: Vector[S]) -> S:
-        """Return rate e.P + offset; the pairing of mu with the axis in space is e.P."""
+        """Return rate e.P + offset; e.P is computed as the pairing of mu with the axis in the space frame."""
         rate: S = d.rational(self.rate.numerator, self.rate.denominator)
         speed = rate * dot(mu, axis)
         if self.offset:

@@ -108,8 +108,9 @@ Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 
 
 def register(cls: Registered) -> Registered:
-    """Add a group or an action defined elsewhere to the listings and return it, so it may be used as a
-    decorator.
+    """Add a group or an action defined elsewhere to the listings, and return the class unchanged.
+
+    Therefore this function may also be used as a decorator.
 
     A scene may use a class that is not registered. A second class of the same name replaces the first.
     :class:`SceneError` is raised for a class that is no group or action, for a class with missing methods,

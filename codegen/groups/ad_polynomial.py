@@ -87,7 +87,8 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
 def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
     """Return b and c of 1/dexp(s t) = 1 - s t/2 + (c_2 - c_3)/(4 c_1) s^2 t^2, with c_k at s^2 z/4.
 
-    Nothing cancels for negative z. :func:`_inverted` would subtract numbers of the size exp(2 sqrt(-z)).
+    There is no cancellation for negative z, while :func:`_inverted` would subtract numbers of the size
+    exp(2 sqrt(-z)).
     """
     argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
     c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))

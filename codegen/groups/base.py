@@ -102,7 +102,7 @@ class LieGroup(ABC):
     def variants(self) -> Sequence[LieGroup]:
         """Return implementations of this group that differ only in :meth:`expmul`, the default one first.
 
-        The compiler tries each of them and keeps the one with the shortest step.
+        The compiler tries each of them and keeps the one whose step has the lowest estimated cost.
         """
         return (self,)
 

@@ -3,7 +3,8 @@
 A group declares a capability by inheriting its class. Code that needs a capability calls
 ``group.offers(Capability)``, which returns None for a group without the capability, or
 ``group.require(Capability)``, which raises an error that names the capability. Do not use ``isinstance``: the
-class of products declares capabilities that a product has only if all its factors have them.
+class of direct products inherits several capabilities, but a product has one of them only if all its factors
+have it.
 """
 
 from __future__ import annotations
@@ -126,14 +127,15 @@ class LeftTranslation(Coadjoint):
 
 
 class BodyFrame(LeftTranslation):
-    """Steps in the body frame, q exp(x); the passes of the compiler that derive them need this capability."""
+    """The product q exp(x), which is a step in the body frame. The passes of the compiler that derive such
+    steps need this capability."""
 
     provides: ClassVar[str] = "body frame"
 
     @abstractmethod
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x). Each row is computed from the same row of g, so that rows that nothing reads need
-        not be computed."""
+        """Return g exp(x). Each row of the result is computed from the same row of g, so rows that are not
+        used need not be computed."""
 
 
 class ClosedFormSeries(Coadjoint):
@@ -300,8 +302,8 @@ class Covered(LieGroup):
 
     @abstractmethod
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image, under the covering map, of q projected onto the cover. It satisfies the equations
-        of the group exactly."""
+        """Return the result of two maps: q is projected onto the cover, and the covering map is applied. The
+        result satisfies the equations of the group exactly."""
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -310,10 +312,11 @@ class Covered(LieGroup):
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return a number for each formula of :meth:`lift`: the formula is valid where its number is
+        """Return a number, the pivot, for each formula of :meth:`lift`. A formula is valid where its pivot is
         positive.
 
-        Every g has a positive pivot, and the formula with the largest pivot has the smallest rounding error.
+        For every g at least one pivot is positive. The formula with the largest pivot has the smallest
+        rounding error.
         """
 
     @abstractmethod

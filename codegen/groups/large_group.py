@@ -11,10 +11,11 @@ from codegen.ir.domain import Domain
 
 
 class LargeGroup(LieGroup):
-    """The name of a group in a scene with large matrices; ``families`` are the families with emitted code.
+    """A group of large matrices, of which only the name and the dimensions are known: it has no operations.
 
-    The operations of this class would need arrays with n^2 entries, so each of them raises
-    :class:`codegen.errors.SceneError`.
+    The operations would need arrays with n^2 entries, so each of them raises
+    :class:`codegen.errors.SceneError`. ``families`` names the families whose methods can be emitted; the
+    message of the error contains these names.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:

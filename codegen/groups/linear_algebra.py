@@ -92,7 +92,7 @@ def determinant(a: Vector[S], n: int) -> S:
     >>> determinant((1, 2, 3, 4), 2)
     -2
     """
-    # The key is the set of columns of a minor of the last rows.
+    # ``minors`` contains the minors of the last rows; the key of a minor is the tuple of its columns.
     minors: dict[tuple[int, ...], S] = {(j,): a[n * (n - 1) + j] for j in range(n)}
     for i in reversed(range(n - 1)):
         larger: dict[tuple[int, ...], S] = {}
@@ -111,13 +111,13 @@ LOOPED = 5
 
 
 def product(d: Domain, a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
-    """Return the product of two n x n matrices: of large matrices as a vector function, of small ones by its
-    terms."""
+    """Return the product of two n x n matrices. Large matrices are multiplied by a call of a vector function,
+    small ones entry by entry."""
     return matmul(a, b, n) if n < LOOPED else d.vector(f"product{n}", (*a, *b))
 
 
 WITHOUT_PIVOTS = 3
-"""Inverses of matrices with at most this number of rows are formed without pivots."""
+"""Matrices with at most this number of rows are inverted by a recursion without pivots."""
 
 
 def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:

@@ -83,7 +83,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self._exponential(d, a)
 
     def exp_times(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y for a column y; of large matrices without forming exp(x)."""
+        """Return exp(x) y for a column y; if the matrices are large, exp(x) is not formed."""
         if self.n < LOOPED or self.algebra.nilpotency:
             return super().exp_times(d, x, y)
         return d.vector(f"expmv{self.n}", (*self.hat(d, x), *y))
@@ -108,8 +108,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
 
     def opposite_exponential(self, d: Domain, a: Vector[S], exponential: Vector[S]) -> Vector[S]:
         """Return exp(-a) for a matrix a of the algebra, given exp(a)."""
-        # An inversion would lose log10(c) digits, where the condition number c is the ratio of the largest to
-        # the least singular value.
+        # The inversion of exp(a) would lose log10(c) digits. Here c is the condition number of exp(a), the
+        # ratio of its largest to its smallest singular value.
         return self._exponential(d, tuple(-x for x in a))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -169,7 +169,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def _dual_series(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return the sum of (ad*_x)^k mu/(k+1)!, which ends for a nilpotent algebra."""
         total, term = mu, mu
-        # A product of 2 m - 1 factors x with one other matrix between them contains x^m.
+        # (ad_x)^(2 m - 1) y is a sum of products x^i y x^j with i + j = 2 m - 1. Each contains x^m, which is
+        # zero for m = nilpotency. So this power of ad_x, and of its transpose ad*_x, is zero.
         for k in range(2, 2 * self.algebra.nilpotency):
             factor: S = d.rational(1, k)
             term = tuple(factor * t for t in self.adt(d, x, term))
@@ -196,8 +197,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return exp(x) and Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        With a = hat(x), the matrices M of mu and N of n, and the derivative L of exp at a in the direction
-        N^T, the matrix of the momentum is the transpose of (exp(a) M^T + L) exp(-a).
+        Let a = hat(x), let M and N be the matrices of mu and n, and let L be the derivative of exp at a in
+        the direction N^T. Then the matrix of the second result is the transpose of (exp(a) M^T + L) exp(-a).
         """
         a = self.hat(d, x)
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, n), self.n))
@@ -218,8 +219,9 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
 class IsometryGroup(MatrixGroup, Projection):
     """A group of matrices g with g^T J g = J, where the rows of J are signed unit vectors.
 
-    ``form`` has a pair for each row i: the column p_i of its entry, and the entry s_i, 1 or -1. The inverse
-    of g is J^-1 g^T J: the transpose for J = 1, and the symplectic transpose for a symplectic J.
+    ``form`` describes J. It has a pair for each row i: the column p_i of the only non-zero entry, and this
+    entry s_i, which is 1 or -1. The inverse of g is J^-1 g^T J: the transpose for J = 1, and the symplectic
+    transpose for a symplectic J.
     """
 
     form: tuple[tuple[int, int], ...]

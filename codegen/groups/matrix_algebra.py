@@ -43,9 +43,10 @@ class MatrixAlgebra:
 
     @cached_property
     def nilpotency(self) -> int:
-        """The least k such that all products of k matrices vanish; 0 if no such k exists.
+        """The least k such that every product of k matrices with the pattern of the basis is zero; 0 if there
+        is no such k.
 
-        The matrices are all matrices that are zero at each place where every basis matrix is zero."""
+        A matrix has this pattern if it is zero at each place where all basis matrices are zero."""
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
         paths, k = {(i, i) for i in range(n)}, 0

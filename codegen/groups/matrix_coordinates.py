@@ -27,9 +27,9 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def _contains_cubes(self) -> bool:
         """True if the algebra contains x^3 for each of its elements x.
 
-        x^3 is a polynomial of degree three in the coordinates of x. The test evaluates it at one point with
-        large coordinates. A component of x^3 outside the algebra that does not vanish identically vanishes at
-        most on a fraction 3/2^61 of such points.
+        x^3 is a polynomial of degree three in the coordinates of x. The test evaluates this polynomial at one
+        point with large coordinates. If a component of x^3 outside the algebra is not identically zero, it is
+        zero at no more than a fraction 3/2^61 of such points.
         """
         # The coordinates are powers modulo the prime 2^61 - 1: integers without a pattern, and the same
         # integers in each run.

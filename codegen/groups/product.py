@@ -51,7 +51,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         """Return the factors' coordinates of an element of the group, of the algebra, or of its dual.
 
         The length of x decides whether x is split as an element of the group, or of the algebra or its dual.
-        If both lengths are equal for the product, they are equal for every factor, and both splits agree.
+        If ``size`` equals ``dim`` for the product, the same holds for every factor, and both splits agree.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)
@@ -169,8 +169,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 def labels(count: int) -> Iterator[str]:
     """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
 
-    Labels of different length could give two factors the same symbol: factor ac of a product, and factor c of
-    a product that is factor a.
+    Labels of different lengths could give the same symbol to two factors: to factor ac of a product, and to
+    factor c of a nested product that is factor a.
 
     >>> list(labels(3)), list(labels(28))[-3:]
     (['a', 'b', 'c'], ['az', 'ba', 'bb'])

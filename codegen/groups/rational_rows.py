@@ -12,8 +12,8 @@ from codegen.ir.decimals import exact
 def rational_rows(name: str, matrix: object) -> tuple[tuple[Fraction, ...], ...]:
     """Return the rows of a list of rows, a sympy matrix or a NumPy array.
 
-    A float means the shortest decimal that prints it. :class:`SceneError` is raised for anything else;
-    ``name`` is the name of the group in the message.
+    A float is read as the shortest decimal number that rounds to it. :class:`SceneError` is raised for other
+    arguments and other entries; ``name`` is the name of the group in the message.
 
     >>> rational_rows("A", [[0, 0.1], ["1/3", 0]])[0]
     (Fraction(0, 1), Fraction(1, 10))

@@ -103,7 +103,8 @@ class Representation(ABC):
         raise self._missing("dual_series")
 
     def _missing(self, method: str) -> SceneError:
-        """Return the error of a method that ``closed`` requires and that a subclass has not written."""
+        """Return the error for a method that a subclass lacks, although its value of ``closed`` requires
+        it."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
             expected="series and dual_series if closed returns True, else gradient",
@@ -118,8 +119,8 @@ class Representation(ABC):
 class AlgebraVectors(Representation):
     """Copies of the Lie algebra, on which the group acts by Ad: for SO(3) these are vectors of R^3.
 
-    x.v = [x, v] and phi(x) = dexp_x. One copy with the algebra itself is the algebra over dual numbers x + u
-    e with e^2 = 0, so the functions of ad are those of the group over dual numbers.
+    x.v = [x, v] and phi(x) = dexp_x. The algebra together with one copy is the algebra over dual numbers
+    x + u e with e^2 = 0, so the functions of ad are those of the group over dual numbers.
     """
 
     of_algebra = True

@@ -91,7 +91,7 @@ class Semidirect(
 
     def offers(self, capability: type[C]) -> C | None:
         """Return this product as a group with a capability; None if the linear factor or the representation
-        lacks its formulas."""
+        lacks the formulas for this capability."""
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
             return own
@@ -244,14 +244,16 @@ class Semidirect(
         return _sum(central, *(first for first, _ in slopes)) + tuple(q for _, part in slopes for q in part)
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of the functions of ad_(x, u) in ``word``, or of ad*, applied to v."""
+        """Return the product of the functions of ad_(x, u) in ``word`` applied to v; with ``dual``, ad*
+        replaces ad."""
         rule = self.representation.dual_series if dual else self.representation.series
         (y, u), (w, vectors) = self._split(x), self._split(v)
         none: Vector[S] = tuple(d.rational(0) for _ in w)
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # On the dual, each copy adds to the momentum of the linear factor.
+            # On the dual, the results of all copies for the linear factor are added. Therefore only the first
+            # copy gets w.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -365,12 +367,12 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of the linear factor, and the vector."""
+        """Return the image of the linear part of q under its covering map, and the vector of q."""
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of the projected linear factor, and the vector."""
+        """Return the image of the projected linear part of q under its covering map, and the vector of q."""
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a
 
@@ -384,7 +386,7 @@ class Semidirect(
         return self._covered().pivots(d, self._element(g)[0])
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return an element of the cover of the linear factor, and the vector."""
+        """Return the lift of the linear part of g to the cover, and the vector of g."""
         q, a = self._element(g)
         return self._covered().lift(d, q, formula) + a
 

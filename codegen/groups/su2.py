@@ -25,7 +25,7 @@ class SU2(S3):
         return dot(x, x)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (cos |x|/2, sin(|x|/2)/|x| x)."""
+        """Return (cos(|x|/2), sin(|x|/2)/|x| x)."""
         return S3.exp(self, d, _half(d, x))
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -33,11 +33,11 @@ class SU2(S3):
         return S3.cay(self, d, _half(d, x))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dcay^{-1}_x y: twice that of the quaternions x/2 and y/2."""
+        """Return dcay^{-1}_x y: twice the result for the quaternions x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.dcayinv(self, d, _half(d, x), _half(d, y)))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x: twice that of the quaternions x/2 and y/2."""
+        """Return x y x: twice the result for the quaternions x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.sandwich(self, d, _half(d, x), _half(d, y)))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -32,7 +32,8 @@ class Unitary(RotationGroup):
         RotationGroup.__init__(self, name, [*basis, *(_real(n, {}, imaginary) for imaginary in diagonal)])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return g^T g = 1, and the equality of the blocks."""
+        """Return g^T g = 1, and the equations of the blocks: the diagonal blocks are equal, the other blocks
+        opposite."""
         n, width = self.rows, self.n
         places = [(i, j) for i in range(n) for j in range(n)]
         blocks = [g[width * i + j] - g[width * (n + i) + n + j] for i, j in places]

@@ -55,12 +55,14 @@ class Matrix:
 
 
 Entry = Expr | tuple[Number, ...]
-"""The entries of a matrix or of a diagonal: a formula in :data:`ROW` and :data:`COLUMN`, or all numbers."""
+"""The entries of a matrix or of a diagonal: a formula in :data:`ROW` and :data:`COLUMN`, or the numbers
+themselves."""
 
 
 @dataclass(frozen=True)
 class Diagonal:
-    """The entries a_{i, i + offset} of a matrix; numbers are given from the first row that has an entry."""
+    """The entries a_{i, i + offset} of a matrix. If they are numbers, the first belongs to the first row that
+    has an entry on this diagonal."""
 
     offset: int
     entry: Entry
@@ -91,7 +93,7 @@ class ConstantMatrix:
 
     @property
     def filled(self) -> int:
-        """The number of entries that are not zero by definition."""
+        """The number of entries on the diagonals, or of all entries of a full matrix."""
         if self.diagonals:
             return sum(map(self.length, self.diagonals))
         return self.rows * self.columns
@@ -116,8 +118,8 @@ def _valued(
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # The indices are replaced first. A selection such as the least index is then known, and its formula
-        # is smooth.
+        # The indices are replaced by numbers first. A selection that depends on the indices, such as their
+        # minimum, then becomes one of its two formulas, which is smooth.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -145,7 +147,8 @@ class Multiplication:
 
 @dataclass(frozen=True)
 class Apply:
-    """target = constant matrix, or matrix constant with ``from_right``; the constant may be transposed."""
+    """target = C M, or target = M C with ``from_right``, where C is the constant and M the matrix. The
+    constant may be transposed."""
 
     target: Matrix
     constant: ConstantMatrix
@@ -216,8 +219,8 @@ class ArrayProgram:
         return _entries(self.result, arrays)
 
     def moved(self, argument: Matrix, result: Matrix, name: str) -> tuple[ArrayStatement, ...]:
-        """Return the statements with other matrices for argument and result; names of all other arrays begin
-        with ``name``."""
+        """Return the statements with other matrices in place of argument and result. ``name`` is put in front
+        of the names of all other arrays."""
 
         def now(matrix: Matrix) -> Matrix:
             if matrix.name == self.argument.name:

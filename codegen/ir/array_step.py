@@ -27,7 +27,8 @@ from codegen.ir.array_program import (
 from codegen.ir.expr import Expr
 
 TERMS = 8
-"""The number of terms of phi in counts of operations. A typical number is used: it depends on the norm."""
+"""The number of terms of phi that is assumed in counts of operations. The number in a run depends on the norm
+of the argument; this is a typical value."""
 
 MOST_TERMS = 18
 """The number of terms of phi at which the remainder is below the rounding errors if the norm is at most 1."""

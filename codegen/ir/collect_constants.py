@@ -21,7 +21,8 @@ constant term has the expression 1."""
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
-    """Return the roots with their constants collected, or the roots themselves if that saves no operation.
+    """Return the roots with their constants collected, or the unchanged roots if collecting saves no
+    operation.
 
     Expressions in ``kept``, and their multiples, are not expanded.
 
@@ -41,8 +42,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
         if node.args:
             # A node in ``kept`` is an atom: its linear combination is 1 times the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # The numbers of the kept nodes are recorded here, before whole() adds other nodes to ``sums``. Kept nodes
-    # are not counted, because they cost the same in both forms.
+    # The node numbers of the kept nodes are recorded here, before whole() adds other nodes to ``sums``. Kept
+    # nodes are not counted as operations, because they cost the same with and without collected constants.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # Expanding sums may leave fewer shared subexpressions. If both forms cost the same, the given form is
@@ -66,11 +67,11 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return the powers (1/sqrt x)^n to rewrite: all powers of each 1/sqrt x of which only odd powers n >= 3
-    are read.
+    """Return the powers (1/sqrt x)^n to rewrite.
 
-    The result maps the node number of a power to the pair (node number of 1/sqrt x, exponent n). Numeric
-    factors are ignored. Subexpressions of ``kept`` are skipped.
+    The powers of an inverse root 1/sqrt x are rewritten if only odd powers n >= 3 of it are read. The result
+    maps the node number of a power to the pair (node number of 1/sqrt x, exponent n). Numeric factors are
+    ignored. Subexpressions of ``kept`` are skipped.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}

@@ -133,8 +133,8 @@ def sign(x: Expr) -> Expr:
 
 
 def _selection(node: Expr) -> list[Expr]:
-    """Return the derivatives of an absolute value or of the selected formula; the derivative of the absolute
-    value at 0 is set to 0."""
+    """Return the derivatives of an absolute value or of a selection between two formulas. The derivative of
+    the absolute value at 0 is set to 0."""
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]

@@ -72,8 +72,9 @@ class Differenced(Domain, Protocol):
 def stumpff(k: int, z: float) -> float:
     """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative z.
 
-    The error is a few units in the last place of the amplitude of the oscillation at z. For z > 2^52 the
-    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26, so half of its digits count turns.
+    For large z the function oscillates. The error is a few units in the last place of the amplitude of this
+    oscillation near z. For z > 2^52 the result is NaN, as in emitted code: the angle sqrt z exceeds 2^26, so
+    half of its digits only count full turns.
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
@@ -267,8 +268,8 @@ class PreciseDomain:
             return closed[k] if k < 3 else (root - sine) / (root * z)
         total, j = self.context.mpf(0), 0
         term = self.context.mpf(1) / math.factorial(k)
-        # Terms are omitted below a limit that is ten bits smaller than the precision, so that they do not
-        # change the sum.
+        # Terms below eps/1024 are omitted, where eps is the rounding unit. They are too small to change the
+        # sum.
         while abs(term) > self.context.eps / 1024:
             total += term
             j += 1

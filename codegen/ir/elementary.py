@@ -1,8 +1,8 @@
 """Elementary functions of one argument that formulas of scenes may call, besides sqrt, sin, cos, exp and log.
 
-Each function is written once in this table, with its derivatives. The Taylor series of f(a(t)) uses f(a)' = r
-a'. The rate r is a polynomial in f, or the other function of a pair such as sine and cosine, or a power of a
-polynomial in a.
+Each function is written once in this table, with its derivatives. The Taylor series of f(a(t)) is computed
+from d/dt f(a(t)) = r a'(t), where r is the derivative of f at a(t). For each function, r is a polynomial in
+f, or a power of a polynomial in a, or the other function of a pair such as sinh and cosh.
 """
 
 from __future__ import annotations

@@ -3,9 +3,10 @@
 In doubles the matrix is halved s times, until its largest row sum is small, and a Taylor polynomial of exp(A
 2^-s) is applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). With degree m
 the polynomial is y + A (p/m!), where p is the sum of (m!/j!) A^(j-1) y over j from 1 to m, by Horner's rule.
-The integers m!/j! are exact in floating-point arithmetic. So all rounding errors depend on y, and the
-length of y does not drift if A is skew: coefficients 1/j! would have the same error in every step.
-Emitted code executes the same operations in the same order (:mod:`codegen.run.exponential_action`).
+The integers m!/j! are exact in floating-point arithmetic. Rounded coefficients 1/j! would have the same error
+in every step, and if A is skew, the length of y would drift. Without this error all rounding errors depend on
+y, and the length does not drift. Emitted code executes the same operations in the same order
+(:mod:`codegen.run.exponential_action`).
 """
 
 from __future__ import annotations
@@ -50,8 +51,8 @@ def _odd(x: int) -> int:
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return the largest row sum for each degree m: ((m + 1)! 2^-(bits + 10))^(1/(m + 1)), rounded to three
-    digits.
+    """Return, for each degree m, the largest row sum of a matrix for which the degree is used: ((m + 1)!
+    2^-(bits + 10))^(1/(m + 1)), rounded to three digits.
 
     The remainder of the Taylor polynomial is then below 2^-10 times the unit roundoff. It must be this small,
     because it changes the length of y by the same amount in every step.
@@ -86,12 +87,13 @@ class ExponentialAction(VectorFunction):
 
     @property
     def places(self) -> tuple[int, ...]:
-        """The places in the matrix of the entries that are arguments."""
+        """The positions, counted row by row, of those entries of the matrix that are arguments."""
         return tuple(k for k in range(self.n**2) if not self.pattern or self.pattern >> k & 1)
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each row of the matrix, pairs: the place of an entry among the arguments, and its column."""
+        """For each row of the matrix, a pair for each entry that is an argument: its index among the
+        arguments, and its column."""
         entries = list(enumerate(self.places))
         return tuple(
             tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)
@@ -131,8 +133,8 @@ class ExponentialAction(VectorFunction):
         return tuple(results[:n])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return y if A is zero, the call with a pattern for a small matrix with zeros, and otherwise
-        None."""
+        """Return y if A is zero. For a small matrix, return a call whose arguments are only the non-zero
+        entries of A, and y. Otherwise return None."""
         if self.pattern:
             return None
         size = self.n**2
@@ -172,12 +174,14 @@ class ExponentialAction(VectorFunction):
         return tuple(y)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return exp(A) y for mpmath numbers; :class:`OverflowError` for entries above 2^40."""
+        """Return exp(A) y for mpmath numbers. :class:`OverflowError` is raised if n times the largest
+        absolute value of an entry is 2^40 or more."""
         entries, rows = len(self.places), self.rows
         largest = max((abs(x) for x in args[:entries]), default=0) * self.n
         if not largest < 2**40:
             raise OverflowError("the norm of the matrix is too large for its exponential")
-        # Each part loses few digits, because the norm of its matrix is below 1.
+        # exp(A) y is computed by applying exp(A/parts) repeatedly. The norm of A/parts is below 1, so each
+        # series loses only few digits.
         parts = int(largest) + 1
         work = context.clone()
         work.dps = digits + 15 + len(str(parts))

@@ -2,8 +2,8 @@
 
 A space interns every node, so equal expressions are identical objects and are stored once. Nodes are numbered
 in the order of their creation, and each build has a new space. Hence the order of operands and the emitted
-text depend only on the input. Nodes simplify only locally (constants, zeros, ones, signs, x - x): sums are
-never flattened, because flattening would destroy sharing.
+text depend only on the input. A new node is simplified only by local rules, for constants, zeros, ones, signs
+and x - x. Sums are never flattened, because subexpressions would then no longer be shared.
 
 Operations: ``const`` (a :class:`Number`), ``sym`` (a name), ``add sub mul div neg``, ``pow`` (integer
 exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`, or a result of a vector function).
@@ -295,8 +295,8 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
         test, *values = args[0].args
-        # The sign of a selection between 1 and -1 is the selected number, so choosing by this sign is
-        # choosing by its argument.
+        # choose(choose(x, 1, -1), a, b) equals choose(x, a, b), because the inner value is positive exactly
+        # where x is positive.
         if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
             return test.space.call(CHOOSE, test, *args[1:])
     if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:
@@ -308,7 +308,7 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Return True if two constants have a common ring, so that their sum and product are constants of it."""
+    """Return True if two constants have a common ring, so that their sum and product are elements of it."""
     # Rational numbers are elements of every ring. Two different rings, neither of them QQ, have no known
     # common ring.
     x, y = a.payload, b.payload
@@ -366,7 +366,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     # second time.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
-    # The results of a vector function are computed together, by its name and the ids of its arguments.
+    # The results of a vector function are computed together. They are stored under its name and the ids of
+    # its arguments.
     vectors: dict[tuple[str, tuple[int, ...]], tuple[Scalar, ...]] = {}
     for node in walk(roots):
         # walk yields the arguments of a node before the node, so the values of the arguments are already

@@ -11,8 +11,8 @@ from codegen.ir.vector_calls import named
 
 
 class Formulas(ExprDomain):
-    """The expressions of a domain, in which sums of terms replace products and commutators of
-    matrices.
+    """A domain of expressions in which products and commutators of matrices are expanded into sums of scalar
+    terms.
 
     The formulas of a scene are differentiated, expanded in series, and evaluated by other libraries. These
     operations accept scalar formulas only, so no vector function may remain in a formula.

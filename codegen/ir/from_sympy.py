@@ -117,8 +117,9 @@ class _Reader:
     def guarded(self, x: Expr, safe: int) -> Expr:
         """Return an expression that is x where the branch that contains x is selected, and the number
         ``safe`` elsewhere."""
-        # A branch is evaluated even where it is not selected. There a root or quotient could raise an
-        # exception in Python or be a NaN, and zero times its derivative would be a NaN.
+        # A branch is evaluated even where it is not selected. There a root or a quotient could raise an
+        # exception in Python or be a NaN. Its derivative is multiplied by zero there, but zero times NaN is a
+        # NaN.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))

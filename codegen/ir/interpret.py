@@ -48,11 +48,11 @@ def interpret(
     provided that the domain has them and ``newton`` is true. :class:`NotConverged` names a block that needs
     more than ``limit`` sweeps.
 
-    If ``solutions`` is given, iterations start at its values and store the new solutions in it. If ``near``
-    is given, Newton's method is used from the first sweep: ``near`` contains the start of each block as a
-    list of numbers, in the order in which the blocks are solved, and each list is replaced by the solution of
-    the block. If the domain has a method ``computed``, it receives the name and the value of each result and
-    returns a new value.
+    If ``solutions`` is given, iterations start at its values, and the new solutions are stored in it. If
+    ``near`` is given, Newton's method is used from the first sweep. ``near`` contains one list of numbers for
+    each block, the first values of its unknowns, in the order in which the blocks are solved. Each list is
+    replaced by the solution of its block. If the domain has a method ``computed``, it receives the name and
+    the value of each result and returns a new value.
     """
     if program.frame == BODY:
         # In the body frame and in the space frame the statements are executed in the same way; only the
@@ -174,7 +174,7 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # Convergence is tested before the unknowns are updated: the values of the body were then computed
+        # Convergence is tested before the unknowns are updated, so that the values of the body were computed
         # from the returned unknowns.
         done, size = domain.settled(old, new, size)
         if done:
@@ -254,7 +254,7 @@ def _correct(
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
     """Return the reason why an implicit block did not converge; ``change`` is the last change."""
-    # A ball is written like a double, because its fifty digits say nothing to the user.
+    # A ball is converted to a double, because two digits of the change are enough for the user.
     last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)
     return f"{block.label} did not converge in {limit} sweeps; the last change was {last}"
 

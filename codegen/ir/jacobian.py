@@ -20,7 +20,7 @@ from codegen.ir.expr import Expr, walk
 
 
 def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr, ...], ...]:
-    """Return d roots[i] / d symbols[j], a row for each root, in the roots' space.
+    """Return the derivatives d roots[i] / d symbols[j] as expressions, one row for each root.
 
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a function has no derivative.
 
@@ -29,8 +29,8 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     >>> jacobian([x * y, x + 2 * y], ["x", "y"])
     ((y, x), (1, 2))
     """
-    # A dictionary maps the node number of each variable to its column, because a variable that no root reads
-    # has no vertex.
+    # The dictionary maps the node number of each variable to its column. The columns of variables that no
+    # root reads stay zero.
     space = roots[0].space
     columns = {space.sym(name).id: j for j, name in enumerate(symbols)}
     graph = _Graph(roots, columns)

@@ -21,11 +21,13 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The symbol for the duration of the flow that ends a step and is joined with the first flow of the next
-step. Its name contains a dot, so it differs from every name in a scene."""
+"""The symbol for the duration of the flow that ends a step. In all steps of a run except the last, this flow
+includes the first flow of the next step. The symbol contains a dot, so it differs from every name in a
+scene."""
 
 ELAPSED = "elapsed.h"
-"""The symbol for the total duration of all steps of a run, for which a deferred flow is applied once."""
+"""The symbol for the total duration of all steps of a run. A deferred flow is applied once, for this
+duration."""
 
 LONGEST = 256
 """The largest number of steps for which one deferred flow is applied. The limit bounds the angles of this
@@ -35,9 +37,8 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 """The names of the methods that solve implicit blocks."""
 
 SLOWEST = 2.0**-12
-"""The least value of the contraction factor of a sweep. Near rounding level a smaller measured factor is
-unreliable, so it is replaced by this value.
-"""
+"""The least value that is used as the contraction factor of a sweep. Near rounding level a smaller measured
+factor is unreliable, so it is replaced by this value."""
 
 UNIT = 2.0**-53
 """Half the distance from 1 to the next larger double, which is the largest relative rounding error of a
@@ -105,15 +106,15 @@ class Loop:
 
     ``label`` names the block in messages and statistics ("stage 2"). ``starts`` are evaluated before the
     loop, and are empty if a :class:`Start` computes the first values. Without ``newton`` the change of the
-    unknowns is images - unknowns, and the last change is not applied: the body's last values belong to the
-    final unknowns. With ``newton`` the change is the inverse of ``newton.matrix`` times images - unknowns,
-    and the last change is applied too.
+    unknowns is images - unknowns. The last change is not applied, so that the last values of the body were
+    computed from the final unknowns. With ``newton`` the change is the inverse of ``newton.matrix`` times
+    images - unknowns, and the last change is applied too.
 
     The stopping rule (:mod:`codegen.run.stopping`) uses three numbers. ``tolerance`` is the largest change,
-    in units of the largest unknown, at which an iteration may stagnate. ``close`` is the largest change at
-    which the measured rate of convergence may end the loop. ``limit`` is the largest number of sweeps.
-    ``only_unknowns_read`` says that only the unknowns are read after the loop, so the last change may be
-    larger.
+    in units of the largest unknown, at which the loop may end because the change no longer decreases.
+    ``close`` is the largest change at which the measured rate of convergence may end the loop. ``limit`` is
+    the largest number of sweeps. ``only_unknowns_read`` says that only the unknowns are read after the loop,
+    so the last change may be larger.
     """
 
     label: str
@@ -163,10 +164,10 @@ class Start:
     ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next step. The unknowns of
     all loops of the kernel are extrapolated together.
 
-    If the loops do not converge, earlier solutions are dropped; then the step is halved until the loops
-    converge. The solution of each step is the start of a longer step (continuation in h), until the whole
-    step is solved. The search fails after ``TRIES`` steps, or if a step that is longer only by the fraction
-    ``SHORTEST`` does not converge either.
+    If the loops do not converge, earlier solutions are dropped, and then the step size is halved until the
+    loops converge. The solution for each step size contains the first values of the unknowns for a larger
+    step size (continuation in h), until the whole step is solved. The search fails after ``TRIES`` step
+    sizes, or if a step size that is larger only by the fraction ``SHORTEST`` does not converge either.
     """
 
     unknowns: tuple[str, ...]
@@ -259,15 +260,15 @@ class Expansion:
     size h from its coefficients.
 
     The outputs of ``coefficients`` are the coefficients 1, ..., ``degree`` of the state, one order after the
-    other. If the polynomial is in other coordinates than the state, ``enter`` computes these coordinates from
-    the state, and ``leave`` computes the new state from the old state and the new coordinates. If nothing has
-    to be computed, ``enter`` or ``leave`` is None.
+    other. The polynomial may be in other coordinates than the state: ``enter`` computes these coordinates
+    from the state, and ``leave`` computes the new state from the old state and the new coordinates. If
+    nothing has to be computed, ``enter`` or ``leave`` is None.
 
     With ``following`` the coefficients are computed in a loop over their order n
-    (:class:`codegen.ir.taylor_loop.OrderLoop`). ``coefficients`` has then two groups of outputs: values for
-    all orders, and the coefficients 1. The outputs of ``following`` are the left and the right operands of
-    the inner sums, whose number is ``sums``, and the coefficients n + 1. If ``controlled`` is true, emitted
-    code has a run with step control.
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). ``coefficients`` has then two groups of outputs: values of
+    order 0 that all later orders read, and the coefficients of order 1. ``following`` has three groups of
+    outputs: the left operands of the inner sums, their right operands, and the coefficients of order n + 1.
+    The number of inner sums is ``sums``. If ``controlled`` is true, emitted code has a run with step control.
     """
 
     degree: int
@@ -296,8 +297,8 @@ class Continuous:
 @dataclass(frozen=True)
 class Observed:
     """The request for a run to a given end time, with output at given times, and with zeros of ``events``
-    event functions of the caller. States at output times are computed by the ``extension``, or without one by
-    shorter steps."""
+    event functions of the caller. States at output times are computed by the ``extension``, or, if there is
+    none, by shorter steps."""
 
     events: int = 0
     extension: Continuous | None = None

@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 TERMS = 14
-"""The degree of the Taylor polynomials in counts of operations. A typical degree is used: it depends on the
-norm."""
+"""The degree of the Taylor polynomials that is assumed when operations are counted. It is a typical value:
+the actual degree depends on the norm."""
 
 Letter = tuple[tuple[int, Number], ...]
 """A linear combination: pairs of the number of a node and its coefficient."""
@@ -65,7 +65,8 @@ class TimeMatrix:
 
 @dataclass(frozen=True)
 class Element:
-    """The letter with a number (None: no letter), plus a sum of coefficients times commutators."""
+    """A letter plus a sum of multiples of commutators. ``letter`` is the number of the letter, or None if
+    there is no letter. ``commutators`` are pairs of a coefficient and the number of a commutator."""
 
     letter: int | None
     commutators: tuple[tuple[Number, int], ...] = ()
@@ -87,7 +88,7 @@ class LinearArrayStep:
     exponents: tuple[Element, ...]
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the scalars of the step."""
+        """Yield the scalar expressions of the step: its times, and the expressions of its matrix."""
         yield from self.times
         yield from self.matrix.expressions()
 

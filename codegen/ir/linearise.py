@@ -54,7 +54,7 @@ class FirstOrder:
         self.duals: dict[int, _Dual] = {}
 
     def jacobian(self, roots: Sequence[Expr]) -> list[list[Expr]]:
-        """Return the derivatives of roots, all of one space, a row for each root.
+        """Return the derivatives of the roots, one row for each root. All roots must belong to one space.
 
         :class:`NotLinearised` is raised for a root that the rules of this module cannot expand at h = 0.
         """
@@ -167,7 +167,7 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
 
 
 def _called(space: Space, function: str, a: _Dual) -> _Dual:
-    """Return a function of a dual number, whose value is v_0 + v_1 h, with its derivatives."""
+    """Return the value of a function at v_0 + v_1 h to first order in h, with its derivatives."""
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])

@@ -170,7 +170,8 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
 
 
 def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exponential of a jet of mpmath numbers to ``digits`` decimal digits of its norm.
+    """Return the exponential of a jet of mpmath numbers, with an error of about 10^-``digits`` times its
+    norm.
 
     :class:`OverflowError` is raised for a norm above 2^40.
     """

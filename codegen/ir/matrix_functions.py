@@ -88,7 +88,8 @@ class MatrixExponential(VectorFunction):
         return matrix_exponential.in_digits(context, digits, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential of power series without constant terms."""
+        """Return the exponential of a jet of power series; the constant terms of the first matrix must be
+        nilpotent."""
         # A product of more than ``longest`` factors is zero, because each factor contains a power of h or is
         # nilpotent.
         longest = (self.n + self.level) * (ring.order + 2)

@@ -3,8 +3,8 @@
 Tableau coefficients stay exact (rational, algebraic) or certified (balls) until they are printed. Programs
 represent them as a :class:`Number`. Two numbers are equal when their rings give equal keys. Two overlapping
 balls do not prove that two numbers are equal. Therefore the keys of a ball tableau contain the names of
-coefficients in the tableau's file: coefficients with one name are equal. The difference of equal numbers is
-exactly 0, their quotient is exactly 1, and a product by 1 widens no ball.
+coefficients in the tableau's file: coefficients with the same name are equal. The difference of equal numbers
+is exactly 0, and their quotient is exactly 1. Multiplication by 1 does not make a ball wider.
 """
 
 from __future__ import annotations

@@ -2,7 +2,8 @@
 
 A class defines how the operation is printed, which kinds its arguments and results have, and how it is
 evaluated in a problem over any domain. ``dual`` operations act on the dual of the Lie algebra. Conventions:
-[x, y] = AB - BA, ad*_x and Ad*_g are the plain duals of ad_x and Ad_g.
+[x, y] = AB - BA for the matrices A and B of x and y; ad*_x and Ad*_g are the dual maps of ad_x and Ad_g,
+without a change of sign and without an inverse.
 """
 
 from __future__ import annotations

@@ -41,11 +41,12 @@ class Precision:
 
     @property
     def digits(self) -> int:
-        """Significant decimal digits that distinguish any two numbers."""
+        """The number of significant decimal digits that suffices to distinguish any two numbers of the
+        format."""
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:
-        """Convert a tolerance for doubles to this format: the multiple of the unit roundoff stays the same.
+        """Convert a tolerance for doubles to this format: it remains the same multiple of the unit roundoff.
 
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True

@@ -6,7 +6,7 @@ values from the unknowns, and images, which are the values g(u) of the body that
 method is lowered to *one* block with all its stages; the passes find the order in which stages can be solved
 one after the other.
 
-A program has no branches on data, no loops other than blocks, and only one group.
+A program has no branches that depend on data, no loops other than blocks, and only one group.
 """
 
 from __future__ import annotations

@@ -114,8 +114,8 @@ class Differential(OfGroup):
 
 @dataclass(frozen=True)
 class Secant(OfGroup):
-    """A discrete gradient: the covector nearest to g whose pairing with x is H1 - H0; the arguments are g, x,
-    H0, H1."""
+    """A discrete gradient: among all covectors whose pairing with x is H1 - H0, the covector nearest to g.
+    The arguments are g, x, H0, H1."""
 
     # The formula contains a quotient that is 0/0 at x = 0 and must be set to 0 there, so the whole formula is
     # one operation.
@@ -172,7 +172,8 @@ class CayleyElement(OfGroup):
 
 @dataclass(frozen=True)
 class Sandwich(OfGroup):
-    """The product x y x of matrices or of quaternions, which is in the algebra of a quadratic group."""
+    """The product x y x of matrices or of quaternions. For a quadratic group it is in the Lie algebra if x
+    and y are."""
 
     linear_in_last = True
     name = "sandwich"

@@ -37,8 +37,8 @@ class Row:
 
 @dataclass(frozen=True)
 class Load:
-    """The symbol of a number that a sweep reads from a row, at the site or at a ``neighbour``, which is the
-    index of its offset."""
+    """A number that a sweep reads: ``symbol`` is its symbol, and ``row`` the row that contains it. It is read
+    at the site itself, or at the neighbour whose offset has the index ``neighbour``."""
 
     symbol: str
     row: Row
@@ -49,10 +49,11 @@ class Load:
 class Sweep:
     """One loop over all sites: output k of ``kernel`` is stored in row k of ``stores``.
 
-    ``about`` describes the sweep by operations of the program. At sites without some neighbours, output k of
-    ``outside`` replaces number k of ``read_outside``, the loads from neighbours; both are empty in a periodic
-    lattice. A sweep over pairs of neighbours has an ``axis``, and neighbour 0 is the other site of the pair.
-    The second half of its stores is at the neighbour.
+    ``about`` describes the sweep by operations of the program. A site at the boundary has no neighbours
+    outside the lattice: there output k of ``outside`` is used in place of the number that load k of
+    ``read_outside`` would read. ``outside`` is None if nothing has to be replaced, as in a periodic lattice.
+    A sweep over pairs of neighbours has an ``axis``. Its neighbour 0 is the other site of the pair, and the
+    second half of its stores is at this neighbour.
     """
 
     about: str
@@ -85,8 +86,9 @@ class Sweep:
 
 @dataclass(frozen=True)
 class SiteFlow:
-    """A flow in a step that composes flows: the index of the sweep, the set of pairs (0 or 1, the parity of
-    the index of the first site), and the duration in units of h."""
+    """One flow of a step that composes flows. ``sweep`` is the index of the sweep, and ``duration`` is in
+    units of h. ``colour`` (0 or 1) is the set of pairs: the parity of the index of the first site of each
+    pair."""
 
     sweep: int
     colour: int
@@ -111,7 +113,7 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The numbers of workspace for each site: the stored rows and a second state."""
+        """The number of doubles in the workspace for each site: the stored rows and a second state."""
         return self.rows + self.size
 
     @property

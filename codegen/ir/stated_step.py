@@ -1,4 +1,4 @@
-"""The operation of step programs that applies a step that the scene states as a function of matrices."""
+"""The operation of step programs for a stated step: the scene gives the step as a formula of matrices."""
 
 from __future__ import annotations
 

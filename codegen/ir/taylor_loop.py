@@ -46,11 +46,11 @@ time if these coefficients, except coefficient 0, are all None."""
 class OrderLoop:
     """The code that computes order 0, and the code that computes every other order n.
 
-    ``first`` are the values of ``names``, which later orders read. ``start`` are the coefficients 1 of the
-    coordinates. ``following`` are the coefficients n + 1 of the coordinates. The code of order n reads the
-    coefficients n of the coordinates as the symbols ``coordinates``, and the inner sums as the symbols
-    ``sums``. Inner sum k is formed from the coefficients of two series; ``left[k]`` and ``right[k]`` are the
-    coefficients n of these series.
+    ``first`` are the values of order 0 that the code of order n reads as the symbols ``names``. ``start`` are
+    the coefficients of order 1 of the coordinates, and ``following`` are their coefficients of order n + 1.
+    The code of order n reads the coefficients n of the coordinates as the symbols ``coordinates``, and the
+    inner sums as the symbols ``sums``. Inner sum k is formed from the coefficients of two series; ``left[k]``
+    and ``right[k]`` are the coefficients n of these series.
     """
 
     names: tuple[str, ...]
@@ -92,7 +92,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
 
 def coordinate_names(count: int) -> tuple[str, ...]:
-    """Return the symbols of the coefficients n of the coordinates."""
+    """Return, for each coordinate, the symbol of its coefficient n."""
     return tuple(f"coefficient.{i}" for i in range(count))
 
 
@@ -141,8 +141,8 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return the symbol for a value of order 0, by which the code of order n reads it; a number is
-        returned unchanged."""
+        """Return the symbol by which the code of order n reads a value of order 0. A number is returned
+        unchanged."""
         if x.op == "const":
             return x
         if x.id not in self.positions:

@@ -248,7 +248,8 @@ class Recurrence:
     """The series of the coordinates of y(t + s scale), in powers of s, and of their derivatives.
 
     ``roots`` are the derivatives of the coordinates called ``symbols``; ``values`` are the values of all
-    other symbols, including the time ``t``. The numeric factor of a derivative is not part of its series.
+    other symbols, including the time ``t``. Each derivative is stored as a pair: a numeric factor, and a
+    series without this factor.
     """
 
     def __init__(

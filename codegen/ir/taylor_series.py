@@ -1,10 +1,11 @@
 """Taylor series in the time, each with the recurrence of its coefficients.
 
-Each elementary operation has a recurrence for its coefficients: sums term by term, products and squares by
-Cauchy's convolution, and quotients, constant powers, exponentials, logarithms and pairs of sine and cosine by
-the recurrence of the differential equation that they satisfy (R. E. Moore, *Interval Analysis*, 1966, chapter
-11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 2). The coefficients are scalars of a
-domain: over expressions, the recurrences become straight-line code.
+The coefficients of each elementary operation satisfy a recurrence. Sums are formed term by term, products and
+squares by Cauchy's convolution. The recurrences of quotients, constant powers, exponentials, logarithms and
+pairs of sine and cosine follow from an algebraic or differential equation that the result satisfies (R. E.
+Moore, *Interval Analysis*, 1966, chapter 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99,
+section 2). The coefficients are scalars of a domain: over expressions, the recurrences become straight-line
+code.
 
 Coefficients that are zero for all states are None, and terms that contain them are omitted. A convolution
 with a constant or with the time therefore has at most two terms for each coefficient.

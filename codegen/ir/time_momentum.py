@@ -23,9 +23,9 @@ class TimeMomentum(Operation):
     """The point (Y, u + Y^T J Y'/2), where Y' is the derivative of the step with respect to t for fixed y, h.
 
     The arguments are the points (y, u) and (Y, u) before and after the step, and the time t. ``step`` is the
-    program that computes the second from the first; its inputs are y and t. In expressions the second
-    argument is differentiated directly. In all other domains ``step`` is evaluated in expressions, and the
-    derivative of these expressions is then evaluated in the domain.
+    program that computes (Y, u) from the inputs (y, u) and t. If the domain consists of expressions, Y is
+    differentiated directly. In all other domains ``step`` is first evaluated in expressions; their derivative
+    is formed, and its value in the domain is computed.
     """
 
     step: Program

@@ -5,9 +5,9 @@ Hence each polynomial of H, and so exp X, is a combination of 1, H and H^2 with 
 and q only. The formulas for these coefficients in terms of the eigenvalues of H divide by differences of
 eigenvalues. Here the coefficients are computed without a division, by Horner's rule for the Taylor polynomial
 modulo H^3 - p H - q, which is accurate for equal eigenvalues, too (M. Luescher, SU(3) matrix functions, notes
-of openQCD). H is first halved until the bound 2 (p/3)^(1/2) of its eigenvalues is small, and the result is
-squared as often. Only products of matrices square it: at a large matrix, the rounding error of q would change
-exp X by much more than the rounding errors of its entries.
+of openQCD). H is first halved s times, until the bound 2 (p/3)^(1/2) of its eigenvalues is small, and the
+result is squared s times. The squares are computed as products of matrices and not from p and q. For a large
+matrix the rounding error of q would change exp X by much more than the rounding errors of the entries of X.
 
 The arguments are the coordinates of X. For j < k, row by row, these are the coefficients of E_jk - E_kj and
 of i (E_jk + E_kj); the last two are the coefficients of i (E_11 - E_22) and i (E_22 - E_33).
@@ -43,7 +43,7 @@ and its derivatives."""
 
 
 def most_squarings(bits: int) -> int:
-    """Return the number of squarings after which fewer than three decimal digits may be correct.
+    """Return the largest number of squarings after which at least three decimal digits are correct.
 
     With unit roundoff 2^-bits, s squarings of a unitary matrix cause an error of at most 2^(s - bits + 6)
     times the norm.

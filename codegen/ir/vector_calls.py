@@ -1,9 +1,9 @@
 """Calls of vector functions in expressions, by their names.
 
-The name determines the function: ``expm3`` is the exponential of a 3 x 3 matrix, ``expm3_d1`` the exponential
-with its derivative, ``inverse5`` the inverse of a 5 x 5 matrix, ``product5`` the product of two 5 x 5
-matrices and ``commutator5`` their commutator. ``expmv5`` is the action of the exponential of a 5 x 5 matrix
-matrices, ``commutator5`` their commutator, and ``expsu3`` the exponential of a matrix of su(3).
+The name determines the function: ``expm3`` is the exponential of a 3 x 3 matrix, and ``expm3_d1`` the
+exponential with its derivative. ``inverse5`` is the inverse of a 5 x 5 matrix, ``product5`` the product of
+two 5 x 5 matrices, and ``commutator5`` their commutator. ``expmv5`` is the exponential of a 5 x 5 matrix,
+applied to a vector, and ``expsu3`` the exponential of a matrix of su(3).
 """
 
 from __future__ import annotations

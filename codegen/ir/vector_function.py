@@ -51,7 +51,8 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return the results as expressions without a call; None if these expressions would be long."""
+        """Return expressions for the results that replace a call with these arguments; None if the call is
+        kept."""
 
     @abstractmethod
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:

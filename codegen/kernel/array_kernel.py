@@ -57,8 +57,8 @@ class ArrayMethod:
 
 
 def array_method(scene: Problem, method: Method) -> ArrayMethod:
-    """Return the compiled method. The passes are verified on a scene on the sphere, because they do not read
-    the field and the size of the matrices.
+    """Return the compiled method. The passes depend neither on the field nor on the size of the matrices, so
+    they are verified on a scene on the sphere.
 
     MethodError is raised for a method that has no kernel (:func:`array_kernel`).
     """
@@ -101,7 +101,8 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass
 class _Builder:
-    """Collects the statements of one step."""
+    """Collects the statements of one step; :mod:`codegen.ir.array_step` defines basis, core and
+    displacement."""
 
     program: Program
     scene: Problem
@@ -145,7 +146,8 @@ class _Builder:
         lower = None if embedded is None else self.points[embedded]
         if new is None or lower is None:
             return ArrayStep(self.argument, body, result)
-        # The estimate is the difference of the displacements times the basis, so no digits are lost.
+        # The estimate is the basis times the difference of the two displacements. The difference of the two
+        # points themselves would lose digits.
         rows = max(new.rows, lower.rows)
         difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
         terms = (Term(self.one, new), Term(-self.one, lower))
@@ -170,7 +172,7 @@ class _Builder:
                 self.cores[target] = self.inverse(
                     target.name, self.cores[args[0]], self.cores[args[1]], order
                 )
-            # An element of the group is a single exponential, and is stored as the core of its exponent.
+            # A group element is always a single exponential exp(B S B^T), and is represented by the core S.
             case Exp():
                 self.cores[target] = self.cores[args[0]]
             case Act() | ActExp():
@@ -216,7 +218,8 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append S = E C^T - C E^T for E = the unit vectors from ``first`` on; return S."""
+        """Append the core S = E C^T - C E^T and return it. E contains the unit vectors ``first``, ...,
+        ``first`` + k - 1, and X = B C is the point with the given displacement."""
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
@@ -229,7 +232,7 @@ class _Builder:
         return core
 
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
-        """Return a statement of the field with the values of parameters and the time."""
+        """Return a statement of the field, in which the parameters and the time have their values."""
         values = {**self.scene.scalars(self.domain, t)}
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 
@@ -255,12 +258,14 @@ class _Builder:
                 return statement
 
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
-        """Append a linear combination of cores; it has the size of the largest core."""
+        """Append a linear combination of cores, and return it. The result has the size of the largest
+        core."""
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append N - N^T with N = S G T, the core of a bracket; return it."""
+        """Append the core of the bracket of the elements with the cores x and y: N - N^T with N = x G y,
+        where G is the Gram matrix. Return this core."""
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
         self.body.append(Multiplication(product, x, right))

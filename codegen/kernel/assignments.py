@@ -17,7 +17,7 @@ from codegen.ir.kernel import Let, Loop, Newton, Start
 from codegen.kernel.equations import WEIGHT, Block
 
 INLINE = 10
-"""Largest number of operations in one assignment: longer expressions get names for their parts.
+"""Largest number of operations in one assignment: the parts of a longer expression get names.
 
 The limit changes the text, but not the operations. For vcg:triple_jump on heavy_top, the limits 5, 10 and 20
 give 265, 199 and 187 assignments, counted by ``len(list(compile_method("heavy_top",
@@ -54,8 +54,8 @@ class Assignments:
             # so it must not read body values.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
-            # Skip kept body values that no later expression reads: they would cost assignments in every
-            # sweep.
+            # Values of the body that no later expression reads are skipped: they would cost assignments in
+            # every sweep.
             read = {n.payload for n in walk([*self.roots, *self._later(k)]) if n.op == "sym"}
             for name, x in block.kept:
                 if name in read:
@@ -178,7 +178,8 @@ class Assignments:
 
             crosses = loop >= 0 and target is outer
             shared = self.uses[node.id] > 1 or size >= INLINE or crosses
-            # The negative of a symbol costs nothing in any target, so a name for it would only add a line.
+            # The negative of a symbol costs nothing in any target language, so a name for it would only add a
+            # line.
             trivial = not node.args or (node.op == "neg" and not args[0].args)
             if shared and not trivial:
                 symbol = self._let(node, rebuilt, target)

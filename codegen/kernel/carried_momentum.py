@@ -56,7 +56,7 @@ class Frames:
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
         """Return the kernel's new state, computed from the new state of the program; ``start`` is the
         program's initial state, which ``begin`` computed from ``state``."""
-        # The second state belongs to the embedded solution; it is empty for a method without an embedded
+        # This function also converts the embedded solution, which is empty for a method without an embedded
         # solution.
         if self._alike or not new:
             return new

@@ -107,7 +107,7 @@ _EMPTY = Kernel("", (), (), (), ())
 class Increments:
     """Expressions for the differences e - x and f - 1 that avoid the cancellation of leading digits.
 
-    A difference has this expression only if e has the form x + increment, or f the form 1 + increment.
+    Such an expression exists only if e has the form x + increment, or f the form 1 + increment.
     """
 
     def __init__(self, kernel: Kernel) -> None:

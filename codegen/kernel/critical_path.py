@@ -37,8 +37,8 @@ repeat this comparison, edit the value and run ``orderconds regenerate --check``
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products with late values: for each late value, its sign, its fixed factors, and its other
-factors.
+"""A sum of products, each with at most one late value. A late value is the result of a slow operation. For
+each late value: the sign, the product of the fixed factors, and the product of the other factors.
 
 The key None belongs to the product without a late value."""
 
@@ -83,8 +83,8 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
     """Return the roots with their longest chains shortened.
 
     ``invariant`` names the symbols that do not change from step to step: products of these symbols cost
-    nothing. With ``spread`` false, such products are formed first, but no factor is distributed over late
-    values.
+    nothing. With ``spread`` false, such products are formed first, but products with sums of late values are
+    not expanded.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 

@@ -41,7 +41,7 @@ class Parted:
 
 
 def part(program: Program, scene: Problem) -> Parted | None:
-    """Return a splitting's program split into three, or None if no flow can be deferred."""
+    """Return the program of a splitting method as three programs, or None if no flow can be deferred."""
     letters = word(program)
     if letters is None:
         return None

@@ -126,8 +126,8 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return the expressions that are sums, among the values of all variables except the variables ``inside``
-    a block."""
+    """Return those values of variables that are sums. The variables ``inside``, which a block assigns, are
+    left out."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 

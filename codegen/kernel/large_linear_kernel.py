@@ -34,18 +34,18 @@ from codegen.scene.linear_scene import LinearScene
 from codegen.scene.problem import TIME, Problem
 
 LARGE_SUM = 1e-6
-"""Sums of the coefficients of a letter above this number are not zero."""
+"""A sum of the coefficients of a letter counts as zero if its absolute value is below this number."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error for a method that has no step by products of A and vectors."""
+    """Return the error for a method whose step cannot be computed by products of A and vectors."""
     hint = "methods of the families magnus, cf_magnus and fer are possible, for example cf_magnus4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
 def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
-    """Return the compiled method. The passes are verified on a scene with three rows, because they do not
-    read the entries and the size of A.
+    """Return the compiled method. The passes depend neither on the entries nor on the size of A, so they are
+    verified on a scene with three rows.
 
     MethodError is raised for a method with step control, for implicit stages, and for a method with an
     operation that is not a product of A and a vector.
@@ -204,8 +204,9 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        A multiple of one letter may be subtracted from the other. The sum of its coefficients is then zero:
-        it is a difference of values of A, which is small, and so is the bound of the commutator.
+        For letters x and y, [x - c y, y] = [x, y]. If possible, c is chosen such that the coefficients of x -
+        c y add up to zero. Then x - c y is a combination of differences of values of A. These differences are
+        small, and so is the bound of the norm of the commutator.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)

@@ -28,8 +28,9 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     """Return the number of each operation: ``add`` (and subtract), ``mul``, ``div``, and calls.
 
     The key ``step`` counts operations of each step, ``start`` the additional operations of a first step.
-    Further keys count one sweep of each block, and the entries of the block's Newton matrix without the
-    inversion. Changes of sign, comparisons, extrapolation and the stopping rule are not counted.
+    Further keys count, for each block, the operations of one sweep and, with Newton's method, the operations
+    that compute the entries of its matrix. The inversion of the matrix is not counted. Changes of sign,
+    comparisons, extrapolation and the stopping rule are not counted.
     """
     # The operations of an outlined function are counted at each call, because steps with and without outlined
     # functions must be comparable.
@@ -65,9 +66,10 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Return the number of each operation of a kernel, as :func:`operations` counts them.
 
-    A kernel without outputs computes the coefficients of a Taylor polynomial, and evaluates the polynomial,
-    or computes with whole matrices, with a typical number of terms of each exponential. The operations of a
-    lattice are counted for one site; a flow of pairs counts as one pair for each site.
+    A kernel without outputs is one of three kinds. For a Taylor polynomial, the computation of its
+    coefficients and its evaluation are counted. For a step with whole matrices, a typical number of terms of
+    each exponential is assumed. For a lattice, the operations of one site are counted; a flow of pairs counts
+    as one pair for each site.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}

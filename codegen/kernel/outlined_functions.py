@@ -1,9 +1,9 @@
 """Outlined functions: a tree of operations that a step repeats becomes one function, which the step calls
 several times.
 
-The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. An input
-or coefficient that is the same constant in every call is no argument. A function computes only those results
-of the tree that are read.
+The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. If an
+input or a coefficient is the same constant in every call, it is not an argument. A function computes only
+those results of the tree that are read.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ class _Inputs:
         self.symbols: list[Expr] = []
 
     def take(self, words: Sequence[str]) -> Values:
-        """Return the next inputs of the function. An input is called ``name.word``, for each word of
-        ``words``."""
+        """Return the next inputs of the function, one for each word of ``words``: the symbol ``name.word``,
+        or the constant that is the same in every call."""
         first = len(self.symbols)
         # A constant argument is replaced by its value, so that the value can be combined with other
         # constants.
@@ -158,7 +158,7 @@ def _sum(
     coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
 ) -> Values:
     """Return a sum with symbols for its coefficients; terms with equal coefficients are added first."""
-    # By c x + c y = c (x + y), terms with one coefficient need one product fewer for each component.
+    # c x + c y = c (x + y), so terms with equal coefficients take one product together for each component.
     groups: dict[Coefficient, Values] = {}
     for c, x in zip(coefficients, args, strict=True):
         groups[c] = tuple(a + b for a, b in zip(groups[c], x, strict=True)) if c in groups else x

@@ -1,9 +1,9 @@
 """Repeated trees: groups of assignments that occur several times, for one outlined function each.
 
-A value that only one operation reads can be computed in one function with this operation: the two form a
-tree. Pairs of trees that occur often are joined to larger trees, first the pairs that save most lines. Trees
-with equal keys have the same operations, but may have different operands and different coefficients in their
-sums.
+If only one operation reads a value, one function can compute both the value and the result of this operation:
+the two form a tree. Pairs of trees that occur often are joined to larger trees; pairs that save the most
+lines are joined first. Trees with equal keys have the same operations, but may have different operands and
+different coefficients in their sums.
 """
 
 from __future__ import annotations
@@ -291,7 +291,7 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
     numbers, and the coefficient one has the number 0."""
     seen: dict[Coefficient, int] = {}
     # A coefficient of one changes the shape, because it needs no product. Terms with equal coefficients are
-    # added before one product, so equality is part of the shape.
+    # added and then multiplied once, so equality is part of the shape.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 

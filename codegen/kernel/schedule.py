@@ -50,8 +50,8 @@ class SharedCall:
 
 @dataclass(frozen=True)
 class Invocation:
-    """The statement name = function(arguments): one call returns all results of an outlined function, or of a
-    vector function, whose arguments are in one array.
+    """The statement name = function(arguments): one call returns all results of an outlined function or of a
+    vector function. The arguments of a vector function are passed as arrays.
     """
 
     name: str
@@ -133,7 +133,7 @@ class Arrangement:
         called = {s.function for s in self._simple() if isinstance(s, SharedCall)}
         outlined = {function.name for function, _ in self.outlined}
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
-        # Outlined functions are defined in the kernel itself, so the target needs no snippet for them.
+        # Outlined functions are defined in the kernel itself, so no library function is needed for them.
         called |= {name for name in names if name.partition(".")[0] not in outlined}
         for _, inner in self.outlined:
             called |= set(inner.functions())
@@ -300,7 +300,7 @@ class _Scope:
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # The indices k form the name of the snippet. They are sorted, so that c_1 and c_2 always give
+        # The indices k form the name of the called function. They are sorted, so that c_1 and c_2 always give
         # stumpff_12.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
@@ -380,7 +380,7 @@ class _Scope:
         space = base.space
         # A power is written as a product, in which the base occurs several times, so the base must be a name.
         base = self._named(base)
-        # Targets write powers of up to three factors as x * x * x.
+        # In emitted code powers of up to three factors are written as x * x * x.
         if n <= 3:
             return space.pow(base, n)
         result = base

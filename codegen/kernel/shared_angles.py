@@ -1,9 +1,9 @@
 """Shared angles: arguments that are equal as polynomials become one expression.
 
-Variational methods need the exponentials of h xi, h xi/2 and -h xi/2 in one stage. Each contains Stumpff
-functions of a sum of squares z. The z of h xi/2, the z of -h xi/2 and a quarter of the z of h xi are equal
-numbers, but different expressions, so without this module their Stumpff functions would be computed three
-times. As polynomials in symbols and earlier calls these expressions are equal.
+Variational methods need the exponentials of h xi, h xi/2 and -h xi/2 in one stage. Each exponential contains
+Stumpff functions of a sum of squares. The sum for h xi/2, the sum for -h xi/2 and a quarter of the sum for h
+xi are equal numbers, but different expressions. Without this module the Stumpff functions of each expression
+would be computed separately. As polynomials in symbols and earlier calls these expressions are equal.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
 LONGEST = 64
 """Arguments with more nodes than this are not compared.
 
-Equal angles occur between unknowns of implicit stages; on the gallery their arguments have 12 to 42 nodes.
-Arguments of explicit stages have hundreds or thousands of nodes. Limits of 64, 128 and 256 give the same
-kernels for nine methods of the gallery. With the limit 32 the kernel of one of these methods changes: a step
-of vcf:cf4 on dipole has 286 and not 301 operations."""
+Equal angles occur in implicit stages, as functions of the unknowns. On the gallery such arguments have 12 to
+42 nodes. Arguments of explicit stages have hundreds or thousands of nodes. Limits of 64, 128 and 256 give the
+same kernels for nine methods of the gallery. With the limit 32 the kernel of one of these methods changes: a
+step of vcf:cf4 on dipole has 286 and not 301 operations."""
 
 
 class SharedArguments(ExprDomain):

@@ -21,8 +21,9 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import SitePart
 
 COPY = "the state is copied"
-"""The description of the sweep that begins and ends a step without local parts: it copies the state, and
-tests whether the new state is finite."""
+"""The description of a sweep that copies the state. A step must begin with a sweep over all sites, which
+reads the old state. It must end with a sweep over all sites, which tests whether the new state is finite. A
+copy is added where a flow of pairs would be first or last."""
 
 
 def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:

@@ -39,7 +39,7 @@ RECOMPUTED = (Linear, Zero, Advance)
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error for a method that has no step by sweeps over sites."""
+    """Return the error for a method whose step cannot be computed by sweeps over sites."""
     hint = "explicit methods of the families rkmk, cf, cg, rk and ambient are possible, for example cf:cf4, "
     hint += "and splittings of a scene with parts"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
@@ -57,8 +57,8 @@ class SiteMethod:
 
 
 def site_method(scene: Problem, method: Method) -> SiteMethod:
-    """Return the compiled method. Passes are verified on one site whose neighbours do not move, because they
-    do not read the formulas of the field.
+    """Return the compiled method. The passes do not read the formulas of the field, so they are verified on
+    one site whose neighbours do not move.
 
     MethodError is raised for implicit methods and for compositions of substeps.
     """
@@ -242,7 +242,7 @@ class _Execution:
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.loads: dict[str, Load] = {}
-        # Names of users are reserved, so no computed value gets one of these names.
+        # Names that users have chosen are reserved, so no computed value gets one of these names.
         self.taken = {*problem.symbols, *problem.runtime, "h", TIME}
         self.ghosts: dict[str, Expr] = {}
         self.named: dict[Var, tuple[str, ...]] = {}

@@ -1,4 +1,4 @@
-"""Kernels of Taylor polynomials: the coefficients, unrolled or as a loop over the order, and the projection.
+"""Kernels of Taylor polynomials: their coefficients, unrolled or in a loop, and conversions of the state.
 
 Unrolled code for degree P contains about P^2 operations for each product in the formulas of the field.
 Unrolled code is faster than a loop if it fits into the instruction cache. Otherwise a loop is used.

@@ -1,4 +1,4 @@
-"""Variations of a state: the coordinates in which a step has a Jacobian.
+"""Variations of a state: the coordinates in which the Jacobian of a step is expressed.
 
 A group element q varies by xi in its algebra, dq = xi.q (right-trivialised). Momenta, and points that are not
 group elements, vary component by component. The Jacobian on T*SO(3) is therefore 6 x 6, and the Jacobian on
@@ -21,8 +21,8 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Variations:
-    """The parts of a state that varies, as pairs (group, symbols); the group is None for numbers that vary
-    component by component."""
+    """The parts of a state, as pairs (group, symbols). A part with a group varies by an element of the Lie
+    algebra of the group. If the group is None, the symbols vary component by component."""
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
 
@@ -53,12 +53,12 @@ class Variations:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the components of a variation, which differ from every name of a scene."""
+        """The names of the components of a variation. They differ from every name of a scene."""
         # Names of a scene are identifiers, which contain no dot.
         return tuple(f"vary.{k}" for k in range(self.dim))
 
     def seeds(self, domain: ExprDomain) -> dict[str, Expr]:
-        """Return the rates of the state's symbols under the variation."""
+        """Return the derivative of each symbol of the state in the direction of the variation."""
         rest = tuple(domain.space.sym(name) for name in self.names)
         seeds: dict[str, Expr] = {}
         for group, symbols in self.parts:
@@ -71,7 +71,8 @@ class Variations:
         return seeds
 
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
-        """Return the variation of the new state from the rates of its coordinates."""
+        """Return the components of the variation of the new state, given the derivatives of its
+        coordinates."""
         rates_of_end: list[Expr] = []
         for group, symbols in self.parts:
             count = len(symbols)
@@ -97,8 +98,8 @@ class Variations:
 
 
 def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation | None:
-    """Return the group, after a test that its tangent vectors can be represented in its algebra; None for
-    plain numbers."""
+    """Return the group; raise SceneError if its tangent vectors cannot be represented in its algebra. For
+    plain numbers the group and the result are None."""
     if group is None:
         return None
     trivialised = group.offers(RightTrivialisation)

@@ -1,9 +1,9 @@
 """The error norm of a scene: the distance of a computed state from the reference solution.
 
-The error norm is the sum of the norms of all fields of the state: the spectral norm for group elements that
-are matrices, the Euclidean norm for other fields. For the dipole on a stick, the error norm is
-|mu - mu_ref|_2 + |g - g_ref|_2 (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*,
-Fig. 3.2). For a point on the sphere it is the Euclidean distance.
+The error norm is the sum of the norms of all parts of the state, such as a group element and a momentum: the
+spectral norm for group elements that are matrices, the Euclidean norm for all other parts. For the dipole on
+a stick, the error norm is |mu - mu_ref|_2 + |g - g_ref|_2 (H. Marthinsen, *On symplectic integration in Lie
+groups and manifolds*, Fig. 3.2). For a point on the sphere it is the Euclidean distance.
 """
 
 from __future__ import annotations

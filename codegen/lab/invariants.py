@@ -1,7 +1,8 @@
 """Conserved quantities of a scene: its invariants, and the equations that define its manifold.
 
-The magnitude of an invariant is the sum of the absolute values of its terms. Rounding errors are relative to
-the magnitude. Deviations are relative to it if the terms cancel or the invariant is zero.
+The magnitude of an invariant is the sum of the absolute values of its terms. Rounding errors are proportional
+to the magnitude. Deviations are divided by the absolute value of the invariant, or by the magnitude if the
+terms cancel or the invariant is zero.
 """
 
 from __future__ import annotations

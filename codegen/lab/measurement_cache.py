@@ -1,8 +1,8 @@
 """A cache of measurements on disk, so that equal measurements are made only once.
 
 The file name of an entry is a digest of all inputs of the measurement: the emitted files, the scene, the
-settings, the kind of processor. An entry also contains a digest of its content. It is written under a
-temporary name and then renamed, so that an interrupted write does not create an entry. If an entry is
+settings, the kind of processor. An entry also contains a digest of its content. Every entry is written under
+a temporary name and then renamed, so that an interrupted write does not create an entry. If an entry is
 truncated, changed, or of another type, it is ignored and the measurement is made again. A folder that another
 user owns is never read or written.
 """

@@ -18,8 +18,8 @@ TABLES = "table"
 
 Functions = Mapping[str, Scalar]
 """Functions by name. Every function accepts numbers, except the function with the key :data:`TABLES`. The
-arguments of this function are a table and a function that converts numbers. It returns the function that the
-table defines.
+arguments of this function are a table and a function that converts numbers, and its result is the function
+that the table defines.
 """
 
 

@@ -1,10 +1,10 @@
 """The ambient equation of a scene with a field that is not smooth everywhere: smooth equations between
 events.
 
-A selection is an operation with two cases, such as an absolute value, and its sides are the cases. While all
-sides stay the same, the field is smooth (:mod:`codegen.ir.smoothness`). The margin of a selection is positive
-on its present side. An event is a time at which a margin vanishes. There the integrator changes to the field
-on the other side.
+A selection is an operation with several cases, such as an absolute value or a table. Its sides are these
+cases. While all sides stay the same, the field is smooth (:mod:`codegen.ir.smoothness`). The margin of a
+selection is a function that is positive on the present side. An event is a time at which a margin vanishes.
+There the integrator changes to the field on the other side.
 """
 
 from __future__ import annotations
@@ -146,8 +146,9 @@ class Sided:
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if a margin is negative at the end of a step, or at an inner point of the last
-        substeps.
+        """Return True if a margin is negative in a step. Margins are tested at the end of the step, and at
+        the last :data:`SUBSTEPS` points at which the field was evaluated in this step. For a very short step
+        only the end is tested.
         """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):

@@ -121,9 +121,9 @@ def _key(scene: Problem) -> tuple[object, ...]:
 def reference(scene: Problem, end: float = math.inf) -> Reference:
     """Return the reference of a scene at the end of its span, with its measured uncertainty.
 
-    Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, if the
-    two runs do not agree to 28 digits, or if they are not finished at the time ``end`` of the clock
-    ``time.monotonic``.
+    Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, or if
+    the two runs do not agree to 28 digits. The same error is raised if the runs are not finished at the time
+    ``end`` of the clock ``time.monotonic``.
     """
     (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -216,8 +216,8 @@ def _extrapolate(
 ) -> tuple[Vector, float]:
     """Return the extrapolated state after one step, and an estimate of its error.
 
-    The state is the last entry of the extrapolation table, the estimate its distance from the previous entry
-    of the same row. Raises ArithmeticError if the field cannot be evaluated at some stage.
+    The state is the last entry of the extrapolation table. The estimate is the distance of this entry from
+    the previous entry of the same row. Raises ArithmeticError if the field cannot be evaluated at some stage.
     """
     slope = field(y, t)
     row: list[Vector] = []

@@ -58,7 +58,7 @@ class Request:
 def report(
     request: Request, directory: str | Path, progress: Progress
 ) -> tuple[Path, tuple[SceneResults, ...]]:
-    """Measure, write the pages into a folder, and return the path of the overview with the results.
+    """Measure all scenes, write the pages into a folder, and return the path of the overview and the results.
 
     The page of a scene is written as soon as it is complete. A hidden folder stores the results until the
     report is complete, so that an interrupted report can continue. :class:`InputError` is raised before the

@@ -90,7 +90,8 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return the fields of a state by name; ``state`` is the list of all its coordinates."""
+    """Return the parts of a state, such as a group element and a momentum, by name. ``state`` is the list of
+    all coordinates."""
     fields: dict[str, Vector] = {}
     start = 0
     for field in problem.state:
@@ -129,7 +130,8 @@ class Emitted:
 
     @cached_property
     def observed(self) -> Emitted:
-        """The step of this runner, emitted to a target in which the solved unknowns can be observed."""
+        """A runner of the same step, emitted to a target that also returns the solutions of implicit
+        equations."""
         return Emitted(self.compiled, printers.observable().name, self.order)
 
     @cached_property
@@ -140,8 +142,8 @@ class Emitted:
     def final(self, steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
         """Return the final state after ``steps`` equal steps over the span; may raise :class:`RunFailed`.
 
-        ``statistics`` receives the numbers of iterations of implicit blocks. The run has the length of
-        ``spans`` time spans, all with equal steps.
+        ``statistics`` receives the numbers of iterations of implicit blocks. The run covers ``spans`` time
+        spans, with ``steps`` equal steps in each.
         """
         first, last = self.compiled.scene.span
         h = float((last - first) / max(steps, 1))

@@ -28,8 +28,8 @@ from orderconds.errors import InputError
 T = TypeVar("T")
 
 MANY = 8
-"""A report on more scenes makes shorter searches and omits the growth of rounding errors, so that a report on
-the whole gallery takes less than twenty minutes on two cores.
+"""A report on more than MANY scenes makes shorter searches and omits the measurement of the growth of
+rounding errors. A report on the whole gallery then takes less than twenty minutes on two cores.
 """
 
 

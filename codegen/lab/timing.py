@@ -17,12 +17,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 BATCH = 0.002
-"""Seconds that a batch of calls must last, far above the resolution of the clock."""
+"""A batch of calls takes at least this number of seconds, which is far above the resolution of the clock."""
 
 BATCHES = 5
 FEWER = 3
-"""The least number of batches is BATCHES. If a call takes longer than :data:`LONG` seconds, the number of
-batches is FEWER.
+"""At least BATCHES batches are run. If a batch takes longer than :data:`LONG` seconds, only FEWER batches are
+run.
 """
 
 LONG = 0.2
@@ -33,17 +33,17 @@ the span. The overhead of a call is about a hundredth of RESOLVED.
 """
 
 CONFIRMED, MOST = 0.03, 21
-"""The least time is confirmed if the time of a second batch is at most 1 + CONFIRMED times the least time.
-Otherwise further batches are run; the total number of batches is at most MOST.
+"""The least time counts as confirmed if the time of a second batch is at most (1 + CONFIRMED) times the least
+time. Otherwise further batches are run; the total number of batches is at most MOST.
 """
 
 SHORT = 1e-3
 """A run that takes less than SHORT seconds is measured until its time without the overhead is resolved."""
 
 RESOLUTION = 0.1
-"""The time of a run without the overhead is resolved if its uncertainty is at most this fraction. The
-uncertainty is the difference of the two fastest batches of the run, plus the difference of the two fastest
-batches of the overhead.
+"""The time of a run without the overhead is resolved if its uncertainty is at most this fraction of the time.
+The uncertainty is the difference of the two fastest batches of the run, plus the difference of the two
+fastest batches of the overhead.
 """
 
 AGAIN = 3
@@ -93,7 +93,8 @@ def spans(run: Callable[[int], object], steps: int) -> int:
     """Return the number of time spans over which a run is timed; the run has ``steps`` steps for each span.
 
     ``run(n)`` runs over n spans. The number of spans is doubled until the run takes :data:`RESOLVED` seconds,
-    has :data:`LEAST_STEPS` steps, or fails because the solution ends beyond the span.
+    has :data:`LEAST_STEPS` steps, or fails. A run may fail because the solution does not exist so far beyond
+    the span.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -177,8 +178,8 @@ def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list
 
 
 def spread(times: Sequence[float]) -> float | None:
-    """Return the relative spread of sorted times: three quarters of the times are at most 1 + spread times
-    the least time. The result is None if the least time is zero.
+    """Return the relative spread s of sorted times: three quarters of them are at most (1 + s) t, where t is
+    the smallest time. The result is None if the smallest time is zero.
 
     >>> spread((1.0, 1.25, 1.5, 9.0)), spread((0.0, 1.0))
     (0.5, None)

@@ -61,7 +61,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # The reason may be that a family in which the tableau claims an order does not accept the scene.
+        # The tableau may claim an order in a family that does not accept the scene. Then this is the reason,
+        # and _check raises an error that says so.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))

@@ -35,8 +35,8 @@ class Objection:
 
 
 def without_formulas(scene: Problem) -> Objection | None:
-    """Return the objection of families in coordinates to a scene with large matrices, whose field has no
-    formulas in coordinates; None for other scenes."""
+    """Return the objection of a family that needs formulas of the field in coordinates. A scene with large
+    matrices has no such formulas. The result is None for any other scene."""
     if scene.roots:
         return None
     families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
@@ -96,7 +96,8 @@ class Lowering(ABC):
         return None
 
     def storage(self, method: Method) -> str:
-        """Return what a step stores, as a line of the header; an empty text if nothing special."""
+        """Return the line of the emitted header that says what a step stores; an empty text if the storage
+        needs no remark."""
         return ""
 
     @abstractmethod
@@ -112,14 +113,14 @@ class Lowering(ABC):
         """Return the verified step program of a method, with all stages in one block.
 
         ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised if the
-        family does not read the format of the tableau, :class:`orderconds.errors.ZeroWeight` if the formulas
-        of the family divide by a weight that is zero.
+        family cannot use the format of the tableau. :class:`orderconds.errors.ZeroWeight` is raised if the
+        formulas of the family divide by a weight that is zero.
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if steps of one size are symplectic maps on a Hamiltonian scene.
 
-        By default they are symplectic where T*G is a vector space and the tableau is symplectic.
+        By default the result is True if T*G is a vector space and the tableau is symplectic.
         """
         from orderconds.tableau.method_properties import symplectic
 

@@ -48,7 +48,7 @@ STORAGE = "two registers (2N): the state and one element K of the Lie algebra, K
 def _registers(method: Method) -> TwoRegisters | None:
     """Return the scheme with two registers that is equal to the method on every group, if there is one.
 
-    An embedded update needs the values of the stages, so that two registers do not suffice.
+    The update of an embedded method needs the values of all stages, so two registers do not suffice for it.
     """
     if not isinstance(method.tableau.method, CommutatorFree) or method.embedded() is not None:
         return None

@@ -9,8 +9,8 @@ The tableau is read as a quadrature rule with nodes c_i and weights b_i for the 
 
 With one node 1/2 the discrete differential is (2.31) with the midpoint choice. With Gauss nodes it is the
 mean value of section 2.6, where a multiple of eta corrects the error of the quadrature. Since omega is skew,
-<D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two where sum b_i c_i = 1/2, else one. The unknown
-is xi.
+<D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two if sum b_i c_i = 1/2, otherwise one. The
+unknown is xi.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ class DiscreteGradient(FieldLowering):
     family = "discrete_gradient"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene; it requires an energy that the field
-        preserves."""
+        """Return the reason why the family does not accept a scene. The family requires an energy that the
+        field preserves."""
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
         # If H depends on time, the energy is no invariant of the field, so a method cannot preserve it.
         if not scene.autonomous:
@@ -86,8 +86,8 @@ def _program(scene: Problem, method: Method) -> Program:
         # The energies are evaluated inside the block of equations, because H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
-        # One operation forms H(x1) - H(x0) - <g, eta> over |eta|^2, because the quotient is 0/0 where eta =
-        # 0.
+        # A single operation computes the quotient of H(x1) - H(x0) - <g, eta> and |eta|^2. At eta = 0 the
+        # quotient is 0/0, and the operation sets it to zero.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
@@ -110,7 +110,8 @@ def _check_bivector(scene: Problem, method: Method) -> None:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # The formula of the bivector divides by |gamma|^2, so it is valid only where gamma = 0 implies f = 0.
+        # The formula of the bivector divides by |gamma|^2, so it is valid only if f vanishes at every point
+        # where gamma vanishes.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             raise MethodError(
                 f"{method.label} on {scene.name}, whose energy has differential zero where f is not zero",

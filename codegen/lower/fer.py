@@ -6,6 +6,6 @@ from codegen.lower.magnus import MagnusLowering
 
 
 class FerLowering(MagnusLowering):
-    """Fer methods: only the last exponent contains terms without brackets, and it has no other terms."""
+    """Fer methods: the last exponent has no brackets, and all other exponents consist of brackets only."""
 
     family = "fer"

@@ -60,7 +60,8 @@ class Reading:
 
 
 class FlowLowering(Lowering):
-    """A family that composes exact flows; its problem contains the flows that the method's word names."""
+    """A family that composes exact flows. The problem from which it forms programs contains the flows in the
+    word of the method."""
 
     hamiltonian = True
 
@@ -193,13 +194,13 @@ def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
 
 
 def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) -> Word:
-    """Return the word Phi*_{beta_1}, Phi_{alpha_1}, ...; Phi* has the order of ``summands``, Phi the reverse
-    order."""
+    """Return the word Phi*_{beta_1}, Phi_{alpha_1}, ... In Phi* the flows of ``summands`` act in the given
+    order, in Phi in the reverse order."""
     word: Word = []
     for beta, alpha in both:
-        # Phi is the product of flows that ends with the first summand. Its adjoint Phi*_h = (Phi_{-h})^{-1}
-        # has the same flows in the opposite order. Where Phi and Phi* meet, both flows are of the same
-        # summand, and _joined adds their durations.
+        # In Phi the flow of the first summand acts last. The adjoint Phi*_h = (Phi_{-h})^{-1} has the same
+        # flows in the opposite order. Where Phi and Phi* meet, both flows are of the same summand, and
+        # _joined adds their durations.
         word += [(summand, beta) for summand in summands] + [
             (summand, alpha) for summand in reversed(summands)
         ]
@@ -210,7 +211,8 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
     """Yield the word with neighbouring flows of one summand joined, and without flows of duration zero."""
     joined: Word = []
     for summand, x in word:
-        # A flow of duration zero is the identity, and its neighbours can join after it is dropped.
+        # A flow of duration zero is the identity. It is dropped, and the flows before and after it may then
+        # be joined.
         if x.is_zero:
             continue
         if joined and joined[-1][0] is summand:

@@ -1,8 +1,9 @@
 """Lie elements in the values of a field at nodes: the exponents of methods for y' = A(t).y.
 
 A tableau of format ``magnus`` defines elements of the Lie algebra as combinations of brackets of h A(t + c_i
-h). A value is stored without its common power of h: the bracket of two values at nodes has the power 2, and a
-combination multiplies only the terms of higher power by h. So the powers of h cost almost nothing.
+h). A value is stored as a variable and a power of h that is not multiplied out. For example, the bracket of
+two values at nodes has the power 2. In a combination, only terms whose power exceeds the least power are
+multiplied by a power of h. So few multiplications by h are needed.
 """
 
 from __future__ import annotations
@@ -40,11 +41,12 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append target = the combination, with all powers of h."""
+        """Append target = the combination, with all powers of h multiplied out."""
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:
-        """Append a combination; by default its power of h is the least power of its terms."""
+        """Append a combination. By default, the least power of h of the terms is the power that is not
+        multiplied out."""
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
         terms = [(x, value) for x, value in terms if not x.is_zero]
         least = min((value.power for _, value in terms), default=1) if power is None else power

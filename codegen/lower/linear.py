@@ -78,7 +78,7 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, step)
 
     def _stated(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a step that the scene states as a function of matrices."""
+        """Return the program of a step that the user states in the scene, as a function of matrices."""
         if problem.carries_momentum and not problem.steps[method.step].canonical:
             raise MethodError(
                 f"the momentum u of {method.label}: its matrix need not be symplectic",
@@ -90,7 +90,8 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order; of a stated step, the order that the scene states."""
+        """Return the order. For a step that the scene states, this is the order that the scene states with
+        the step."""
         if not method.step:
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder
@@ -106,7 +107,7 @@ class LinearLowering(FieldLowering):
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """Return a step that also advances the momentum of the time, if the problem has it."""
+    """Return a step that also advances the momentum conjugate to time, if the problem has this momentum."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     if not problem.carries_momentum or time is None:
         return step

@@ -16,8 +16,8 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""Bracket programs that were already computed, by the ring and the text of the coefficients. The lowering and
-the certificate use the same bracket program."""
+"""The bracket programs already computed; a key contains the ring and the coefficients as text. The lowering
+and the certificate use the same bracket program."""
 
 
 def bracket_program(method: Method) -> BracketProgram:

@@ -81,7 +81,8 @@ class MuntheKaas(FieldLowering):
 
 @lru_cache(maxsize=256)
 def _order(lowering: MuntheKaas, method: Method) -> FamilyOrder:
-    # A report needs the order of a method many times. It does not depend on the scene.
+    # The result is cached, because a report needs the order of a method many times. The order does not depend
+    # on the scene.
     from orderconds.checking import family_order
 
     return replace(family_order(method.tableau, lowering.conditions(method)), failing=())
@@ -99,7 +100,8 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
 
 
 def extension_with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program | None:
-    """Return the program of the continuous extension of an explicit method, or None."""
+    """Return the program of the continuous extension of a method; None if the method is implicit or its
+    tableau has no extension."""
     extension, zero = method.tableau.extension, method.ring.is_zero
     A = method.runge_kutta().A
     if extension is None or any(zero(x) is not True for i, row in enumerate(A) for x in row[i:]):
@@ -127,8 +129,9 @@ def _program(
     inverse: Callable[[Builder, str, Var, Var], Var],
     extension: Extension | None = None,
 ) -> Program:
-    """Return the program with ``element`` for the map to the group; ``inverse`` appends its inverse
-    differential. With ``extension`` the outputs are the coefficients of its powers."""
+    """Return the program. ``element`` is the operation that maps the algebra to the group, and ``inverse``
+    appends the inverse differential of this map. If ``extension`` is given, the outputs are the coefficients
+    of the powers of theta in the extension."""
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -138,8 +141,8 @@ def _program(
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # The stages are a Runge-Kutta step for u' = dexp^{-1}_u f(exp(u).y0), an equation in the Lie
-            # algebra, which is a vector space.
+            # The stages are those of a Runge-Kutta step for u' = dexp^{-1}_u f(exp(u).y0), an equation in the
+            # Lie algebra, which is a vector space.
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.add(element, f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])

@@ -37,11 +37,11 @@ class SymplecticIntegrator(VariationalLowering):
 
 
 # dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)} contains the transport by exp(-Y). The term in dexp*_{-Y} and the vectors
-# dexp*_{X_j} n_j are common to all stages. Stages differ only in the factors b_j a_ji/b_i, so a sweep
-# needs s + 1 evaluations of dexp*. In a method with one stage all exponents are multiples of x = h xi and
-# commute. For such a method the identity b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b -
-# a) x} replaces the two terms that contain n by one term. The initial values of the unknowns are the
-# derivatives at the beginning of the step, which are accurate to O(h) in each stage.
+# dexp*_{X_j} n_j are common to all stages. Stages differ only in the factors b_j a_ji/b_i, so one evaluation
+# of all equations needs s + 1 evaluations of dexp*. In a method with one stage all exponents are multiples of
+# x = h xi and commute. For such a method the identity b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a)
+# dexp*_{-(b - a) x} replaces the two terms that contain n by one term. The initial values of the unknowns are
+# the derivatives at the beginning of the step, which are accurate to O(h) in each stage.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

@@ -44,8 +44,8 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # If the flow of a part is only a composition of flows of summands, it is not exact, and the summands
-        # count as parts.
+        # If a part of the Hamiltonian has several summands, the composition of their flows is not the exact
+        # flow of the part. Then the summands count as the parts.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):

@@ -74,8 +74,8 @@ class Stages:
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # The stages of explicit tableaux are put into one block, too. A lowering only states the equations;
-        # passes find the order in which the stages can be solved.
+        # The stages of explicit tableaux are put into one block, too. A lowering only states the equations.
+        # Later passes find an order in which the stages can be computed.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
         # The update comes after the block, because it reads values of the block's body at the solution.
         outputs = update()

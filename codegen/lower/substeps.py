@@ -2,8 +2,8 @@
 substeps.
 
 Suppose that the stages of a tableau fall into groups with a_ij = b_j for j in an earlier group than i, and
-a_ij = 0 for j in a later group. Then the method is the composition of the methods of the groups with steps
-gamma_k h, where gamma_k is the sum of the b_j of group k (Lemma 3.5.4 of Bogfjellmo and Marthinsen). For
+a_ij = 0 for j in a later group. Then the method is a composition: group k is a method with step size gamma_k
+h, where gamma_k is the sum of the b_j of this group (Lemma 3.5.4 of Bogfjellmo and Marthinsen). For
 Crouch-Grossman methods this follows from the products of exponentials. If all groups have the same
 coefficients after division by gamma_k, they are the same method with different step sizes, and one program is
 enough. The repeated method may be the method of several neighbouring groups together.

@@ -18,8 +18,8 @@ from codegen.scene.orbit_projection import reaches_orbit
 from codegen.scene.problem import Problem
 
 LEAST = 2
-"""The least degree for step control, which compares the last two Taylor coefficients, both of degree one or
-more."""
+"""The least degree of a Taylor polynomial with step control. Step control compares the Taylor coefficients of
+the two highest degrees, and both degrees must be at least one."""
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder

@@ -117,7 +117,7 @@ class ExpandedStep(ABC):
 
     @abstractmethod
     def starts(self) -> list[Var]:
-        """Append and return the first values of the unknowns."""
+        """Append and return the values of the unknowns with which the iteration starts."""
 
     def exponentiate(self, v: Sequence[Var]) -> None:
         """Append X_i and exp(X_i)."""

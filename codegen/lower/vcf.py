@@ -1,18 +1,19 @@
-"""Variational commutator-free methods on T*G: as variational Crouch-Grossman methods (VCG), but an exponent
-may combine several stages.
+"""Variational commutator-free methods on T*G. They generalise variational Crouch-Grossman methods (VCG): an
+exponent may combine several stages.
 
 The discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), b_i = sum_J beta_J^i, with the products of a
 commutator-free method: X_iJ = h sum_j alpha_iJ^j xi_j, E_i^J = exp(X_iJ) E_i^{J-1}, Q_i = E_i q0; Y_J = h
-sum_j beta_J^j xi_j, e^J = exp(Y_J) e^{J-1}. Relative to q0, with nu_j = Ad*_{E_j} n_j and mubar = mu0 + h
-sum_j b_j nu_j, its Hamilton equations are
+sum_j beta_J^j xi_j, e^J = exp(Y_J) e^{J-1}. Let nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j.
+Relative to q0, the Hamilton equations of the discrete Lagrangian are
 
     b_i M_i = sum_J beta_J^i dexp*_{-Y_J} Ad*_{(e^{J-1})^-1} mubar
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
 As for VCG, the exponential of each factor is merged into dexp* (dexp*_x Ad*_{exp(-x)} = dexp*_{-x}). The
-program has a separate term for each coefficient, so that passes can cancel equal terms. A stage that starts
-from another stage has the exponentials of that stage before its own; the passes find shared prefixes.
+program has a separate term for each coefficient, so that passes can cancel equal terms. If a stage starts
+from another stage, its product begins with the exponentials of that other stage. The passes compute common
+factors of products once.
 """
 
 from __future__ import annotations
@@ -113,8 +114,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
-        # The product of each stage begins at y0, even if stages have factors in common: value numbering finds
-        # equal products.
+        # The product of each stage contains all factors from the start of the step, even if stages have
+        # factors in common. Value numbering, a later pass, finds equal products.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []

@@ -73,7 +73,7 @@ class _Step(ExpandedStep):
         # on later stages only.
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # If m_i depends on later stages only, it is computed from values that are already known and is no
+            # If m_i depends on later stages only, all values in its formula are already known, and m_i is no
             # unknown. An iteration with fewer unknowns needs fewer sweeps.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
@@ -99,7 +99,8 @@ class _Step(ExpandedStep):
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Append m_i as a sum in mu0, n_j and m_j. On an abelian group some of its terms cancel."""
+        """Append m_i as a sum of terms in mu0, n_j and m_j. On an abelian group some of these terms
+        cancel."""
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
@@ -113,7 +114,8 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the starts xi, b_i mu and mu, all evaluated at the beginning of the step."""
+        """Return the start values at the beginning of the step: xi for each v_i, b_i mu for m_i, and mu for
+        Lambda."""
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         # m_i is b_i times a momentum, so its first value is b_i mu0.

@@ -2,9 +2,9 @@
 dexp^{-1}: section 3.4.1 of Marthinsen's thesis.
 
 The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h
-sum_j a_ij v_j; so no Lagrange multipliers are needed. With R*_(r)(x, v) the dual of the derivative of
-dexp_{(r),x} v with respect to x, (xi_i, n_i) = f(exp(X_i) q0, M_i), Y = h sum_j b_j v_j and Lambda =
-dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
+sum_j a_ij v_j; so no Lagrange multipliers are needed. Let R*_(r)(x, v) be the dual of the derivative of
+dexp_{(r),x} v with respect to x. With (xi_i, n_i) = f(exp(X_i) q0, M_i), Y = h sum_j b_j v_j and Lambda =
+dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j), the other equations are
 
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
@@ -52,7 +52,8 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # by stage: n_i, R*_(r) M_i, and minus the terms of dexp*_(r) M_i after the first term
+        # For each stage: n_i, then R*_(r) M_i, then all terms of dexp*_(r) M_i except the first, with the
+        # opposite sign.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -118,7 +119,7 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the starts xi and mu, evaluated at the beginning of the step."""
+        """Return the start values at the beginning of the step: xi for each v_i, and mu for each M_i."""
         xi, _ = self.build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         return [xi] * self.s + [self.mu] * self.s
 

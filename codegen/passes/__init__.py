@@ -58,10 +58,10 @@ def optimise(
 class Optimiser:
     """Runs the passes on one program and compares the result of each pass with a reference.
 
-    ``composed``, if given, is the same step as a composition of shorter steps
-    (:mod:`codegen.lower.substeps`). The whole composition is compared with ``program`` and then replaces it.
-    The passes rewrite and compare only one of its substeps. A pass that changes the meaning of the program
-    raises :class:`codegen.ir.verify.IllFormed`, which is a fault of this compiler.
+    ``composed``, if given, is the same step, written as a composition of shorter steps
+    (:mod:`codegen.lower.substeps`). The whole composition is compared with ``program`` and then replaces
+    ``program``. The passes rewrite and compare only one of its substeps. A pass that changes the meaning of
+    the program raises :class:`codegen.ir.verify.IllFormed`, which is a fault of this compiler.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:
@@ -137,7 +137,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # This pass follows the pass for zeros: terms that cancel would otherwise connect stages that are
         # independent.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # The next pass counts the readers of each map; an unused reader would keep the map inside its sum.
+        # The next pass takes a map out of a sum only if nothing else reads the map, so unused readers are
+        # removed first.
         Pass("unused values", UNUSED, dead.run),
         # This pass replaces L(x) + L(y) by L(x + y), if no other sum reads L(x) or L(y): one application of L
         # is saved. The next pass is for maps that several sums read.
@@ -156,7 +157,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
 
 
 def body_frame_passes(scene: Problem) -> list[Pass]:
-    """Return the passes that follow where the scene has a body frame, in order."""
+    """Return, in order, the passes that follow if the scene has a body frame."""
     inverse = "an adjoint map and its inverse cancel"
     one_ad = "functions of the same ad_x are combined"
     return [
@@ -166,14 +167,13 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # would otherwise replace only one of these variables.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
-        # The Legendre transform introduces inverses of maps; a map that is applied directly before its
-        # inverse is removed with it.
+        # The Legendre transform introduces inverses of maps. If a map is directly followed by its inverse,
+        # both are removed.
         Pass("inverse maps", inverse, opposites.run),
         # This pass follows the Legendre transform. Before it, the force of a stage depends on the unknown
         # momentum of the stage, and this cycle prevents tearing.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
-        # After tearing has removed an unknown, a map may be applied directly after its inverse; such pairs
-        # are removed.
+        # After tearing has removed an unknown, a map may directly follow its inverse. Such pairs are removed.
         Pass("inverse maps", inverse, opposites.run),
         Pass("unused values", UNUSED, dead.run),
         Pass("shared values", SHARED, value_numbering.run),

@@ -1,4 +1,4 @@
-"""Vanishing brackets of an abelian group, and dexp^{-1} truncated at order 0.
+"""Remove brackets on an abelian group, because they vanish, and dexp^{-1} truncated at order 0.
 
 The pass is exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity,
 and ad and the derivative P of dexp^{-1} are zero. On any group dexp^{-1} truncated at order 0 is the
@@ -13,10 +13,10 @@ from codegen.ir.values import Var
 from codegen.passes.rewrite import Rewriter, rewrite
 
 IDENTITIES = (Adjoint, InverseDexp, DualDexp)
-"""Operations that return their last argument where all brackets vanish."""
+"""Operations that return their last argument if all brackets vanish."""
 
 ZEROS = (Bracket, InverseDexpSlope)
-"""Operations that return zero where all brackets vanish."""
+"""Operations that return zero if all brackets vanish."""
 
 
 def run(program: Program, abelian: bool) -> Program:

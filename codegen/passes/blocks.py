@@ -52,7 +52,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # Two assignments depend on each other exactly if they are in one strongly connected component.
     condensed = networkx.condensation(graph)
     # Inside a component the old order of assignments remains valid: an assignment depends on later
-    # assignments only by unknowns.
+    # assignments only through unknowns.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
     # Several orders of the components may be possible. The order closest to the old program is chosen, so
     # that a small change of a program causes a small change of emitted text.
@@ -77,8 +77,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
         # The new blocks have no residuals: :mod:`codegen.passes.legendre` adds residuals after the last
         # split.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
-    # At the solution an unknown equals its image, and the image is no longer in a block if its component has
-    # no cycle.
+    # Later statements read the image in place of the unknown. At the solution both are equal, and the image
+    # is also defined if its component has no cycle and is no block.
     names.update(image)
     return result
 

@@ -1,5 +1,5 @@
-"""The body frame: all values are expressed in the body frame at the start of the step, and the field is
-evaluated in the body frame of the stage.
+"""The body frame: all values are written in the body frame at the start of the step. The field is evaluated
+in the body frame of each stage.
 
 The pass is exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the
 algebra to Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a
@@ -47,7 +47,8 @@ EQUIVARIANT = (
     Multiply,
     Identity,
 )
-"""Operations that commute with the adjoint action; group arguments are products of exponentials."""
+"""Operations that commute with the adjoint action of q. Group elements among their arguments are products of
+exponentials, not positions Q."""
 
 
 class NotFramed(Exception):
@@ -157,7 +158,7 @@ class _Framing:
         self.build.body.append(assign)
 
     def _field(self, assign: Assign) -> None:
-        """Append xi = Ad_E W and n = Ad*_{E^-1} N, evaluated at Q and Ad*_E M."""
+        """Append xi = Ad_E W(Q, P) and n = Ad*_{E^-1} N(Q, P) with P = Ad*_E M."""
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])

@@ -49,7 +49,7 @@ def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}
     for unknown, start, image in zip(block.unknowns, block.starts, block.images, strict=True):
-        # An image that is itself an unknown is skipped: :mod:`codegen.passes.blocks` follows such chains.
+        # An image that is itself an unknown merges nothing: :mod:`codegen.passes.blocks` follows such chains.
 
         if image in block.unknowns or first.setdefault(image, unknown) == unknown:
             pairs.append((unknown, start, image))

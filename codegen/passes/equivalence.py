@@ -20,7 +20,7 @@ STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 """Step sizes to try, the largest first, because a wrong rewriting has the largest effect in a long step.
 
 Other decreasing powers of two would be suitable, too. If the first step would move the state too far, all
-steps are shortened by one factor."""
+steps are shortened by the same factor."""
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
 """If a step in doubles overflows or does not converge, steps of size 2^-k, for k in TINY_STEPS, are computed
@@ -45,8 +45,8 @@ If each sweep divides the error by four, 24 sweeps divide it by 2^48, so that on
 slower blocks the next, shorter step is tried."""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""The largest number of sweeps, and the number of digits, with which a step is repeated if results in doubles
-differ."""
+"""If the results of two programs in doubles differ, the step is repeated with FEW_DIGITS digits and at most
+MORE_SWEEPS sweeps."""
 
 NOT_A_NUMBER = "differs by nan"
 """The end of the message for a result that is not finite. Such a step is too long for a comparison."""
@@ -67,8 +67,8 @@ from rounding the coefficients of ball tableaux.
 """
 
 AGREE = 2.0**-36
-"""Results count as equal up to this relative difference, which is far above rounding and the tolerance of a
-block.
+"""Results count as equal up to this relative difference, which is far above rounding errors and the tolerance
+to which blocks are solved.
 
 In 170 comparisons of eight methods on scenes of the gallery the passes changed results by at most 2^-51. A
 coefficient that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
@@ -92,8 +92,8 @@ class _Step:
 
 
 class _Bounded(PreciseDomain):
-    """Arithmetic with many digits, in which an iteration that diverges raises an error before its limit of
-    sweeps."""
+    """Arithmetic with many digits; an iteration that diverges raises an error before the limit of sweeps is
+    reached."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function; raise OverflowError for an argument so large that few digits of the
@@ -135,8 +135,8 @@ class Reference:
     Two points are used: the initial state, which may be special (an equilibrium, a symmetric position), and a
     nearby point without symmetry. The step is the longest step that moves the state by at most :data:`REACH`
     along the field, and for which the results are finite and the blocks converge. The iterations of the
-    compared program start from the solutions of the reference. If its equations have other solutions, the
-    iterations leave these starts, and the results differ.
+    compared program start from the solutions of the reference. If the equations of the compared program have
+    other solutions, its iterations leave these starts, and the results differ.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -166,7 +166,8 @@ class Reference:
         # state.
         if not math.isfinite(speed):
             return
-        # 2**excess is the least power of two above the ratio.
+        # 2**excess is the least power of two above speed * STEPS[0] / REACH, the factor by which the longest
+        # step is too long.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
         last = math.inf
         for moderate in STEPS:
@@ -238,8 +239,8 @@ class Reference:
         """Compare results after the longest step for which both programs have a finite result."""
         failure = ""
         for step in point.results():
-            # The iterations of the compared program may converge only for shorter steps, and its sums may
-            # overflow in longer steps. In both cases the next shorter step is tried.
+            # In a long step, the iterations of the compared program may fail to converge, or its sums may
+            # overflow. In both cases the next shorter step is tried.
             try:
                 after = self._run(program, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
             except FAILURES as error:
@@ -284,8 +285,8 @@ class Reference:
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-            # Comparisons with NaN are false, so by the negated condition a gap that is NaN counts as a
-            # difference.
+            # A comparison with NaN is false. The condition is written with ``not``, so that a gap that is NaN
+            # counts as a difference.
             if not gap <= agree * scale:
                 return f"{name} differs by {float(gap / (scale if step.tiny else 1)):.3g}"
         return ""

@@ -38,8 +38,8 @@ def run(program: Program, scene: Problem) -> Program:
     letters = word(program)
     if letters is None:
         return program
-    # The test for commuting flows samples the scene, which takes time. It is built only for compositions of
-    # flows.
+    # The test for commuting flows samples the scene, which takes time, so the test is built only for
+    # compositions of flows.
     commute = commuting(scene)
     kept: list[Letter] = []
     # Each flow is joined to an earlier flow of the same part if it commutes with all flows between them.

@@ -2,8 +2,8 @@
 
 The pass is exact. In a sum, terms with coefficient zero are removed, and coefficients of the same value are
 added. A sum that is a single value with coefficient one becomes that value. The exponential of zero is the
-identity. A product or action of the identity is the other factor. A linear operation on zero gives zero, and
-dexp at zero is the identity map.
+identity. An identity factor is removed from a product or an action. A linear operation on zero gives zero,
+and dexp at zero is the identity map.
 """
 
 from __future__ import annotations

@@ -33,7 +33,8 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def rows(program: Program, scene: Problem) -> Program:
-    """Return the program in which q exp(x) is formed row by row, if the body's field reads a single row of q.
+    """Return the program with an operation that forms q exp(x) row by row, if the body's field reads a single
+    row of q.
 
     Then only this row of the product is computed, and exp(x) is not formed.
     """
@@ -104,8 +105,8 @@ Part = tuple[Var, Word, Var]
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
     """Return (s, (y, W, v)) if var is defined as W(ad_y) v and x = s y; None otherwise."""
     source = rewriter.definitions.get(var)
-    # A function of ad with a second reader is not joined with one reader, because it would then be computed
-    # twice.
+    # If a function of ad has several readers, it is not joined with one of them, because it would then be
+    # computed twice.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])
@@ -115,7 +116,7 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Append a function of ad_x applied to each term of a sum of such functions."""
+    """Append the result of a function of ad_x applied to a sum of such functions, computed term by term."""
     terms = []
     for scale, (y, inner, v) in parts:
         joined = simplified((*inner, *(f.scaled(scale) for f in word)))

@@ -16,8 +16,8 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that contain a value: for each sum its index, and a ratio of two coefficients of the value, in
-this sum and in the first sum."""
+"""The sums that contain a value. For each sum: its index, and the coefficient of the value in this sum
+divided by the coefficient of the value in the first sum."""
 
 
 def run(program: Program) -> Program:
@@ -54,7 +54,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
         # If the term is a single multiple, its number is multiplied into the coefficient at no cost. A sum
-        # with several readers is not expanded: each reader would repeat its products.
+        # with several readers is not expanded, because each reader would repeat the multiplications of the
+        # sum.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]

@@ -1,11 +1,13 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
-The pass is exact. If an unknown v equals W(Q, P) up to invertible linear maps, then P = W^{-1}(Q, v) at the
-solution. The equations of the block define a momentum M, and further maps compute P from M. All other
-operations that read W, P, or a value between v and M now read values that are computed from v. A force thus
-no longer depends on an unknown momentum, and tearing removes the force from the unknowns. One equation
-remains for each v: the momentum computed from v equals the momentum M. :func:`residuals` adds this equation
-to the block. Statements after the block read the velocity from the unknown.
+The pass is exact. W(Q, P) is the velocity of a stage, as a function of its position Q and momentum P. Suppose
+that an unknown v equals W(Q, P) up to invertible linear maps. The inverse maps then give w = W(Q, P) from v,
+and at the solution P = W^{-1}(Q, w). The equations of the block define a momentum M, and further maps compute
+P from M. All other operations that read W, P, or a value between v and M now read values that are computed
+from v. A force thus no longer depends on an unknown momentum, and tearing removes the force from the
+unknowns. One equation remains for each v: the momentum computed from v equals the momentum M.
+:func:`residuals` adds this equation to the block. Statements after the block read the velocity from the
+unknown.
 """
 
 from __future__ import annotations
@@ -97,14 +99,15 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # P is computed by invertible maps from a momentum that the equations solve for. The second search starts
-    # at P and returns these maps.
+    # The equations define a momentum, from which invertible maps compute P. The second search starts at P and
+    # returns these maps.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the chain of invertible linear maps that ends in var, in order, and the assignment before it."""
+    """Return the chain of invertible linear maps that ends in var, in order, and the assignment before the
+    chain."""
     maps: list[Assign] = []
     while True:
         source = maker.get(var)
@@ -121,12 +124,12 @@ def _invertible(assign: Assign) -> bool:
 
 
 def _undone(build: Builder, assign: Assign, value: Var) -> Var:
-    """Append the inverse of an invertible map, applied to its value."""
+    """Append the inverse of the map that an assignment applies; the argument of the inverse is ``value``."""
     operation = assign.operation
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
     if isinstance(operation, InverseDexp | AdSeries):
-        # The reciprocal of a function of ad is a function of ad, for which the group has a closed form.
+        # The reciprocal of a function of ad is a function of ad, too, and the group has a closed form for it.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
     # The coefficient is not zero and can be inverted, because an earlier pass has removed all terms with
@@ -136,7 +139,8 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append the values on a path, computed from its unknown; return their new variables, and the base."""
+    """Append all values on a path, computed from the unknown of the path. Return a dictionary from old to new
+    variables of these values, and the new variable of the base."""
     replaced: dict[Var, Var] = {}
     value = route.unknown
     replaced[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
@@ -160,8 +164,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     # The two momenta may be compared at any place of the path: the maps of the path are invertible, so the
     # residuals have the same zeros.
     given = route.base
-    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is such a sum and costs no more, and
-    # the base need not be computed.
+    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is such a sum. Computing P costs no
+    # more than computing the base, which is then not needed.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -192,7 +196,7 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     replaced, _ = _values(build, route)
     fresh = build.take()
     # The base is a sum of many terms of other stages. The other statements need no base computed from the
-    # unknown, so it is not replaced.
+    # unknown, so the base is not replaced.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # Statements of the path itself are not changed: they are the equation that remains to be solved.

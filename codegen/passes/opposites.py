@@ -1,4 +1,5 @@
-"""Adjoint operations that cancel their inverses, and exponentials that act on multiples of their exponent.
+"""Remove pairs of an adjoint operation and its inverse, and exponentials that act on multiples of their
+exponents.
 
 The pass is exact. For example, Ad*_g Ad*_{g^-1} mu = mu, and Ad_{exp x} y = y if x and y are multiples of one
 value.

@@ -4,7 +4,7 @@ The pass is exact. The sum equals A + ad_x (B + ad_x C) with A = sum f_k v_k, B 
 f_k c_k v_k, for any number of terms. Without nesting, each term needs two brackets. For example, the momentum
 in equation (3.19) of Marthinsen's thesis is such a sum: functions of one ad_x are applied to the old momentum
 and to the force. A group with closed forms computes the sum by ``series_sum``. If the v_k are sums
-themselves, A, B and C are expanded into the terms of the v_k. They can then be computed before the v_k.
+themselves, A, B and C are expanded into the terms of the v_k. Then A, B and C can be computed before the v_k.
 """
 
 from __future__ import annotations
@@ -95,8 +95,8 @@ class SeriesSums:
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of one sum; all functions are written as functions of ad_x for the x of the last
-        term."""
+        """Return the value of one sum; all functions are written as functions of ad_x, where x belongs to the
+        last term."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:
@@ -125,13 +125,13 @@ class SeriesSums:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
         flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
-        # Each additional term would cost a product, so the sum is expanded only if it gets no longer.
+        # Each additional term would cost a product, so the sum is expanded only if this adds no terms.
         return flat if 0 < len(flat) <= len(terms) else terms
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return a coefficient as plus or minus a number, so that products with the coefficient and with its
-    negative are shared."""
+    """Return the value of a coefficient. For a negative rational number it is minus the value of a positive
+    number, so that products with the coefficient and with its negative are shared."""
     # A negative number is written as minus a positive number, so c x and (-c) x share one product. The minus
     # sign only changes an addition into a subtraction, which costs nothing.
     if c.value.is_rational and c.value.fraction() < 0:

@@ -19,8 +19,8 @@ Key = tuple[Operation, tuple[Var, ...]]
 """A linear map: the operation and its first arguments."""
 
 Share = tuple[tuple[Var, Coefficient], ...]
-"""A combination of values of one map. It is scaled: among the terms with the lowest power of h, the first has
-coefficient one."""
+"""A linear combination of values of one map. It is scaled so that, among the terms with the lowest power of
+h, the first has coefficient one."""
 
 
 def run(program: Program) -> Program:
@@ -34,7 +34,7 @@ def run(program: Program) -> Program:
         values: dict[Share, Var] = {}
 
         def rule(
-            # The sets are default arguments, which are bound now. A closure would read the sets of a later
+            # Default arguments are bound now, in this round. A closure would read the variables of a later
             # round.
             rewriter: Rewriter,
             assign: Assign,
@@ -84,8 +84,8 @@ def _worthwhile(program: Program) -> set[Share]:
                 shares.setdefault((first.operation, first.args[:-1]), {})[share] = None
         for combinations in shares.values():
             values = {v for share in combinations for v, _ in share}
-            # L is applied once for each combination and no longer once for each value, which is less if there
-            # are fewer combinations.
+            # L is then applied once for each combination and not once for each value. This saves work if
+            # there are fewer combinations than values.
             if len(combinations) < len(values):
                 worthwhile |= {share for share in combinations if len(share) > 1}
     return worthwhile

@@ -1,7 +1,7 @@
 """Expressions as infix text with few parentheses; the text has the same roundings as the expression tree.
 
-Expressions are rewritten only if this changes no bit in IEEE arithmetic: a + (-b) becomes a - b, operands of
-sums and products may be exchanged, and the sign of a factor becomes the sign of the product. Sums and
+Expressions are rewritten only if this changes no bit in IEEE arithmetic. Thus a + (-b) becomes a - b, and the
+sign of a factor becomes the sign of the product. Operands of sums and products may be exchanged. Sums and
 products are never regrouped.
 """
 
@@ -60,8 +60,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
     ``names`` maps symbols to identifiers of the target; other symbols keep their names.
     Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
-    # The text of each node is formed once, although several nodes may contain it, and without recursion,
-    # because expressions may be nested more deeply than Python's recursion limit allows.
+    # The text of each node is formed once, although several nodes may contain this node. There is no
+    # recursion, because expressions may be nested more deeply than Python's recursion limit allows.
     rendered: dict[int, Rendering] = {}
     for node in walk([root]):
         args = [rendered[a.id] for a in node.args]

@@ -26,16 +26,17 @@ RUN = ("integrated", "controlled", "events", "dense")
 class Interface:
     """The calling convention of one module.
 
-    ``prefix`` starts every external C name and ends in an underscore; ``size`` is the number of numbers in a
-    state; ``time`` is true if the step reads t; ``parameters`` are the run-time parameters in order;
-    ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
-    of all numbers (:mod:`codegen.ir.precision`); ``inputs`` are the run-time functions of time, in order;
-    ``adaptive`` is true if there is a run with step control; ``solvers`` are the methods that solve the
-    blocks. ``variations`` is the size of the Jacobian, 0 without one. ``batch`` is true if there is a
-    function for many independent systems. ``integrated`` is true if there is a run to a given end time,
-    ``controlled`` if step control chooses the steps of this run. ``events`` is the number of its event
-    functions. ``dense`` is the order of its continuous extension, 0 without one. ``dimension`` is the
-    dimension of the lattice, 0 for a single system, and ``workspace`` the numbers of workspace for each site.
+    ``prefix`` starts every external C name and ends in an underscore. A state consists of ``size`` numbers.
+    ``time`` is true if the step reads t. ``parameters`` are the run-time parameters in order. ``blocks`` are
+    the labels of the implicit blocks, whose sweeps the statistics count. ``precision`` names the format of
+    all numbers (:mod:`codegen.ir.precision`). ``inputs`` are the run-time functions of time, in order.
+    ``adaptive`` is true if there is a run with step control. ``solvers`` are the methods that solve the
+    blocks. ``variations`` is the size of the Jacobian; it is 0 if there is no Jacobian. ``batch`` is true if
+    there is a function for many independent systems. ``integrated`` is true if there is a run to a given end
+    time, ``controlled`` if step control chooses the steps of this run. ``events`` is the number of event
+    functions of this run. ``dense`` is the order of the continuous extension, or 0 if there is none.
+    ``dimension`` is the dimension of the lattice, or 0 for a single system. ``workspace`` is the length of
+    the workspace for each site, in numbers.
     """
 
     prefix: str
@@ -103,7 +104,8 @@ class Interface:
         """Return plain data for the manifest; :meth:`from_json` reads it back."""
         # Tuples become lists, so that the data equal the data read from a JSON file.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
-        # Manifests of modules without this run, or without a lattice, do not mention it.
+        # The manifest of a module without a run to a given end time omits the fields RUN, and the manifest of
+        # a module for a single system omits the fields LATTICE.
         hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
         return {k: x for k, x in data.items() if k not in hidden}
 
@@ -115,6 +117,6 @@ class Interface:
 
 
 def _order_of_extension(kernel: Kernel) -> int:
-    """Return the order of the continuous extension of a kernel, 0 without one."""
+    """Return the order of the continuous extension of a kernel; 0 if the kernel has no such extension."""
     extension = None if kernel.observed is None else kernel.observed.extension
     return 0 if extension is None else extension.order

@@ -31,7 +31,7 @@ class Recipe:
 
 
 LONGEST_STATE = 64
-"""A longer initial state is not printed in full in the usage example."""
+"""An initial state with more than this many numbers is not printed in full in the usage example."""
 
 MOST_ENTRIES = 16
 """The largest number of entries of a long state that the example sets."""
@@ -42,8 +42,8 @@ IN_MANIFEST = "set the state: the manifest contains the initial state of the sce
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
-    """Return the places and values of the entries of a long initial state that are not zero; None for a short
-    state, which the example contains in full.
+    """Return the indices and values of the entries of a long initial state that are not zero. The result is
+    None for a short state, which the example contains in full.
 
     If there are more than :data:`MOST_ENTRIES` entries, the result is empty: the manifest contains the state.
 

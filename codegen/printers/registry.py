@@ -29,7 +29,7 @@ _registered: dict[str, Target] = {}
 def register(new: Target) -> Target:
     """Add a target for all commands and measurements, and return it.
 
-    InputError if another target has this name.
+    InputError is raised if another target has this name.
     """
     known = {each.name: each for each in targets()}
     if known.get(new.name, new) != new:

@@ -70,7 +70,8 @@ class Target:
 
     @property
     def load_lattice(self) -> LoadLattice:
-        """The function that loads the files of a module for a lattice; ValueError without a loader."""
+        """The function that loads the files of a module for a lattice; ValueError if ``lattice_loader`` is
+        empty."""
         return cast("LoadLattice", resolve_name(self.lattice_loader))
 
     @property
@@ -80,7 +81,7 @@ class Target:
 
     @property
     def solutions(self) -> Solutions:
-        """The function that returns the solved unknowns of a step; ValueError without ``observer``."""
+        """The function that returns the solved unknowns of a step; ValueError if ``observer`` is empty."""
         return cast("Solutions", resolve_name(self.observer))
 
     def step_file(self, module: str) -> str:

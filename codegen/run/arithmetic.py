@@ -95,7 +95,8 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
 
 
 def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
-    """Return a function that evaluates a kernel on the state and fills an array with its outputs."""
+    """Return a function that evaluates a kernel on the state and writes the outputs of the kernel to an
+    array."""
     arrangement = plan.arrangement
     state = plan.state()
     body = loaded(plan.symbols, state, arrangement.symbols())

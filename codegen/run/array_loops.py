@@ -39,7 +39,8 @@ _ENTRY = real("entry")
 
 Index = Term | int
 Group = Callable[[Term | None, int], Iterator[Statement]]
-"""A function of the first column of a group (None: column 0) and the number of columns."""
+"""A function that yields the statements for a group of columns. Its arguments are the first column of the
+group (None for column 0) and the number of columns."""
 
 
 @dataclass(frozen=True)
@@ -144,14 +145,14 @@ class ArrayLoops:
             yield self.over(part, more, flat=False)
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
-        """Return the sum of terms at one place."""
+        """Return one entry of the sum of terms."""
         result: Term | None = None
         for term in terms:
             result = _plus(result, term, weights[id(term)], self.summand(term, place))
         return number(0.0) if result is None else result
 
     def summand(self, term: Summand, place: _Place) -> Term:
-        """Return an entry of the matrix of a term."""
+        """Return the entry of a term's matrix, or of its transpose if the term is transposed, at a place."""
         turned = _Place(place.column, place.row) if term.transposed and place.column is not None else place
         return self.at(term.matrix, turned)
 
@@ -171,7 +172,8 @@ class ArrayLoops:
         return For(_ROW, whole(target.rows), (inner,))
 
     def weight(self, name: str, c: Expr) -> tuple[Term | None, list[Statement]]:
-        """Return a coefficient, None for 1 and -1, and the statements that compute it."""
+        """Return a coefficient as a term, and the statements that compute it. For 1 and -1 the term is
+        None."""
         if _sign(c):
             return None, []
         if c.op in ("const", "sym"):
@@ -196,7 +198,9 @@ class ArrayLoops:
             yield For(_ROW, whole(c.length(diagonal)), body)
 
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
-        """Return the function that sets or changes columns of a row of the target."""
+        """Return a function that writes a group of entries in row ``row`` of the target. The new entries are
+        those in row ``column`` of the matrix, times one entry of the constant matrix. If ``added`` is true,
+        they are added to the old entries."""
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
             for place in (_shifted(first, b) for b in range(columns)):
@@ -245,7 +249,8 @@ class ArrayLoops:
 
 @dataclass(frozen=True)
 class _Place:
-    """A row and a column; without a column, ``row`` is the place in the array."""
+    """The position of an entry: a row and a column. If ``column`` is None, ``row`` is the number of the
+    entry, counted row by row."""
 
     row: Term
     column: Term | None
@@ -254,9 +259,11 @@ class _Place:
 def constant_entry(
     given: Entry, table: str, row: Term, column: Term, place: Term
 ) -> tuple[list[Statement], Term]:
-    """Return an entry of a constant matrix, and the statements that compute its indices as numbers.
+    """Return statements and an entry of a constant matrix. If the entry is a formula in its row or column,
+    the statements convert these indices to reals.
 
-    ``table`` is the name of the table if the entries are numbers, ``place`` the index in it.
+    If the entries are numbers and not formulas, ``table`` is the name of their table, and ``place`` is the
+    index in this table.
     """
     if isinstance(given, tuple):
         return [], real(table, len(given))[place]
@@ -319,7 +326,7 @@ def _shifted(first: Term | None, column: int) -> Index:
 
 
 def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
-    """Return row and column of an entry of a diagonal."""
+    """Return the row and the column of entry number ``place`` of a diagonal."""
     offset = diagonal.offset
     if not offset:
         return place, place

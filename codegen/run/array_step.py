@@ -1,4 +1,4 @@
-"""A step by loops over arrays (:mod:`codegen.ir.array_step`) as functions of a unit."""
+"""The emitted functions of a step that is computed by loops over arrays (:mod:`codegen.ir.array_step`)."""
 
 from __future__ import annotations
 
@@ -53,7 +53,8 @@ RECIPROCALS = "reciprocal"
 """The name of the table of 1/(j + 2)."""
 
 MOST_PARTS = 2**20
-"""The largest number of parts of an exponential: each part has an exponent of norm at most 1."""
+"""The largest number of equal factors into which an exponential is split. Their number is doubled until the
+exponent of each factor has a norm of at most 1."""
 
 _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 
@@ -73,7 +74,8 @@ def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function of a move; its arrays have fixed sizes."""
+    """Return the name of the function for a move. The name contains the sizes of the arrays, because a
+    function works on arrays of fixed sizes only."""
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
 
@@ -119,8 +121,8 @@ def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
-        # The statements contain parts of the basis and of the Gram matrix: the last entry of the largest
-        # part determines the size.
+        # A statement may use only a block of the basis or of the Gram matrix. The size of an array follows
+        # from the last entry of its largest block.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -143,7 +145,12 @@ class _Exponential:
     precision: Precision
 
     def function(self) -> Function:
-        """Return the function: target = D + S phi(G S) (G C), in parts if the norm exceeds 1."""
+        """Return the function that computes D + S phi(G S) G C, in the notation of
+        :mod:`codegen.ir.array_step`.
+
+        If the norm of the exponent exceeds 1, the exponential is split into equal factors, which are applied
+        one after another.
+        """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
         core, gram = Matrix("core", m, m), Matrix("gram", move.gram.rows, move.gram.columns)
@@ -174,7 +181,9 @@ class _Exponential:
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
-        # Each product occurs twice in the trace. The sums of different rows do not depend on each other.
+        # Each product of entries off the diagonal occurs twice in the trace, so only the part below the
+        # diagonal is summed. Each row has its own sum, so that the sums of different rows do not depend on
+        # each other.
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
@@ -197,7 +206,7 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that compute the number of terms of phi after the first."""
+        """Yield the statements that compute how many terms of the series of phi follow the first term."""
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
@@ -210,13 +219,14 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set the result to the displacement of the given point."""
+        """Yield the statements that set the result to the displacement of the start point, or to zero if no
+        start is given."""
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))
 
     def advanced(self, scale: Term) -> Iterator[Statement]:
-        """Yield the statements that apply one part of the exponential."""
+        """Yield the statements that apply one factor of the exponential."""
         m, k, loops = self.core.rows, self.target.columns, self.loops
         total, term, following = (loops.array(x) for x in (self.total, self.term, self.next))
         terms, order, factor = count("terms"), count("order"), real("ratio")
@@ -228,7 +238,7 @@ class _Exponential:
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # The displacement before the first part is zero if no start is given.
+        # If no start is given, the displacement before the first factor is zero.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (

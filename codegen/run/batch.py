@@ -5,10 +5,11 @@ arrays are structures of arrays: component k of lane i is ``state[k stride + i]`
 have the same layout.
 
 An explicit kernel is evaluated for many lanes by one loop without branches, which compilers turn into vector
-instructions. Assignments that read only t and h are before the loop. The loop evaluates sines and Stumpff
-functions near zero only; elsewhere they return NaN. A lane whose new state is not finite is left unchanged by
-the loop, and the scalar step is called for it. The scalar step knows all arguments, and finds the status if
-the step fails. Where the loop succeeds, it has the same roundings as the scalar step.
+instructions. Assignments that read only t and h are before the loop. In the loop, sines, cosines and Stumpff
+functions are computed only for arguments near zero; for other arguments they return NaN. A lane whose new
+state is not finite is left unchanged by the loop, and the scalar step is called for it. The scalar step
+accepts all arguments, and finds the status if the step fails. Where the loop succeeds, it has the same
+roundings as the scalar step.
 
 Kernels with equations, and kernels that call other functions, run lane after lane. An explicit step with
 outlined functions is translated again without them (:func:`codegen.emitter.with_batch`).
@@ -68,7 +69,7 @@ BLOCK = 128
 cache."""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
-"""Functions that have a form without branches, besides the Stumpff functions."""
+"""The functions, besides the Stumpff functions, that can be computed without branches."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
 _LANE, _DONE, _ENDED = count("lane"), count("step"), count("ended", 1)
@@ -90,7 +91,7 @@ def functions(plan: Plan) -> list[Function]:
 
 
 def obstacle(plan: Plan) -> str:
-    """Return the reason why lanes run one after another; '' if one loop steps many lanes."""
+    """Return the reason why lanes run one after another; '' if one loop advances many lanes together."""
     kernel = plan.kernel
     if kernel.loops:
         return "equations are solved"
@@ -120,7 +121,7 @@ def _statements(plan: Plan) -> list[Statement]:
 
 
 def near(name: str) -> str:
-    """Return the name of the form of a function without branches.
+    """Return the name of the variant of a function that is computed without branches.
 
     >>> near("sin"), near("stumpff_12"), near("sqrt")
     ('sin_near', 'stumpff_12_near', 'sqrt')
@@ -129,7 +130,8 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of the form that has the same roundings as :func:`near`, for all arguments.
+    """Return the name of the variant that accepts all arguments. It has the same roundings as the variant
+    :func:`near` where both are valid.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')

@@ -40,8 +40,8 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Array(same),
         Assign(same, state),
         *memory,
-        # The step size zero is written as a product, because compilers make a copy of a large function for a
-        # constant argument.
+        # The step size zero is written as a product, because compilers would compile a second copy of a large
+        # function for a constant argument.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )
@@ -50,7 +50,7 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
-    """Return the arguments of a step after its size, without statistics or an error estimate."""
+    """Return the arguments of a step that follow its size. Statistics and the error estimate are absent."""
     # The counters of the caller are omitted, because they count only the steps of the integration, and this
     # step is a test.
     counted = tuple(absent(x) for x in plan.counted)
@@ -59,8 +59,8 @@ def step_arguments(plan: Plan) -> tuple[Term, ...]:
 
 
 def searched(plan: Plan, state: Term, t: Term = TIME, h: Term = STEP) -> list[Statement]:
-    """Return the statement that replaces the status NOT_FINITE by the cause; no statement if the unit does
-    not have the function.
+    """Return the statement that replaces the status NOT_FINITE by the cause; no statement if the unit has no
+    function that finds the cause.
 
     ``state`` is the state before the failed step, which begins at the time ``t`` and
     has the size ``h``.

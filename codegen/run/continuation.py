@@ -55,13 +55,14 @@ def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statem
     if plan.start is None:
         return []
     # A diverging iteration may overflow before it reaches its limit of sweeps, and a singular matrix may be
-    # regular at another initial guess, so the step is repeated after every failure of its equations.
+    # regular at another initial guess. Therefore the step is repeated after every failure of its equations.
     failed = both(STATUS.differs(code(OK)), STATUS.differs(code(BAD_STEP)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
 
 def continued(plan: Plan, core: str) -> Function:
-    """Return the function that continues a step, or substep, for which ``core`` fails."""
+    """Return the function that computes, by continuation in h, a step or substep for which the function
+    ``core`` fails."""
     return _Continuation(plan, core).function()
 
 
@@ -103,8 +104,8 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # STATUS is the status of the last attempt. If the loop ends at the limit of tries, this failure
-            # is returned.
+            # ``failure`` is returned if the loop ends without success. After each failed attempt it is set to
+            # the status of this attempt.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),

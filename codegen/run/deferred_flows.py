@@ -1,5 +1,7 @@
-"""Runs of a splitting that defer flows: the last flow of a step and the first flow of the next step are
-computed as one flow, and flows that commute with all other flows are applied once for many steps.
+"""Runs of a splitting method that defer flows to later steps.
+
+The last flow of a step and the first flow of the next step are computed as one flow. Flows that commute with
+all other flows are applied once for many steps.
 
 Both changes are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only
 after the deferred flows have been applied. They are applied before a state is written to the trajectory,
@@ -54,8 +56,8 @@ from codegen.run.terms import (
 from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
-"""The names of the functions for the leading flow, for the flows that commute with all other flows, and for
-one step with all its flows."""
+"""The names of three functions: for the first flow of a sequence of steps, for the flows that commute with
+all other flows, and for one step with all its flows."""
 
 LATE = count("late")
 """The number of steps since the deferred flows were last applied."""

@@ -51,7 +51,7 @@ from codegen.run.writes import written
 Environment = dict[str, Any]
 Value = Callable[[Environment], Any]
 Action = Callable[[Environment], bool]
-"""An action executes a statement and returns whether the function has returned."""
+"""An action executes a statement. Its result is True if a Return was executed and the function ended."""
 
 RESULT = "result of the function"
 """The key of a function's result in its environment; it contains spaces, so no identifier equals it."""
@@ -75,9 +75,9 @@ _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
 class Machine:
     """A unit that is ready to be executed over a domain.
 
-    An array is a list, an array of rows a list of lists, and a cell a list of one entry. :meth:`record`
-    returns records. Absent arguments are None. The signal of run-time inputs is a function from the time to a
-    sequence.
+    Arrays are lists, arrays of rows are lists of lists, and cells, which return a value through an argument,
+    are lists of one entry. :meth:`record` returns records. Absent arguments are None. The signal of run-time
+    inputs is a function from the time to a sequence.
     """
 
     def __init__(self, unit: Unit, domain: Domain) -> None:
@@ -248,7 +248,7 @@ class _Compiler:
         return run
 
     def assign(self, target: Term, value: Term) -> Action:
-        """Return the action that changes a name, an entry, a part, a field or a record."""
+        """Return the action that assigns to a variable, an entry, a part, a field or a record."""
         if value.op == "fresh":
             # The record is cleared in place, because other functions hold the same record.
             record, machine = self.term(target), self.machine
@@ -455,7 +455,7 @@ def _power(x: Any, exponent: Any) -> Any:
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a library function, with a sequence of results; None if the name is a function of the unit."""
+    """Return a library function whose result is a sequence; None if the name is a function of the unit."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:

@@ -1,4 +1,4 @@
-"""The action of the matrix exponential on a vector as a function of a unit.
+"""The emitted function that computes the product of a matrix exponential and a vector.
 
 The statements compute exactly what :mod:`codegen.ir.exponential_action` computes in doubles.
 """

@@ -1,8 +1,9 @@
-"""Arithmetic in doubles as in emitted code: Stumpff functions by the same polynomials and closed forms.
+"""Arithmetic in doubles as in emitted code: Stumpff functions are computed by the same polynomials and closed
+forms.
 
 The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last
-place. Near the end of an iteration, this may cost or save a sweep. To count the sweeps of emitted code
-exactly, the executor therefore uses the functions of this module.
+place. Near the end of an iteration, this may lead to one sweep more or less. To count the sweeps of emitted
+code exactly, the executor therefore uses the functions of this module.
 """
 
 from __future__ import annotations
@@ -126,7 +127,8 @@ def _terms(k: int, name: str) -> tuple[float, ...]:
 
 
 def _short(k: int, z: float, name: str) -> float:
-    """Return a short polynomial: pairs of terms, added from left to right."""
+    """Return the value of a short polynomial: its terms are added in pairs, and the pairs from left to
+    right."""
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
     # Terms are grouped in pairs as in the template ``stumpff_small``, because the grouping determines the

@@ -40,7 +40,8 @@ def plain_names(function: Function) -> frozenset[str]:
 
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
-    """Return the identifiers in each function, by its name; ``reserved`` words are excluded."""
+    """Return the identifiers of each function, with the function's name as key. No identifier is a
+    ``reserved`` word."""
     # Names of functions and tables are global in every target: a local variable must not hide them.
     outside = frozenset(reserved) | {f.name for f in unit.functions} | {t.name.text for t in unit.tables}
     return {
@@ -50,8 +51,8 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # Arguments get their identifiers first, because they have the same identifiers in every function,
-    # whatever other names the function has.
+    # Arguments get their identifiers first, so that these identifiers are the same in every function and do
+    # not depend on its other names.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     for statement in statements(function.body):

@@ -1,8 +1,8 @@
 """A run to a given end time: output at given times, events, and bounds on the size and number of steps.
 
-Steps have constant size, of which the last one may be shorter, or step control chooses them. A run that ends
-early, at its limit of steps, at an event, or after a failure, returns the last good state, its time and the
-next step size. The caller may call the function again with these values.
+Either step control chooses the step sizes, or the steps have a constant size, and only the last step may be
+shorter. A run may end early: at its limit of steps, at an event, or after a failure. It then returns the last
+good state, its time and the next step size. The caller may call the function again with these values.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ INTEGRATE = "integrate"
 """The name of the public function."""
 
 NEARLY = 1e-9
-"""If the rest of the interval is longer than a step by at most this fraction, one step covers it. Otherwise a
-quotient that is no integer because of rounding would cause a tiny step."""
+"""If the rest of the interval is longer than a step by at most this fraction, one step covers it. Without
+this tolerance, rounding errors in the times could leave a tiny last step."""
 
 LEAST, GREATEST = real("least"), real("greatest")
 
@@ -57,7 +57,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _checked(observation: Observation) -> tuple[Statement, ...]:
-    """Return the test that the buffer of events has enough room for the events of one time."""
+    """Return the statement that sets the status BAD_EVENT if the buffer is too short for one event of each
+    event function."""
     if not observation.events:
         return ()
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
@@ -107,9 +108,10 @@ class _Constant:
 
     @property
     def own_step(self) -> bool:
-        """True if the run calls the function of a step itself, with a memory of earlier steps."""
+        """True if the run calls the function of a step directly and passes it a memory of earlier steps."""
         plan = self.plan
-        # In the other cases ``run`` contains conversions or the kernel itself.
+        # In the other cases the function ``run`` is called for one step, because ``run`` contains the
+        # conversions or the kernel itself.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:
@@ -211,7 +213,8 @@ class _Adaptive(Controlled):
 
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step."""
-        # A step of the least size has no shorter step. The last step may be shorter than the least size.
+        # A rejected step of the least size is not repeated with a shorter step, and the run ends. Only the
+        # last step of an interval may be shorter than the least size.
         short = both(LEAST > 0.0, size(self.taken) <= LEAST, STATUS.equals(code(OK)))
         return (
             *super().refuse(),

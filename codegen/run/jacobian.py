@@ -1,4 +1,4 @@
-"""The derivative of a step: one column for each unit vector, transported by the linearised step.
+"""The derivative of a step: each column is a unit vector to which the linearised step is applied.
 
 The kernel of variations computes the step and its linearisation. A variation is a tangent vector of the
 state, to which the linearised step is applied. Implicit equations, and the linear equations for the

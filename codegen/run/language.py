@@ -93,7 +93,7 @@ class Call:
 
 @dataclass(frozen=True)
 class Return:
-    """The end of a function, with its result."""
+    """The statement that ends a function and returns its result."""
 
     value: Term
 
@@ -106,7 +106,8 @@ class Note:
 
 
 LANGUAGE = frozenset({"sample", "measure"})
-"""Calls of functions that the caller of the unit supplies: run-time inputs, and event functions."""
+"""The names in a :class:`Call` of the functions that the caller of the unit supplies: run-time inputs and
+event functions."""
 
 Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
@@ -114,7 +115,8 @@ Body = tuple[Statement, ...]
 # Python raises exceptions where C continues with infinities and NaNs. With a guard both targets return the
 # same result.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
-"""The effect of an arithmetic error: the status NOT_FINITE, or NaNs in the result or array."""
+"""The effect of an arithmetic error: the function returns the status NOT_FINITE, or its result and the arrays
+that it changes are filled with NaNs."""
 
 
 @dataclass(frozen=True)
@@ -215,7 +217,7 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
 
 
 def terms(body: Iterable[Statement]) -> Iterator[Term]:
-    """Yield every term of a body with all its parts."""
+    """Yield every term of a body, and all its subterms."""
     # The stack is explicit, because sums over many unknowns are deeper than Python's recursion limit.
     waiting = [term for statement in statements(body) for term in direct(statement)]
     while waiting:

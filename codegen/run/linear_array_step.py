@@ -1,7 +1,7 @@
-"""A step of a large linear problem (:mod:`codegen.ir.linear_array_step`) as functions of a unit.
+"""The emitted functions for a step of a large linear problem (:mod:`codegen.ir.linear_array_step`).
 
 The exponential of an exponent X is applied to y as in :mod:`codegen.ir.exponential_action`: X is halved s
-times, until a bound of its largest row sum is small, and a Taylor polynomial of exp(X 2^-s) of degree m is
+times, until a bound of its largest row sum is small. Then a Taylor polynomial of exp(2^-s X) of degree m is
 applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The remainder of each
 polynomial is below 2^-10 times the unit roundoff, relative to y. The bound of a sum is the sum of the bounds,
 and the bound of a commutator is twice the product of the bounds.
@@ -57,11 +57,12 @@ from codegen.run.terms import (
 )
 
 HALVINGS = 16
-"""The largest number of halvings of an exponent. Longer steps fail with the status TOO_FAR: an exponential
-with 2^16 parts of degree 22 takes seconds for a tridiagonal matrix with 1000 rows."""
+"""The largest number of halvings of an exponent. Longer steps fail with the status TOO_FAR: to apply 2^16
+polynomials of degree 22 takes seconds for a tridiagonal matrix with 1000 rows."""
 
 EXPONENTIAL = "exponential"
-"""The name of the function that applies the exponential of a letter."""
+"""The name of the function that applies the exponential of a letter, which is a linear combination of the
+matrices h A(t_i)."""
 
 _PLACE, _PART = count("place"), count("part")
 
@@ -78,7 +79,8 @@ def linear_array_tables(step: LinearArrayStep, precision: Precision) -> tuple[Ta
 
 @dataclass
 class _Step:
-    """Writes the functions of one step."""
+    """Builds the functions of one step. A letter is a linear combination of the matrices h A(t_i); an element
+    is a sum of at most one letter and of multiples of commutators."""
 
     plan: Plan
     step: LinearArrayStep
@@ -176,7 +178,7 @@ class _Step:
         return " + ".join(parts)
 
     def over(self, y: Term, entry: Term) -> For:
-        """Return the loop that sets all entries of an array."""
+        """Return the loop that assigns ``entry`` to each entry of the array ``y``."""
         return For(_PLACE, whole(self.size), (Assign(y[_PLACE], entry),))
 
     def exponential(self, element: Element, name: str) -> Function:
@@ -192,7 +194,8 @@ class _Step:
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # Horner's rule with the integers m!/j!, which are exact: so the length of y does not drift.
+        # Horner's rule uses the integers m!/j!. They have no rounding errors, so the length of y does not
+        # drift.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
@@ -283,7 +286,8 @@ class _Step:
         return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS, often=True)
 
     def takes(self, x: Term) -> bool:
-        """Return True if the function for the values of A has an argument."""
+        """Return True if the function that evaluates A has the argument ``x``, which is the time or the step
+        size."""
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:

@@ -1,8 +1,9 @@
-"""Vector functions as functions of a unit: the matrix exponential with its derivatives, and the inverse.
+"""The emitted functions that compute vector functions: the matrix exponential with its derivatives, and the
+inverse.
 
-The statements compute exactly what :mod:`codegen.ir.matrix_exponential` and
-:mod:`codegen.ir.matrix_inverse` compute in doubles. Matrices are stored in arrays row by row, and the
-matrices of a jet one after the other. The length of the emitted text does not depend on the number of rows.
+The statements compute exactly what :mod:`codegen.ir.matrix_exponential` and :mod:`codegen.ir.matrix_inverse`
+compute in doubles. Matrices are stored in arrays row by row. A jet consists of a matrix and its derivatives,
+which are stored one after the other. The length of the emitted text does not depend on the number of rows.
 """
 
 from __future__ import annotations
@@ -66,7 +67,7 @@ def used(functions: Iterable[Function]) -> list[VectorFunction]:
 
 
 def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) -> list[Function]:
-    """Return the functions of a unit for these vector functions, callees first."""
+    """Return the emitted functions that compute these vector functions, callees first."""
     listed: dict[str, Function] = {}
     for function in functions:
         match function:
@@ -83,7 +84,7 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Exponentials of matrices of one size use one function for the norm.
+        # All exponentials of matrices of the same size share one function for the norm.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
@@ -107,7 +108,8 @@ def _is_lost(array: Term) -> For:
 
 
 class _Exponential:
-    """Builds the functions for the exponential of matrices of one size, with derivatives up to one level."""
+    """Builds the functions for the exponential of jets of one size and one level
+    (:mod:`codegen.ir.matrix_exponential`)."""
 
     def __init__(self, function: MatrixExponential, precision: Precision) -> None:
         self.name, self.n, self.level = function.name, function.n, function.level
@@ -209,7 +211,8 @@ class _Exponential:
         )
 
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
-        """Return the statements that evaluate the Taylor polynomial of the least sufficient degree."""
+        """Return the statements that evaluate the Taylor polynomial of the lowest degree that is
+        sufficient."""
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
         first, second, third, _ = self.norms
@@ -245,7 +248,8 @@ class _Exponential:
         ]
 
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
-        """Return the statements that bound the spectral norm of the first exponential."""
+        """Return the statements that bound the spectral norm of exp(scale a), the exponential before it is
+        squared."""
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (

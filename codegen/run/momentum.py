@@ -1,5 +1,5 @@
-"""Conversion of the momentum: the steps of a run use the momentum in the body frame, the state of the caller
-contains the momentum in the space frame.
+"""Conversion of the momentum between frames: the steps of a run use the momentum in the body frame, but the
+state of the caller contains the momentum in the space frame.
 
 Converting at the beginning and the end of a run costs less than converting in each step. At the end, the
 increase of the space momentum over the run is added to the momentum of the initial state. Rounding makes

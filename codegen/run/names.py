@@ -41,8 +41,8 @@ class Names:
         # C reserves identifiers with two leading underscores, and Python mangles such names in classes.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
-        # An underscore is appended to a name that is taken. A number could be mistaken for the index of a
-        # component, because xi_1 and xi_2 are components of one vector.
+        # An underscore is appended to a name that is taken. An appended number could be mistaken for an
+        # index, because xi_1 and xi_2 are components of one vector.
         while name in self._taken:
             name += "_"
         self._taken[name] = True

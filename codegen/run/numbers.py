@@ -34,8 +34,8 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
-            # Arrays of one name in different blocks are counted separately: a compiler need not store them in
-            # the same memory.
+            # Arrays with the same name in different blocks are counted separately, because a compiler may
+            # store them at different addresses.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
         # A scalar that is assigned several times counts once, because it has one place on the stack.

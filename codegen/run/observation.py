@@ -8,10 +8,10 @@ on output times.
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of
 sign between two of these times. Two zeros of one function between two of these times are not found. A value
 that is exactly zero at the beginning of a run is no event; the sign of the first other value is stored. The
-time of an event is enclosed in an interval by the Illinois variant of the secant method and by bisection,
-until the interval is about as long as the distance of two floating-point numbers. The event state is the
-state at the end of this interval, where the sign has changed. A run that continues from this state does not
-find the same event again.
+Illinois variant of the secant method, together with bisection, encloses the time of an event in an interval.
+The search ends when the length of this interval is a few times the distance between adjacent floating-point
+numbers. The event state is the state at the end of this interval, where the sign has changed. A run that
+continues from this state does not find the same event again.
 """
 
 from __future__ import annotations
@@ -54,17 +54,20 @@ INSIDE, ORDERED, CROSSED, LOCATE, EVENTS, OBSERVE = (
 """The names of the private functions of this module."""
 
 PARTS = 4
-"""The number of parts of a step between which signs of event functions are compared."""
+"""Each step is divided into this number of equal parts. The signs of event functions are compared at the ends
+of each part."""
 
 TRIALS = 200
 """The largest number of trials for the time of one event. Every third trial halves the interval, so 200
 trials shorten it to rounding level."""
 
 CLOSE = 4
-"""The interval of an event is at most 2 CLOSE units of roundoff of the larger end of the step."""
+"""The search for an event in a step from t to t' ends when the enclosing interval is at most 2 CLOSE u
+max(|t|, |t'|) long. Here u is the unit roundoff."""
 
 RISING, FALLING = 1, 2
-"""An event function ends a run if the value of ``stops`` is RISING, FALLING, or their sum for both."""
+"""Values of ``stops``: the run ends where the event function crosses zero from below (RISING), from above
+(FALLING), or in either direction (RISING + FALLING)."""
 
 
 class Observation:
@@ -157,7 +160,8 @@ class Observation:
         """Return the functions, callees first."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
-        # Without events, an extension computes all states inside steps.
+        # If there are no events and a continuous extension was requested, the extension computes all states
+        # inside steps, and the function ``inside`` is not needed.
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -219,7 +223,8 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the test that the sign of an event function has changed."""
-        # A sign of zero has no change: the value was exactly zero at the beginning.
+        # If the stored sign is zero, the value was exactly zero at the beginning, and a nonzero value is no
+        # change of sign.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -236,7 +241,8 @@ class Observation:
         return Function(CROSSED, about, (self.signs, self.measured), body, Kind.FLAG)
 
     def locate(self) -> Function:
-        """Return the function that encloses the time of the first event in a part of a step."""
+        """Return the function that searches a part of a step for its first event, and encloses the time of
+        the event in a short interval."""
         plan, state, high, ahead = self.plan, self.plan.state(), self.high[0], self.ahead
         trials, side, change = count("trials"), real("side"), flag("change")
         width, longer = real("width"), real("longer")
@@ -257,7 +263,8 @@ class Observation:
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # Near the time zero the width is bounded by the spacing of fractions of a step.
+            # The width has a lower bound, because fractions of a step have rounding errors, too. The bound is
+            # needed near the time zero, where the formula above gives a smaller width.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -284,7 +291,7 @@ class Observation:
     ) -> tuple[Statement, ...]:
         """Return the statements that choose the next time inside the interval."""
         i, estimate = count("i"), real("estimate")
-        # The secant through both values gives a time for each function with a change of sign.
+        # For each function with a change of sign, the secant through its values at both ends gives a time.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         candidate = (
             Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
@@ -295,7 +302,8 @@ class Observation:
             Assign(self.middle, high),
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
-            # An accurate guess is moved by one width, so that the next guess closes the interval.
+            # A guess is at least one width away from both ends. If a zero lies very close to an end, the
+            # interval then becomes short enough after this guess.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
         )
@@ -379,13 +387,14 @@ class Observation:
         stopped = (Assign(self.stop[0], self.time_at(self.high[0])), Assign(self.after, self.inner))
         return (
             For(i, whole(self.events), (If(self.changed(i, self.measured), stored),)),
-            # The next event may be an event of all functions at the same time.
+            # The run is interrupted unless the buffer has room for one more event of each function, because
+            # all functions may change sign at the next event.
             If(place + self.events > self.room, (Assign(STATUS, code(EVENT)),)),
             If(STATUS.equals(code(EVENT)), stopped),
         )
 
     def passed(self) -> tuple[Statement, ...]:
-        """Return the statements that continue after ``high``."""
+        """Return the statements that continue the search after the event at ``high``."""
         return (
             Assign(self.low, self.high[0]),
             Assign(self.values, self.measured),
@@ -396,7 +405,7 @@ class Observation:
     known = flag("known")
 
     def begin_extension(self) -> tuple[Statement, ...]:
-        """Return the statements before the states inside a step are computed."""
+        """Return the statements that prepare the computation of states inside a step."""
         if self.dense is None:
             return ()
         # The array is cleared, because compilers cannot prove that it is filled before it is read.
@@ -414,8 +423,8 @@ class Observation:
         )
 
     def observed(self) -> Function:
-        """Return the function that observes one step: events first, then the output times before the first
-        event that ends the run."""
+        """Return the function that observes one step. First it searches for events. Then it computes the
+        states at output times, up to the first event that ends the run."""
         plan, state, place = self.plan, self.plan.state(), self.written[0]
         outcome, due, stop = Term("name", (), Kind.STATUS, "outcome"), flag("due"), self.stop[0]
         time = self.times[place]

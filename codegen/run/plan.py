@@ -85,7 +85,7 @@ class Plan:
 
     @property
     def start(self) -> Start | None:
-        """The initial values of the loops if they have a warm start."""
+        """The warm start, which gives the loops their initial guesses; None if there is no warm start."""
         return self.kernel.start
 
     @property
@@ -122,7 +122,7 @@ class Plan:
         return real("error", self.size, optional=True)
 
     def state(self, name: str = "state") -> Term:
-        """Return a state."""
+        """Return the array ``name`` with the numbers of a state."""
         return real(name, self.size)
 
     def remembering(self, memory: Term) -> tuple[Term, ...]:
@@ -151,8 +151,8 @@ class Plan:
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
         """Return the scalars that the kernel's statements read."""
-        # The search is in the scheduled statements, because scheduling may have removed all readers of a
-        # scalar.
+        # Only the scheduled statements are searched, because scheduling may have removed all statements that
+        # read a scalar.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

@@ -35,7 +35,8 @@ class Declarations:
     """The variables that are declared before each statement, and the variables that the statement itself
     declares.
 
-    Keys are ``id(statement)``. The values of ``by`` map the name of a variable to whether it is constant.
+    Keys are ``id(statement)``. The values of ``by`` contain the names of variables, and for each name whether
+    the variable is constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -75,8 +76,8 @@ class _Scopes:
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
-        # The keys are identities: equal statements at different places have separate scopes. Every statement
-        # is read for many variables, so it is analysed once.
+        # The keys are identities: equal statements at different places have separate scopes. Each statement
+        # is analysed once, and the result is stored, because it is needed for many variables.
         self.known: dict[int, frozenset[str]] = {}
         self.known_own: dict[int, frozenset[str]] = {}
         self.counts: dict[int, Counter[str]] = {}

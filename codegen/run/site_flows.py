@@ -1,9 +1,10 @@
-"""Steps of a lattice that compose flows of parts, as functions of a unit.
+"""The emitted functions of lattice steps that compose the flows of the parts of a field.
 
-Each part has a function ``flow_K`` with a loop over adjacent sites, or over pairs of neighbours that have
-no site in common, and a function ``part_K`` that calls it for all sites or for all pairs of a set. The first
-sites of the pairs of a set have even or odd indices along the axis of the part. ``whole_K`` is ``flow_K``
-with functions for all arguments (:mod:`codegen.run.sites`).
+Each part has two functions. ``flow_K`` contains a loop over adjacent sites, or over pairs of neighbours that
+have no site in common. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of a set. The first sites
+of the pairs of a set have even or odd indices along the axis of the part. ``whole_K`` computes the same as
+``flow_K``, but with variants of sines and Stumpff functions that accept all arguments
+(:mod:`codegen.run.sites`).
 """
 
 from __future__ import annotations
@@ -63,7 +64,8 @@ class _Part:
 
     @property
     def special(self) -> bool:
-        """True if a function that the part calls has a form without branches."""
+        """True if the part calls sines, cosines or Stumpff functions, and all functions that it calls can be
+        computed without branches."""
         _, inside, _ = split(self.own.kernel, set())
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
@@ -71,7 +73,7 @@ class _Part:
 
     @property
     def strided(self) -> bool:
-        """True if the first sites of pairs are two places apart."""
+        """True if the first sites of consecutive pairs are two places apart in memory."""
         return self.paired and self.own.axis == self.step.dimension - 1
 
     @property
@@ -104,7 +106,8 @@ class _Part:
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
         if self.paired:
-            # With a constant distance between the sites of a pair, compilers load both with one instruction.
+            # If the loop is strided, the other site of the pair is at PLACE + 1. With this constant distance,
+            # compilers load both sites with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
         if not self.paired:
@@ -152,7 +155,8 @@ class _Part:
         return Function(name, about, parameters, tuple(body), Kind.COUNT, often=True, near=near)
 
     def _called(self, arguments: tuple[Term, ...]) -> list[Statement]:
-        """Return the call of the loop, in the form that the flag whole selects."""
+        """Return the call of the function with the loop. If there are two such functions, the flag ``whole``
+        selects ``whole_K`` or ``flow_K``."""
         given = (*arguments, SITES, *self.arrays, *self.scalars)
         results = () if self.paired else (BAD,)
         call = Call(f"flow_{self.index}", given, results)
@@ -208,7 +212,7 @@ class _Part:
 
 
 def _advance(plan: Plan, step: SiteStep, parts: list[_Part]) -> Function:
-    """Return the function that makes one step without a test of the shape."""
+    """Return the function that makes one step. It does not test the shape of the lattice."""
     domain = ExprDomain()
     old, new = ARRAYS[STATE], ARRAYS[RESULT]
     body: list[Statement] = []

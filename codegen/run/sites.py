@@ -1,13 +1,15 @@
-"""Steps and runs of a lattice (:mod:`codegen.ir.site_step`) as functions of a unit.
+"""The emitted functions for steps and runs of a lattice (:mod:`codegen.ir.site_step`).
 
 The number of sites in each dimension is an argument, ``shape``, so the text does not depend on it. Arrays are
-structures of arrays: row k contains number k of all sites. In a row the last index of a site changes fastest.
+structures of arrays: row k contains component k of all sites. Within a row of an array, the last index of a
+site changes fastest.
 
 For each sweep there are three functions. ``sweep_K`` computes adjacent sites whose neighbours all exist, in a
 loop without branches, which compilers turn into vector instructions. ``site_K`` computes one site at the
-boundary. ``pass_K`` calls them for all sites. The loop evaluates sines and Stumpff functions near zero only;
-elsewhere they return NaN. If the new state is not finite at some site, the step is repeated with ``site_K``
-for all sites, whose functions accept all arguments. Where the loop succeeds, both have the same roundings.
+boundary. ``pass_K`` calls them for all sites. In this loop, sines, cosines and Stumpff functions are computed
+only for arguments near zero; for other arguments they return NaN. If the new state is not finite at some
+site, the step is repeated with ``site_K`` for all sites, because ``site_K`` accepts all arguments. Where the
+loop succeeds, ``sweep_K`` and ``site_K`` have the same roundings.
 """
 
 from __future__ import annotations
@@ -61,8 +63,8 @@ from codegen.run.terms import (
 from codegen.run.values import simple
 
 SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
-"""The number of all sites, the number of sites of a row of the lattice, the index of a site in its row, and
-the number of its first site."""
+"""The number of all sites, the number of sites in one row of the lattice, the index of a site in its row, and
+the index of the first site of this row among all sites."""
 
 SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), count("i")
 BAD, _PART, _INNER, _LEAD, WHOLE = count("bad"), count("part"), count("inner"), count("lead"), flag("whole")
@@ -137,14 +139,14 @@ class _Loop:
 
     @property
     def near(self) -> bool:
-        """True if all functions that the sweep calls have a form without branches."""
+        """True if all functions that the sweep calls can be computed without branches."""
         before, inside, _ = split(self.own.kernel, set())
         called = called_by([*before, *inside])
         return all(name in VECTORISED or name.startswith("stumpff_") for name in called)
 
     @property
     def neighbours(self) -> tuple[int, ...]:
-        """The indices of the offsets that the sweep reads."""
+        """The neighbours whose values the sweep reads, as indices into the list of offsets."""
         return self.own.neighbours
 
     @property
@@ -177,7 +179,8 @@ class _Loop:
         return self.entry(load.row, place if load.neighbour == OWN else around[load.neighbour])
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store the results at a site, and count sites that are not finite."""
+        """Return the statements that store the results at a site, and count the site if a new value is not
+        finite."""
         body: list[Statement] = []
         tested = []
         for row, end in zip(self.own.stores, ends, strict=True):
@@ -245,7 +248,7 @@ class _Loop:
         return self.function(self.name("site"), about, parameters, body)
 
     def _loads_of_site(self, nears: dict[int, Term], exist: dict[int, Term]) -> list[Statement]:
-        """Return the statements that load all numbers at one site."""
+        """Return the statements that load all numbers that the sweep reads at one site."""
         first = [load for load in self.own.loads if load.neighbour == OWN]
         body: list[Statement] = [Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in first]
         around = [load for load in self._read() if load.neighbour != OWN]
@@ -259,8 +262,9 @@ class _Loop:
         return body
 
     def rows(self) -> tuple[Term, ...]:
-        """Return the first sites of the rows of a site and its neighbours, and, at an open boundary, whether
-        these rows exist."""
+        """Return arguments for one row of the lattice: the index of its first site, and the index of the
+        first site of the row of each neighbour. At an open boundary, flags state which of these rows
+        exist."""
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
         return (ROW, *starts, *(flag(f"inside_{k}") for k in flags))
@@ -307,7 +311,7 @@ class _Loop:
         return body
 
     def _peeled(self, number: Term, column: Term) -> For:
-        """Return the loop over some sites that are computed alone."""
+        """Return the loop that computes ``number`` sites one by one, each by a call of ``site_K``."""
         arguments = (column, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
         return For(INDEX, number, tuple(self._called("site", arguments)))
 
@@ -322,7 +326,8 @@ def _plus(x: Term, n: int) -> Term:
 
 
 def first_site(indices: Sequence[Term], shape: Term) -> Term:
-    """Return the number of the first site of a row of the lattice with these outer indices."""
+    """Return the index, among all sites, of the first site of the row of the lattice with these outer
+    indices."""
     if not indices:
         return whole(0)
     total = indices[0]
@@ -334,8 +339,9 @@ def first_site(indices: Sequence[Term], shape: Term) -> Term:
 def _moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
     """Return the test that a neighbour exists (None if it always does), and its index.
 
-    In a periodic lattice the index is reduced once, since the shape exceeds every offset. If the neighbour
-    does not exist, the index is that of the site itself.
+    In a periodic lattice, one addition or subtraction of ``size`` brings the index into its range, because
+    ``size`` is larger than every offset. If the neighbour does not exist, the index is that of the site
+    itself.
     """
     if not offset:
         return None, index
@@ -347,7 +353,7 @@ def _moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term |
 
 
 def _advance(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
-    """Return the function that makes one step without a test of the shape."""
+    """Return the function that makes one step. It does not test the shape of the lattice."""
     body: list[Statement] = []
     for loop in loops:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
@@ -374,8 +380,8 @@ def _too_small(step: SiteStep) -> Term:
 
 
 def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
-    """Return the public function, which makes some steps of equal size. A failed step is tried ``twice`` if
-    some functions have two forms."""
+    """Return the public function, which makes some steps of equal size. With ``twice``, a failed step is
+    repeated once, with the variants of functions that accept all arguments."""
     later = exact_time(TIME, _DONE, STEP)
 
     def advance(old: Term, new: Term, separately: bool) -> Call:

@@ -1,10 +1,10 @@
 """How each block of equations is solved: by a fixed point, Newton's method or simplified Newton.
 
-Newton's method keeps an exact matrix as long as the iteration contracts. Simplified Newton computes a matrix
-to first order in h in each step. Fixed-point iteration needs no matrix; each sweep multiplies the error by a
-factor O(h). This is true for equation (3.19) of H. Marthinsen's thesis, too (*On symplectic integration in
-Lie groups and manifolds*), because momenta are computed within a sweep. If momenta were unknowns in addition
-to the velocities, two sweeps would be necessary for each factor O(h).
+Newton's method keeps an exact matrix as long as the iteration contracts. Simplified Newton computes an
+approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix;
+each sweep multiplies the error by a factor O(h). This is true for equation (3.19) of H. Marthinsen's thesis,
+too (*On symplectic integration in Lie groups and manifolds*), because momenta are computed within a sweep. If
+momenta were unknowns in addition to the velocities, two sweeps would be necessary for each factor O(h).
 
 The solver with the least predicted time is chosen, with an exception stated below. A trial
 (:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps of the usage
@@ -14,16 +14,17 @@ solver measured.
 
 Robust solvers are preferred. A solver is robust if it also converges in a step :data:`LONGER` times as long,
 in at most :data:`SWEEPS` sweeps. Fixed-point iteration may converge at the step size of the example and fail
-at a somewhat longer one: the number of sweeps grows without bound as h L tends to 1, where L is the Lipschitz
-constant of the equations. The step sizes that the user will choose are not known. Newton's method has no such
-limit for linear equations. A solver that is not robust is therefore chosen only if every robust solver is
-predicted to need more than :data:`PRICE` times the time of the fastest solver. The reason then says that
-longer steps may fail. Without the bound :data:`PRICE`, robust solvers with matrices of 24 and 36 unknowns
-would make some steps of the gallery 5 to 14 times as long (``benchmarks/README.md``).
+at a somewhat larger one. The reason is that the number of sweeps grows without bound as h L tends to 1, where
+L is the Lipschitz constant of the equations. The step sizes that the user will choose are not known. Newton's
+method has no such limit for linear equations. A solver that is not robust is therefore chosen only if every
+robust solver is predicted to need more than :data:`PRICE` times the time of the fastest solver. The stated
+reason for the choice then says that longer steps may fail. Without the bound :data:`PRICE`, robust solvers
+with matrices of 24 and 36 unknowns would make some steps of the gallery take 5 to 14 times as much time
+(``benchmarks/README.md``).
 
 The bound does not apply to linear equations. Newton's method then needs one matrix for all steps of a run,
-and only accuracy limits the step size. If computing a step takes many times as long as with another solver,
-longer steps may more than compensate for this.
+and only accuracy limits the step size. Even if a step takes many times as much time as with another solver, a
+run may be faster, because it can use longer steps.
 
 Kernels of many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
 computed. The kernel is not built if this bound shows that a solver that has already been tried will be
@@ -128,9 +129,9 @@ def solved(
     """Return the kernel of a program with every block solved as ``asked``, and the choice for each block.
 
     Trials start from the state ``initial``, with run-time inputs equal to zero. ``asked`` is one of
-    :data:`CHOICES`; UnknownName for another name. MethodError if Newton's method needs the derivative of a
-    function, of the scene or group, for which orderconds contains no derivative. A caller that already has
-    the kernel with fixed-point iteration passes it as ``iterated``.
+    :data:`CHOICES`; UnknownName is raised for another name. MethodError is raised if Newton's method needs
+    the derivative of a function of the scene or group, and orderconds contains no derivative of this
+    function. A caller that already has the kernel with fixed-point iteration passes it as ``iterated``.
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
@@ -292,7 +293,7 @@ class _Selection:
         """Build and try the kernel of a solver. A solver that cannot be the best is skipped.
 
         If there are many unknowns and Newton's method converges, simplified Newton is tried only if it may be
-        faster: it inverts a matrix in each step.
+        faster, because it inverts a matrix in each step.
         """
         least = self.least(solver)
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
@@ -325,12 +326,13 @@ class _Selection:
         return to_kernel(self.program, self.scene, solvers)
 
     def least(self, solver: str) -> float:
-        """Return a lower bound for the nanoseconds of a step with a matrix: one sweep of each block.
+        """Return a lower bound in nanoseconds for the time of a step with ``solver``. It assumes a single
+        sweep over each block.
 
-        A sweep costs one fixed-point sweep and one product with the inverse. Simplified Newton inverts a
-        matrix in each step; Newton's method inverts at least one matrix during the trial. Formulas invert
-        small matrices. The number of operations in these formulas is not known in advance, so they count as
-        free.
+        A sweep costs as much as a fixed-point sweep and a product with the inverse matrix. Simplified Newton
+        inverts a matrix in each step; Newton's method inverts at least one matrix during the trial. Small
+        matrices are inverted by formulas. The number of operations in these formulas is unknown before the
+        kernel is built, so the bound counts them as zero.
         """
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)

@@ -39,8 +39,8 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     total = statistics.field("sweeps", Kind.COUNT, (len(plan.kernel.loops),))[block]
     adding = (
         Assign(total, total + sweeps),
-        # The sum and the largest number are stored: a single step with many sweeps is the first sign that h
-        # is too large, and would not be visible in a mean.
+        # The largest number is stored as well as the sum. A single step with many sweeps is the first sign
+        # that h is too large, and a mean value would not show it.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )
@@ -72,5 +72,5 @@ def count_matrix(plan: Plan) -> Statement:
 
 
 def no_failure(plan: Plan) -> Statement:
-    """Return the statement that clears a failure after the continuation has succeeded."""
+    """Return the statement that deletes the record of a failure, after the continuation has succeeded."""
     return If(given(plan.statistics), (Assign(plan.statistics.field("failed", Kind.COUNT), whole(0)),))

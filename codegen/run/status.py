@@ -52,7 +52,8 @@ REASONS = {
     BAD_EVENT: "the value of an event function is not finite",
     BAD_SHAPE: "a lattice with too few sites, or, for pairs, an odd number of sites in a periodic dimension",
 }
-"""The reason for each failure, with the label of the implicit block and the step size, for both targets."""
+"""The reason for each failure in error messages of both targets. It may contain the label of the implicit
+block and the step size."""
 
 NOT_FINITE_BLOCK = "{block} computed a number that is not finite"
 """The reason in the error message for the status NOT_FINITE if an implicit block has failed."""

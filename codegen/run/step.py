@@ -65,8 +65,8 @@ def kernel_step(plan: Plan) -> Function:
     # All outputs are computed before the first entry of the state is overwritten, because they read the old
     # state.
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The kernel does not read these entries, because it can compute them from other entries. A NaN in one of
-    # them would not appear in the new state, so they are tested.
+    # The kernel does not read the entries ``unread``, because their values follow from other entries. A NaN
+    # in one of them would not appear in the new state, so they are tested.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
     # The extrapolation comes directly after the loops, because a processor can then compute it in parallel
     # with the outputs.
@@ -109,7 +109,8 @@ def _errors(plan: Plan) -> list[Statement]:
 
 
 def _aged(plan: Plan) -> list[Statement]:
-    """Return the statements that count the age, in steps, of the inverse in each loop over residuals."""
+    """Return the statements that, for each loop over residuals, count the age of the stored inverse in
+    steps."""
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:

@@ -1,13 +1,14 @@
 """Step control: steps as large as the tolerances allow, by a proportional-integral controller.
 
-The error norm of a step is the root mean square of its estimate over atol + rtol |y|; a step is accepted if
-the norm is at most one. Let p be the order of the estimate. After an accepted step, the step size is
-multiplied by 0.9 norm^(-0.8/p) before^(0.2/p), where ``before`` is the norm of the previous accepted step;
-this factor is limited to [0.2, 5], and to [0.2, 1] after a rejection. A rejected step is repeated with the
-factor 0.9 norm^(-1/p), limited to [0.2, 0.9]. The limits are taken from Hairer, Norsett and Wanner, Solving
-Ordinary Differential Equations I, section II.4; the controller is Gustafsson's (II, section IV.2). The
-exponents 0.7/p and 0.4/p, in place of 0.8/p and 0.2/p, would damp changes of the step size more strongly, and
-the step size would follow the solution more slowly: with them, DOP853 needs 15 to 20 % more steps on
+To form the error norm of a step, each component of the error estimate is divided by atol + rtol |y_i|; the
+norm is the root mean square of these quotients. A step is accepted if the norm is at most one. Let p be the
+order of the estimate. After an accepted step, the step size is multiplied by 0.9 norm^(-0.8/p)
+before^(0.2/p), where ``before`` is the norm of the previous accepted step. This factor is limited to [0.2,
+5], or to [0.2, 1] if the step was accepted after a rejection. A rejected step is repeated with the factor 0.9
+norm^(-1/p), limited to [0.2, 0.9]. The limits are taken from Hairer, Norsett and Wanner, Solving Ordinary
+Differential Equations I, section II.4; the controller is Gustafsson's (II, section IV.2). The exponents 0.7/p
+and 0.4/p, in place of 0.8/p and 0.2/p, would damp changes of the step size more strongly, and the step size
+would follow the solution more slowly. With these exponents, DOP853 needs 15 to 20 % more steps on
 ``heavy_top``. Since 0.8 = 4 * 0.2, both factors are computed from one power, norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
@@ -57,8 +58,8 @@ SHARE = 0.2
 """If p is the order of the estimate, the exponents of the controller are -4 SHARE/p and SHARE/p."""
 
 FLOOR = 1e-4
-"""The least error norm that the controller stores; a smaller norm, which is accidental, is replaced by this
-value."""
+"""The least error norm that the controller stores; a norm may be smaller by accident, and is then replaced by
+this value."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -222,7 +223,7 @@ class Controlled:
         )
 
     def power(self, base: Term, exponent: float) -> Term:
-        """Return a power of an error."""
+        """Return ``base`` to the power ``exponent``/p, where p is the order of the estimate."""
         # The order is known when the code is generated, so the exponent is a constant in emitted code.
         return call("power", base, number(self.plan.format.round(exponent / self.order)))
 
@@ -238,8 +239,8 @@ class Controlled:
         """Return the statements after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous step. An
-        # upper limit of ``previous`` is FLOOR^(-SHARE/p). The previous error damps the controller: step sizes
+        # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous step.
+        # ``previous`` is at most FLOOR^(-SHARE/p). The previous error damps the controller: step sizes
         # oscillate less where stability limits them. The first step has no previous error.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # After a rejection the predicted step size was too large, so the next step is not longer (Hairer,

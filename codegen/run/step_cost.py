@@ -2,8 +2,8 @@
 
 A prediction is a sum of amounts times :data:`WEIGHTS`:
 
-- operations (:mod:`codegen.kernel.operations`): operations outside of sweeps and matrices count once a step,
-  operations of a sweep or matrix as often as sweeps or matrices are computed;
+- operations (:mod:`codegen.kernel.operations`): operations outside of sweeps and matrices count once for each
+  step, and operations of a sweep or a matrix count once for each sweep or each computed matrix;
 - unknowns: each costs time in a step, for the warm start, and in a sweep, for the stopping rule;
 - corrections: a sweep of Newton's method on u = g(u) ends with the product of the inverse and the residuals
 g(u) - u. The next sweep cannot begin before this product is computed, so each sweep adds one correction. For
@@ -28,12 +28,13 @@ from codegen.kernel.operations import STEP, matrix_of, operations
 from codegen.kernel.schedule import arrange
 
 Work = Mapping[str, Mapping[str, int]]
-"""Counts of operations by part of a step (:func:`codegen.kernel.operations.operations`)."""
+"""The counts of operations for each part of a step (:func:`codegen.kernel.operations.operations`)."""
 
 
 @dataclass(frozen=True)
 class Amounts:
-    """Amounts of work by kind; the weights have the same type and are nanoseconds for one unit of each kind.
+    """Amounts of work, with one field for each kind of work. The weights have the same type: their fields are
+    the nanoseconds that one unit of each kind takes.
 
     ``unknowns`` counts the unknowns of a step once, ``swept`` counts them in each sweep. ``arithmetic``
     counts additions and products, ``calls`` function calls, and ``corrections`` the sweeps of Newton's method
@@ -93,16 +94,16 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
     """Return the amounts of one step without its sweeps and matrices."""
-    # The counts of operations already include all substeps, but the warm start is not among the
-    # operations.
+    # The counts of operations already include all substeps. They do not include the warm start, whose work is
+    # proportional to the number of unknowns of all substeps.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
     return of_operations(work[STEP]) + Amounts(unknowns=unknowns)
 
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of one sweep."""
-    # The next sweep reads the corrected unknowns, so a processor cannot begin the next sweep before this
-    # product is computed.
+    # The next sweep reads the corrected unknowns. A processor cannot begin it before the product of the
+    # inverse and the residuals is computed.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 

@@ -5,7 +5,7 @@
 three cases:
 
 - *close*: the change is at rounding level, and the predicted next change, change times rate, is below half a
-  unit in the last place. A small change alone is no proof of convergence, because a slow iteration makes
+  unit in the last place. A small change alone does not prove convergence, because a slow iteration makes
   small changes far from the solution.
 - *still*: the change no longer decreases and is near rounding level, so that it consists of rounding errors.
 - *lost*: the change no longer decreases, and its effect on the state, h times the change, is below the
@@ -54,8 +54,8 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""A number that is added to the rate of convergence in the stopping test. The loop adds the last change to
-the unknowns before it stops, and the relative error of this change is about LEAST_RATE.
+"""The loop adds the last change to the unknowns before it stops, and the relative error of this change is
+about LEAST_RATE. The stopping test therefore adds LEAST_RATE to the rate of convergence.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
@@ -68,7 +68,8 @@ CHANGE, SCALE = real("change"), real("scale")
 
 @dataclass(frozen=True)
 class Stopping:
-    """The rule for one loop, the ``number``-th of its kernel."""
+    """The stopping rule for one loop. The loops of a kernel are counted from 1, and ``number`` is the number
+    of this loop."""
 
     plan: Plan
     loop: Loop
@@ -102,10 +103,10 @@ class Stopping:
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            # Between steps of equal size the rate hardly changes. With the old rate a loop may end after one
-            # sweep, which measures no rate of its own (Hairer and Wanner start with the old rate, too). If
-            # there is no old rate, the rate is 1, and a loop ends after one sweep only if the change is at
-            # rounding level.
+            # Between steps of equal size the rate hardly changes. A loop therefore starts with the rate of
+            # the step before, as in the book of Hairer and Wanner. It may then end after one sweep, although
+            # a single sweep measures no rate. If there is no old rate, the rate is 1, and a loop ends after
+            # one sweep only if the change is at rounding level.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -138,9 +139,10 @@ class Stopping:
         # Tolerances are multiples of the unit roundoff, so single precision needs fewer sweeps.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # The predicted next change, rate times change, must be below rounding, because a small change alone
-        # is no proof. Without a stored rate the test is written as change^2 <= bound * previous, to avoid a
-        # division. In the first sweep previous = 0, so only the change zero satisfies the test.
+        # The predicted next change, rate times change, must be below rounding level, because a small change
+        # alone does not prove convergence. Without a stored rate the test is written as change^2 <= bound *
+        # previous, to avoid a division. In the first sweep previous = 0, so only the change zero satisfies
+        # the test.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
@@ -159,7 +161,8 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test that h times the change is below the rounding of the state, or of the variation."""
+        """Return the test that h times the change is below the rounding errors of the state, or of the
+        variation."""
         # The unknowns of a variation do not change the state, so they are compared with the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
@@ -204,7 +207,8 @@ class Stopping:
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
-                    # After a single sweep that does not contract, the distance to the solution is unknown.
+                    # If the iteration does not contract clearly, the distance to the solution is unknown
+                    # after a single sweep.
                     both(
                         SWEEPS > 1,
                         # A small change that still decreases is no rounding error: at the rate 0.9, later
@@ -219,7 +223,8 @@ class Stopping:
         ]
 
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
-        """Return the statement that converts the flag to a status; NOT_FINITE if ``finite`` is not finite.
+        """Return the statement that converts the flag ``converged`` to a status. The status is NOT_FINITE if
+        the value of the term ``finite`` is not finite.
 
         ``possible`` is false if the matrix is singular. The flag ``converged`` is then meaningless.
         """

@@ -1,8 +1,9 @@
 """Large matrices A(t) as arrays of emitted code: their evaluation, sums, products with vectors, and norms.
 
-A banded matrix is stored diagonal by diagonal; entry a_{i, i + d} has the place i of its diagonal, and places
-outside of the matrix are zero. Of a full matrix, only the values of the formulas without indices are stored,
-and each product computes the entries from them.
+A banded matrix is stored diagonal by diagonal: entry a_{i, i + d} has the index i in its diagonal, and
+numbers that belong to no entry of the matrix are zero. Of a full matrix, only the values of those
+subexpressions are stored that do not contain the indices i and j. Each product computes the entries of the
+matrix from these values.
 """
 
 from __future__ import annotations
@@ -31,12 +32,13 @@ _ENTRY, _TOTAL, _NORM = real("entry"), real("total"), real("norm")
 
 @dataclass
 class Hoisted:
-    """Formulas in indices in which the parts without indices are names, which are computed before a loop."""
+    """Formulas in the indices i and j. Their subexpressions without indices are replaced by names, whose
+    values are computed before a loop."""
 
     names: dict[Expr, str] = field(default_factory=dict)
 
     def formula(self, root: Expr) -> Expr:
-        """Return a formula in the indices and in names."""
+        """Return a formula in which names replace the subexpressions without indices."""
         space, known = root.space, dict[Expr, Expr]()
         indexed: dict[Expr, bool] = {}
         for node in walk([root]):
@@ -59,7 +61,7 @@ class Hoisted:
 
 
 def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
-    """Return the operation of a node with other arguments."""
+    """Return the expression with the operation of ``node`` and the arguments ``args``."""
     if node.op == "pow":
         return space.pow(args[0], int(node.payload))
     if node.op == "call":
@@ -69,7 +71,8 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
 
 
 class StoredMatrix(ABC):
-    """The arrays for A(t_i) and for letters, and the functions that work on them, for n x k vectors."""
+    """The arrays for the matrices A(t_i) and for letters, which are linear combinations of the h A(t_i), and
+    the functions that evaluate them and multiply them by n x k matrices."""
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         self.matrix, self.columns, self.nodes, self.n = matrix, columns, nodes, matrix.rows
@@ -99,11 +102,11 @@ class StoredMatrix(ABC):
         return real(name, self.n * self.columns)
 
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
-        """Return the sum of coefficients times entries; each is the number of its term, the entry, and the
-        name of its table."""
+        """Return the sum of coefficients times entries. Each element of ``entries`` contains the index of a
+        term of A(t), the entry of the matrix of this term, and the name of a table of its numbers."""
         total: Term | None = None
         for term, given, table in entries:
-            # The statements for the indices are written by ``before``.
+            # The statements that convert the indices to reals are returned by ``before``.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             if not (coefficient.op == "const" and coefficient.payload.is_one):
@@ -113,7 +116,7 @@ class StoredMatrix(ABC):
         return total
 
     def before(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term) -> list[Statement]:
-        """Return the statements that compute the indices as numbers, as far as the entries read them."""
+        """Return the statements that convert to reals those indices that the entries read."""
         indices: dict[str, Statement] = {}
         for _, given, table in entries:
             for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
@@ -122,7 +125,7 @@ class StoredMatrix(ABC):
         return list(indices.values())
 
     def hoist(self, given: Entry) -> Entry:
-        """Return an entry with names for its parts without indices."""
+        """Return an entry in which names replace the subexpressions without indices."""
         return given if isinstance(given, tuple) else self.hoisted.formula(given)
 
 
@@ -269,7 +272,8 @@ class FullMatrix(StoredMatrix):
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
         """Return the statement that adds a term on one diagonal."""
-        # Counts are never negative, so the place on the diagonal is the lesser index.
+        # The index of an entry in its diagonal is the smaller one of its row and column. The test below adds
+        # |offset| to it, because counts must not become negative.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]
@@ -306,7 +310,8 @@ def _combined(nodes: Sequence[Term], letter: Letter) -> Term:
 
 
 def _row(entry: Term, x: Term, y: Term, i: Term, j: Term, k: int, *, first: bool) -> list[Statement]:
-    """Return the statements that set or add an entry times a row of x to a row of y."""
+    """Return the statements that add an entry times a row of x to a row of y. If ``first`` is true, they
+    overwrite the row of y instead."""
     if k == 1:
         one = entry * x[j]
         return [Assign(y[i], one if first else y[i] + one)]

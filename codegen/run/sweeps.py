@@ -258,8 +258,8 @@ class _Newton(_Loop):
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
-        # The scale is measured before the correction. If the initial guess is zero, no change then counts as
-        # small.
+        # ``SCALE`` is measured before the correction. If the initial guess is zero, ``SCALE`` is zero, and no
+        # change counts as small in comparison.
         body += self.corrected(changes)
         body += rule.converged()
         # ``invert`` sets the age to 1 on success and to 0 for a singular matrix. If the matrix is singular,
@@ -274,7 +274,7 @@ class _Newton(_Loop):
             body.append(Assign(flag("astray"), stalled))
             # With an old matrix, each sweep multiplies the error by about the relative error of the matrix.
             # If the contraction is slow, a new matrix costs less than many more sweeps. In the first sweep
-            # ``previous`` is 0, because the contraction is not known yet.
+            # the contraction is not known yet: ``previous`` is 0, and no new matrix is requested.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -283,10 +283,10 @@ class _Newton(_Loop):
         return [*sequence, *self.until_converged(body, astray, self.singular() if eliminated else None)]
 
     def singular(self) -> Term:
-        """Return the test, after a failure, that the matrix in the memory has no inverse.
+        """Return the test, made after a failure, that the matrix in the memory is singular.
 
-        Only elimination makes this test. If a small matrix is singular, the formula for its inverse divides
-        by zero, and the status is NOT_FINITE.
+        Only loops that invert their matrix by elimination use this test. If a small matrix is singular, the
+        formula for its inverse divides by zero, and the status is NOT_FINITE.
         """
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
@@ -363,7 +363,8 @@ class _Newton(_Loop):
         return self.inverse[place]
 
     def product(self, changes: Sequence[Term], residuals: Sequence[Term]) -> list[Statement]:
-        """Return the statements of changes = inverse residuals: a sum for each row, or loops over many."""
+        """Return the statements changes = inverse residuals: a separate sum for each row, or loops if there
+        are many rows."""
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]

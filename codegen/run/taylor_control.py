@@ -1,11 +1,11 @@
 """Step control by Taylor coefficients: each step size is computed from the coefficients before the step, so
 no step is rejected.
 
-Let c_k be coefficient k of the solution at the state y, and p the degree. With the maximum norm and
-epsilon = atol + rtol |y|, the step size is the smaller one of (epsilon/|c_k|)^(1/k) for k = p - 1 and k = p,
-times exp(-0.7/(p - 1)). The last terms of the polynomial are then about as large as the tolerance (A. Jorba
-and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1, where the tolerance determines the degree,
-too).
+Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree of the polynomial. Let
+epsilon = atol + rtol |y|, with the maximum norm. The number (epsilon/|c_k|)^(1/k) is computed for k = p - 1
+and for k = p. The step size is the smaller one of these two numbers times exp(-0.7/(p - 1)). The last terms
+of the polynomial are then about as large as the tolerance (A. Jorba and M. Zou, Experimental Mathematics 14
+(2005) 99, section 3.2.1, where the tolerance determines the degree, too).
 """
 
 from __future__ import annotations
@@ -68,8 +68,8 @@ LEAST = 1e-30
 """A lower bound for the size of a coefficient in the formula of the step size, which divides by this size."""
 
 ROWS = 4
-"""The Cauchy product is a sum of products of coefficients; a pass of its loop adds this number of products to
-each component of the sum."""
+"""Each pass through the loop of the Cauchy products adds this number of products of coefficients to each
+sum."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -96,7 +96,8 @@ def polynomial_step(plan: Plan) -> tuple[Function, ...]:
 
 
 def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
-    """Return the statements that compute all inner sums of order k + 1."""
+    """Return the statements that compute the inner sums of order n = k + 1 of all products: the sums of
+    a_j b_{n-j} over 0 < j < n."""
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
@@ -207,8 +208,8 @@ class _Controlled:
         )
 
     def is_sound(self) -> Term:
-        """Return the test that both states are finite. Both are tested, because the new state need not depend
-        on all entries of the old state.
+        """Return the test that the old state and the new state are finite. The old state is tested, too,
+        because the new state need not depend on all its entries.
         """
         return both(all_finite(self.trial), all_finite(self.state))
 
@@ -354,7 +355,8 @@ class _Controlled:
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.advised >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.advised, self.left))),
-            # The last step sets the time to the end itself, without rounding errors of a sum.
+            # The last step sets the time to the end. The sum t + h could differ from the end by a rounding
+            # error.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 negated(self.finite),

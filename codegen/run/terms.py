@@ -50,8 +50,8 @@ class Term:
 
     ``text`` is the name, function or field. ``own`` marks the names of the kernel, which a target may have to
     change. ``shape`` is the shape of an array and () for a single value; a size that only the caller knows is
-    0. ``optional`` arguments may be absent. A ``cell`` is an array of one entry through which a function
-    returns a value.
+    replaced by 0. ``optional`` arguments may be absent. A ``cell`` is an array of one entry through which a
+    function returns a value.
     """
 
     op: str
@@ -127,8 +127,8 @@ class Term:
 
     def __iter__(self) -> Iterator[Term]:
         """Raise TypeError: an array is not a Python sequence."""
-        # Without this method Python would iterate by ``__getitem__``, which accepts every index, and never
-        # end.
+        # Without this method Python would iterate by ``__getitem__``. This iteration would never end, because
+        # ``__getitem__`` accepts every index.
         raise TypeError("a Term is symbolic and cannot be iterated; index its entries up to its shape")
 
     def part(self, start: int, size: int) -> Term:
@@ -298,13 +298,14 @@ def all_finite(*terms: Term) -> Term:
 
 
 def total(terms: Iterable[Term]) -> Term:
-    """Return a sum from left to right."""
+    """Return the sum of terms, added from left to right."""
     # The order of additions is fixed, so that all targets have the same rounding errors.
     return reduce(lambda a, b: a + b, terms)
 
 
 def paired(terms: Iterable[Term]) -> Term:
-    """Return a sum that adds pairs first, then the pairs from left to right."""
+    """Return the sum of terms. Neighbouring terms are first added in pairs; the sums of the pairs are then
+    added from left to right."""
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)
@@ -325,7 +326,7 @@ def absent(parameter: Term) -> Term:
 
 
 def holding(inputs: Term) -> Term:
-    """Return the signal that has the same values at all times."""
+    """Return the signal that has the values ``inputs`` at all times."""
     return Term("holding", (inputs,), Kind.SIGNAL)
 
 

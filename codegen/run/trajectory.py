@@ -60,8 +60,8 @@ inlined."""
 
 
 def is_looped(plan: Plan) -> bool:
-    """Return True if the kernel is inlined in a run: its state is small, and no other function must contain
-    the kernel."""
+    """Return True if the kernel is inlined in a run: its state is small, and no other function needs to
+    contain the kernel."""
     kernel = plan.kernel
     # If each step were a function call, the state would have to be stored in memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
@@ -140,7 +140,7 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
 
 
 def step(plan: Plan) -> Function:
-    """Return the public function for one step; run-time inputs are constant over it."""
+    """Return the public function for one step; run-time inputs are constant during this step."""
     state = plan.state()
     # The inputs of a single step are values and not functions of time, because its caller may change the
     # values between steps.
@@ -178,7 +178,8 @@ def run_parameters(plan: Plan) -> tuple[Term, ...]:
 
 
 def looped_runs(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of a run that contains the kernel: the loop, the cause, and the public run."""
+    """Return the functions of a run that contains the kernel: the loop, the function that finds the cause of
+    a failure, and the public run."""
     # The loop is a separate function, because the search for the cause of a failure calls it again with a
     # step of size zero.
     loop = replace(run(plan), name=LOOP, about="The loop of a run.", public=False)

@@ -27,7 +27,7 @@ class Trial:
     """The counts of a trial of ``steps`` steps of size ``h``.
 
     ``sweeps`` and ``matrices`` are average numbers per step, for each block. ``most`` is the largest number
-    of sweeps over one block in one step or substep. ``converged`` is whether all steps succeeded.
+    of sweeps over one block in one step or substep. ``converged`` is True if all steps succeeded.
     """
 
     steps: int

@@ -1,4 +1,4 @@
-"""The exponential of a matrix of su(3) as functions of a unit.
+"""The emitted functions that compute the exponential of a matrix of su(3).
 
 The statements compute exactly what :mod:`codegen.ir.unitary_exponential` computes in doubles, by the same
 formulas.
@@ -55,7 +55,7 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
             squarings,
             (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
         ),
-        # A norm that is not a number is lost, too.
+        # The comparison is false for a NaN, so the result is filled with NaNs in this case, too.
         If(
             negated(norm <= least),
             (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),
@@ -72,7 +72,7 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
 def _polynomial(
     y: Term, norm: Term, result: Term, coefficient: Term, precision: Precision
 ) -> list[Statement]:
-    """Return the statements that evaluate the Taylor polynomial of the least sufficient degree."""
+    """Return the statements that evaluate the Taylor polynomial of the lowest degree that is sufficient."""
     first, second, third, _ = largest_norms(precision.bits)
     groups, group = count("groups"), count("group")
     trace, det = real("half_trace"), real("determinant")
@@ -110,7 +110,8 @@ def _coordinates(array: Term) -> tuple[Term, ...]:
 
 
 def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | None) -> list[Statement]:
-    """Return the statements part = i^k/k! + H part for the real or the imaginary part of the coefficients."""
+    """Return the statements of one step P := i^k/k! + H P of Horner's rule, where P is a polynomial of degree
+    2 in H. ``part`` contains the real or the imaginary parts of its coefficients."""
     last = real("last")
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [

@@ -50,8 +50,8 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 
 
 def _part(arguments: Sequence[Expr]) -> Term | None:
-    """Return the part of an array of results of an earlier call if its entries are the arguments, else
-    None."""
+    """Return a part of the array of results of an earlier call, if the entries of this part are exactly the
+    arguments; else None."""
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
     # A single result of an outlined function is no array.
     if results[0] is None or len(results) == 1:

@@ -123,7 +123,8 @@ def _factors(start: Start) -> Term:
 def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
     """Return statements for all indices: a separate statement for each index up to FEW, otherwise a loop."""
     if n <= FEW:
-        # A compiler can interleave separate statements, and a loop with few iterations costs additional time.
+        # A compiler can interleave separate statements. A loop with few iterations would cost additional
+        # time.
         return [statement(whole(k)) for k in range(n)]
     return [For(_I, whole(n), (statement(_I),))]
 
@@ -179,7 +180,8 @@ class WarmStart:
         return Function("difference", about, parameters, tuple(body), often=True)
 
     def difference_of_few(self, order: Term, first: Term, sign: Term, result: Term) -> list[Statement]:
-        """Return the statements with a variable for each sum, two solutions at a time."""
+        """Return the statements for few unknowns: each sum is a scalar variable, and two solutions are added
+        at a time."""
         pair, place, column = count("pair"), count("row"), count("column")
         sums = [real(f"sum_{k}") for k in range(self.n)]
         newer, older = real("newer"), real("older")
@@ -299,8 +301,8 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
-        # The row of the latest solution decreases by one in each step, so this row can be used as a counter
-        # of steps.
+        # In each step the index of the row with the latest solution decreases by one (modulo the depth), so
+        # this index is used as a counter of steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(

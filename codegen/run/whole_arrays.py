@@ -20,8 +20,8 @@ results stay in registers."""
 
 
 def whole_result(outputs: Sequence[Expr]) -> Term | None:
-    """Return the array of results of a call if the outputs are all its entries from the first on, in order;
-    else None."""
+    """Return the array of the results of a call, if the outputs are the entries 0, 1, 2, ... of this array in
+    this order; else None."""
     if len(outputs) < SHORTEST:
         return None
     results = [result_of(x.payload) if x.op == "sym" else None for x in outputs]
@@ -34,8 +34,9 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
 
 
 def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term) -> list[Statement]:
-    """Return the statements with parts of the array ``state`` as arguments of calls, where the statements
-    copy consecutive entries of the state to an array first. ``symbols`` are the names of the entries."""
+    """Return the statements without unnecessary copies. If consecutive entries of the state are copied to an
+    array that is an argument of a call, the call gets a part of the array ``state`` in place of the copy.
+    ``symbols`` are the names of the entries of the state."""
     places = {s: k for k, s in enumerate(symbols)}
     parts: dict[str, Term] = {}
     result: list[Statement] = []

@@ -126,7 +126,7 @@ def _in_body(
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
         # The potential is singular at the neutral element, so the kinetic energy cannot be separated there.
-        # With zero in its place the test below fails, and H is not split.
+        # The kinetic energy is then replaced by zero, so that the test below fails and H is not split.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)

@@ -18,8 +18,8 @@ from codegen.ir.formulas import Formulas
 
 
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
-    """Return the components n_a = -<dH, e_a.q>; the argument contains the partial derivatives of H with
-    respect to q.
+    """Return the components n_a = -<dH, e_a.q>; ``slope`` contains the partial derivatives of H with respect
+    to q.
     """
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)

@@ -1,11 +1,11 @@
 """Classical forms of a scene: its equations in the coordinates that are usual for a general ODE solver.
 
 A form is a problem on R^n with a map to the state of the scene. The first form contains the equations as
-printed, in the coordinates of the scene. If the group has left translations, a form contains velocities and
-momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu (:mod:`codegen.scene.body_frame`). If a
-factor of the group has a cover with fewer coordinates, a form contains an element of the cover. For example,
-a heavy top has seven equations for a unit quaternion and the momentum in the body, in place of twelve. The
-classes of the groups implement these changes of coordinates.
+printed, in the coordinates of the scene. If the group has left translations, one of the forms uses velocities
+and momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu (:mod:`codegen.scene.body_frame`). If a
+factor of the group has a covering group with fewer coordinates, one of the forms uses an element of this
+cover. For example, a heavy top has seven equations for a unit quaternion and the momentum in the body, in
+place of twelve. The classes of the groups implement these changes of coordinates.
 """
 
 from __future__ import annotations
@@ -70,9 +70,9 @@ def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
     """Return the forms of a scene: first the equations as printed, then each form that the group of the scene
     provides.
 
-    The frame with fewer operations is chosen, separately for the coordinates of the scene and for the
-    coordinates of covers. This is the body frame if the inertia is fixed in the body, and the space frame if
-    the inertia is fixed in space.
+    The frame in which the equations need fewer operations is chosen, separately for the coordinates of the
+    scene and for the coordinates of covers. This is the body frame if the inertia is fixed in the body, and
+    the space frame if the inertia is fixed in space.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -106,8 +106,9 @@ def operations(roots: Sequence[Expr]) -> int:
 
 
 def _changes(problem: Problem) -> Iterator[_Change]:
-    """Yield the changes of coordinates: to the body frame, and to covers of the factors in the frame with
-    fewer operations.
+    """Yield the changes of coordinates that define forms: a change to the body frame, if it needs fewer
+    operations than the space frame, and a change to covers of the factors, in the frame that needs fewer
+    operations.
     """
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):
@@ -239,8 +240,8 @@ class _Change:
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
         # The coordinates of a form may leave the manifold, and the invariants of the scene are functions of
-        # its state. Therefore the invariants of the form are composed with the map from the form to the
-        # scene.
+        # its state. Therefore the invariants of the form are the invariants of the scene, composed with the
+        # map from the form to the scene.
         invariants = {name: self.evaluated((x,), known)[0] for name, x in problem.invariants.items()}
         constants = self.evaluated([e for block in problem.state for e in block.initial], {})
         initial = self.evaluated(from_scene, dict(zip(problem.symbols, constants, strict=True)))
@@ -288,7 +289,7 @@ class _Change:
 
     @staticmethod
     def layout(leaf: _Leaf) -> str:
-        """Return the order of the coordinates of a factor."""
+        """Return a text on the order in which the coordinates of a factor are stored."""
         return (leaf.group if leaf.cover is None else leaf.cover.cover).layout
 
     def conversion(self) -> str:

@@ -25,8 +25,8 @@ ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1,
 """The hint for an initial state that is wrong by a rounding error."""
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
-"""Pairs of formulas that must be equal, by the name that messages use: formulas that the scene contains, and
-formulas computed from its field. If the second entry of a pair is None, the first entry is
+"""Pairs of formulas that must be equal: formulas that the scene contains, and formulas computed from its
+field. The key of a pair is its name in messages. If the second entry of a pair is None, the first entry is
 compared with the velocity f.y.
 """
 
@@ -87,8 +87,7 @@ def check_start(orbit: Orbit) -> None:
 
 
 def _check_invertible(orbit: Orbit, start: Vector[mpmath.mpf]) -> None:
-    """Raise :class:`SceneError` if the initial state should be an element of the group, and has no
-    inverse."""
+    """Raise :class:`SceneError` if the initial state must be an element of the group but has no inverse."""
     group = orbit.group.offers(Inverse) if orbit.action.on_itself else None
     if group is None:
         return

@@ -63,7 +63,7 @@ class Evolution:
     def leave(
         self, domain: Domain, moved: Vector[S], y: Vector[S], frame: Coadjoint | None = None
     ) -> Vector[S]:
-        """Return the state with given coordinates on the manifold that contains the state y.
+        """Return the state with the coordinates ``moved``, on the manifold that contains the state y.
 
         If ``frame`` is given, both states contain the momentum in the body frame, and ``frame`` is the
         group.
@@ -140,13 +140,13 @@ class Evolution:
 
 
 def in_space(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
-    """Return the state with the momentum in the space frame, given it with the momentum in the body frame."""
+    """Return a state with its momentum converted from the body frame to the space frame."""
     q, momentum = tuple(y[: group.size]), tuple(y[group.size :])
     return (*q, *group.Adtinv(domain, q, momentum))
 
 
 def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
-    """Return the state with the momentum in the body frame, given it with the momentum in the space frame."""
+    """Return a state with its momentum converted from the space frame to the body frame."""
     q, mu = tuple(y[: group.size]), tuple(y[group.size :])
     return (*q, *group.Adt(domain, q, mu))
 

@@ -1,8 +1,9 @@
 """The figures of a scene: which runs of emitted code they show, and which formulas of the state they draw.
 
 A scene file lists its figures in the variable ``figures``. Each class of this module is a kind of figure.
-``codegen.lab.pictures`` draws every kind once. Formulas are sympy formulas in the symbols of the scene, in
-its parameters and in the time ``t``; a text is the name of an invariant of the scene.
+``codegen.lab.pictures`` contains one drawing function for each kind. Formulas are sympy formulas in the
+symbols of the scene, in its parameters and in the time ``t``; a text in place of a formula is the name of an
+invariant of the scene.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ STEP = "h"
 
 @dataclass(frozen=True)
 class Sweep:
-    """Values of a parameter of the scene, or of the step size ``h``: ``count`` equal distances from ``first``
-    to ``last``.
+    """Values of a parameter of the scene, or of the step size ``h``: ``count`` equally spaced values from
+    ``first`` to ``last``.
     """
 
     name: str
@@ -40,12 +41,12 @@ class Sweep:
 class Run:
     """A run of emitted code from the initial state of a scene.
 
-    The run makes ``steps`` steps of size ``h`` with a method, and the figure shows every ``stride``-th
-    state. ``label`` is the name of the run in the figure, by default the method. ``scene`` is the name of
-    another scene; ``+u`` is the extension of the scene by the momentum of the time. If ``tolerance`` is
-    positive, the method chooses its steps with this relative and absolute tolerance, and ``h`` is the
-    distance of the output times. With a ``sweep`` the figure shows the states at the ends of one run for
-    each value.
+    The run makes ``steps`` steps of size ``h`` with a method, and the figure shows every ``stride``-th state.
+    ``label`` is the name of the run in the figure, by default the method. ``scene`` is the name of another
+    scene, for which the run is made; the name ``+u`` denotes the extension of the scene by the momentum of
+    the time. If ``tolerance`` is positive, the method chooses its steps with this relative and absolute
+    tolerance, and ``h`` is the interval between output times. With a ``sweep`` there is one run for each
+    value, and the figure shows the final states of these runs.
     """
 
     method: str
@@ -67,8 +68,8 @@ class Run:
 class Figure:
     """A figure: its name in commands, its title, its caption, and the runs that it shows.
 
-    ``source`` names the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run to compare
-    with; kinds without a comparison draw it as a thin line.
+    ``source`` names the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run with which
+    the other runs are compared; figures that compare nothing draw it as a thin line.
     """
 
     name: str
@@ -100,8 +101,9 @@ class PlaneCurves(Figure):
 class SphereCurves(Figure):
     """Curves on a sphere about the origin, in orthogonal projection. ``point`` has three formulas.
 
-    ``direction`` points to the eye: azimuth and elevation in degrees. With ``panels`` each run has a
-    panel of its own. With ``dots`` the states are drawn as dots without lines between them.
+    ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees. With
+    ``panels`` each run has a panel of its own. With ``dots`` the states are drawn as dots without lines
+    between them.
     """
 
     point: tuple[Quantity, Quantity, Quantity]
@@ -115,7 +117,7 @@ class SphereCurves(Figure):
 class SpaceCurves(Figure):
     """Curves in space, in orthogonal projection. ``point`` has three formulas.
 
-    ``direction`` points to the eye: azimuth and elevation in degrees.
+    ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees.
     """
 
     point: tuple[Quantity, Quantity, Quantity]
@@ -127,9 +129,10 @@ class SpaceCurves(Figure):
 class TorusCurves(Figure):
     """Curves on a torus in the chart of two angles; opposite edges are the same line of the torus.
 
-    ``angles`` are two formulas, in radians, and ``axes`` their labels. ``state`` has a formula of two symbols
-    ``variables`` for each coordinate of the state with these angles. At such states the formulas
-    ``directions``, the rates of the angles, are drawn as arrows, and ``levels`` as level lines.
+    ``angles`` are two formulas, in radians, and ``axes`` their labels. ``state`` contains a formula for each
+    coordinate of the state, in the two symbols ``variables``, which stand for the angles. ``directions`` are
+    formulas for the rates of the angles, drawn as arrows, and ``levels`` is a formula that is drawn as level
+    lines. Both are evaluated at the states that ``state`` gives.
     """
 
     angles: tuple[Quantity, Quantity]
@@ -145,8 +148,9 @@ class TimeSeries(Figure):
     """Quantities against time. ``quantities`` maps labels to formulas.
 
     If ``difference`` is True, the figure shows the differences from the first quantity along the reference
-    run; otherwise it shows this quantity as a line of its own, with the label ``reference_label``.
-    ``window`` is the interval of time that is shown. Each run has a panel if there is more than one.
+    run; otherwise the first quantity along the reference run is drawn as a separate line with the label
+    ``reference_label``. ``window`` is the interval of time that is shown. Each run has a panel if there is
+    more than one.
     """
 
     quantities: Mapping[str, Quantity] = field(default_factory=dict)
@@ -161,7 +165,8 @@ class Deviation(Figure):
     """The largest deviation of a quantity, on a logarithmic axis against time.
 
     The deviation is the difference from the same quantity along the reference run, or from its initial value
-    if there is no reference. It is the maximum over ``window`` steps, or with 0 over all steps so far.
+    if there is no reference. It is the maximum over ``window`` steps, or over all steps so far if ``window``
+    is 0.
     """
 
     quantity: Quantity
@@ -173,7 +178,8 @@ class Deviation(Figure):
 class Scan(Figure):
     """The distance of the final state from the end of the reference run, against the values of a sweep.
 
-    Every run has a sweep. The least distance is refined beyond the values of the sweep and marked.
+    Every run has a sweep. The least distance is marked; it is located more accurately than by the values of
+    the sweep.
     """
 
     axis: str = ""
@@ -196,7 +202,8 @@ class Orders(Figure):
 def read_figures(scene: str, value: object) -> tuple[Figure, ...]:
     """Return the value of the variable ``figures`` of a scene file as a tuple.
 
-    Raises :class:`codegen.errors.SceneError` for an object that is no figure, and for equal names.
+    Raises :class:`codegen.errors.SceneError` for an object that is no figure, and for two figures with the
+    same name.
     """
     figures: list[Figure] = []
     for figure in value if isinstance(value, Iterable) else [value]:

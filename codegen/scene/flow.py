@@ -1,7 +1,7 @@
 """The interface of exact flows, which advance the state of a problem along one part of its Hamiltonian.
 
-The part H_k of H = sum H_k moves (q, mu) for a time tau along the solution of q' = xi.q, mu' = n - ad*_xi mu
-with xi = D_2 H_k and n = -(D_1 H_k).q^-1 (eq. 2.27 of H. Marthinsen's thesis). :mod:`codegen.flows` has one
+The part H_k of H = sum H_k moves (q, mu) for a time tau along the solution of q' = xi.q, mu' = n - ad*_xi mu.
+Here xi = D_2 H_k and n = -(D_1 H_k).q^-1 (eq. 2.27 of H. Marthinsen's thesis). :mod:`codegen.flows` has one
 class for each kind of flow in closed form.
 """
 

@@ -96,8 +96,8 @@ class Reader:
     def scalar(
         self, formula: sympy.Expr, what: str, constant: bool = False, more: Sequence[str] = ()
     ) -> Expr:
-        """Return one formula as an expression; its symbols must be coordinates, t, parameters, signals or in
-        ``more``.
+        """Return one formula as an expression; its symbols must be coordinates, t, parameters, signals, or
+        symbols in ``more``.
 
         If ``constant``, the formula may contain only parameters. ``what`` names the formula in messages.
         """

@@ -55,12 +55,12 @@ def HamiltonianScene(
     initial values, ``parts`` named summands of H. If the compiler does not recognise the exact flow of a
     part, ``flows`` may contain it, as formulas of (q, mu) after the time ``Symbol("tau")``. xi = D_2 H and n
     = -(D_1 H).q^-1 (:mod:`codegen.scene.canonical_equations`) are computed by differentiation. If ``xi`` or
-    ``n`` is given, it must equal the computed formulas. ``wrench`` is a column of ``group.dim`` components,
-    in space, of a force without potential: mu' = n + wrench - ad*_xi mu, so a given ``n`` does not contain
-    the wrench. A scene with a wrench has no energy, and may have no parts. The parts must add up to H. If H
-    does not depend on time and there is no wrench, the energy is an invariant. The only coordinate map is
-    "exp": other values of ``coordinates`` are refused. :class:`SceneError` is raised in the same cases as by
-    :func:`FieldScene`.
+    ``n`` is given, it must equal the computed formulas. ``wrench`` is the column of the ``group.dim``
+    components, in the space frame, of a force without potential. The equation is then mu' = n + wrench -
+    ad*_xi mu, so a given ``n`` does not contain the wrench. A scene with a wrench has no energy, and must not
+    have parts. The parts must add up to H. If H does not depend on time and there is no wrench, the energy is
+    an invariant. The only coordinate map is "exp": other values of ``coordinates`` are refused.
+    :class:`SceneError` is raised in the same cases as by :func:`FieldScene`.
     """
     _check_coordinates(name, coordinates)
     reader = _reader(name, group, q, mu)

@@ -2,9 +2,9 @@
 
 The first half of the coordinates is q, the second half p. The matrix A(t) is in sp(2n) if and only if y' is
 the canonical equation of H = (q'.p - p'.q)/2 = -y^T J A y/2 with J = (0, 1; -1, 0). The momentum u of the
-time has u' = -dH/dt, and its initial value is -H. For a step y -> M(t) y with symplectic M(t) the momentum
-after the step is U = u + y^T M^T J M' y/2, where M' is the derivative with respect to t (H. Marthinsen's
-thesis, equation (4.15)). The step is then a canonical transformation of (q, p, t, u).
+time has u' = -dH/dt, and its initial value is -H. For a step y -> M(t) y with a symplectic matrix M(t), the
+momentum after the step is U = u + y^T M^T J M' y/2 with M' = dM/dt (H. Marthinsen's thesis, equation (4.15)).
+The step is then a canonical transformation of (q, p, t, u).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def extended_linear(problem: Problem, u: str) -> Problem:
     """Return the problem with the momentum of the time as its last coordinate, which has the symbol ``u``.
 
     The invariant ``energy`` is H + u. :class:`SceneError` is raised if (q, p)' = A(t).(q, p) is not a
-    Hamiltonian equation, and if H does not depend on the time.
+    Hamiltonian equation, or if H does not depend on the time.
     """
     hamiltonian = _hamiltonian(problem)
     space = hamiltonian.space
@@ -53,7 +53,8 @@ def extended_linear(problem: Problem, u: str) -> Problem:
 
 
 def without_momentum_rate(problem: Problem) -> Problem:
-    """Return an extended linear problem in which u is constant: its field contains the time alone.
+    """Return an extended linear problem in which u is constant. The formulas of its field then contain the
+    time, but not the state.
 
     The methods for linear problems compute u from the derivative of the whole step.
     """

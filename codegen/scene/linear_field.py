@@ -34,7 +34,7 @@ class LinearField(MatrixField):
 
 
 def linear_field(matrix: TimeMatrix, columns: int) -> LinearField:
-    """Return the field A(t) X on matrices with some columns."""
+    """Return the field A(t) X on n x k matrices X with k = ``columns``."""
     n = matrix.rows
     argument, result = Matrix("point", n, columns), Matrix("velocity", n, columns)
     parts = [Matrix(f"value {k}", n, columns) for k in range(1, len(matrix.terms) + 1)]

@@ -82,8 +82,8 @@ def LinearScene(
 
 
 def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
-    """Return the stated steps; raise SceneError if the scene does not act by matrices, or if exp and log of
-    its matrices have no closed form."""
+    """Return the steps that the scene states; raise SceneError if the scene does not act by matrices, or if
+    exp and log of its matrices have no closed form."""
     matrices = scene.group.offers(MatrixElements)
     for name, (formula, order) in steps.items():
         where = f"{scene.name}, step {name}"

@@ -26,7 +26,8 @@ Coefficient = Union["sympy.Expr", int, float]
 """A scalar in a formula."""
 
 EntryFormula = Union[Callable[..., "Coefficient"], Sequence["Coefficient"], "Coefficient"]
-"""The entries of a matrix or a diagonal: a function of the indices, all entries, or one number for all."""
+"""The entries of a matrix or a diagonal: a function of the indices, a list of all entries, or one number that
+is the value of all entries."""
 
 
 class MatrixFormula:
@@ -78,7 +79,8 @@ class Unknown(MatrixFormula):
 
 @dataclass(frozen=True, eq=False)
 class Constant(MatrixFormula):
-    """A constant matrix: entries of its diagonals by their offsets, or all entries."""
+    """A constant matrix, given by the entries of some diagonals, with the offset as key, or by all
+    entries."""
 
     rows: int
     columns: int
@@ -132,7 +134,7 @@ class Times(MatrixFormula):
 
 
 def unknown(rows: int, columns: int) -> Unknown:
-    """Return the symbol of the state of a :class:`codegen.scene.StiefelScene`: a matrix X."""
+    """Return the matrix X that denotes the state of a :class:`codegen.scene.StiefelScene` in formulas."""
     _size(rows, "rows")
     _size(columns, "columns")
     return Unknown(rows, columns)
@@ -141,10 +143,11 @@ def unknown(rows: int, columns: int) -> Unknown:
 def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None = None) -> Constant:
     """Return a matrix that is zero outside some diagonals; it is square unless ``columns`` is given.
 
-    ``diagonals`` maps an offset j - i to the entries a_ij: one scalar for all, a function of the row i, or
-    the list of all entries of the diagonal. Rows and columns are counted from 0. Emitted code contains the
-    numbers of a list; a scalar or a function takes one line. :class:`SceneError` is raised for an offset
-    outside the matrix, and later for a list of a wrong length.
+    ``diagonals`` maps an offset j - i to the entries a_ij: one scalar that is the value of all entries, a
+    function of the row i, or the list of all entries of the diagonal. Rows and columns are counted from 0.
+    Emitted code contains the numbers of a list; a scalar or a function takes one line. :class:`SceneError` is
+    raised for an offset outside the matrix. A list of a wrong length raises it only when the scene reads the
+    matrix.
     """
     _size(rows, "rows")
     width = rows if columns is None else columns
@@ -162,7 +165,8 @@ def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None
 
 
 def full(rows: int, columns: int, entries: EntryFormula) -> Constant:
-    """Return a matrix without zeros: a function of row and column, counted from 0, or a list of rows.
+    """Return a full matrix. Its entries are given by a function of row and column, counted from 0, or by a
+    list of rows.
 
     A product with this matrix takes rows x columns operations for each column of the other matrix.
     """

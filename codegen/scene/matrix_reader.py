@@ -160,7 +160,7 @@ class _Compiler:
                 yield c, (self.factor(formula, transposed),)
 
     def factor(self, formula: MatrixFormula, transposed: bool) -> _Factor:
-        """Return a formula as a factor; raise :class:`SceneError` for another unknown."""
+        """Return a formula as a factor; raise :class:`SceneError` for an unknown other than X."""
         if isinstance(formula, Unknown) and formula is not self.x:
             raise SceneError(
                 "the velocity contains another unknown",
@@ -184,7 +184,8 @@ class _Compiler:
                 return self.reader.space.one, (self.factor(formula, transposed),)
 
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
-        """Yield a product as summands; sums with a constant matrix or with n^2 entries are multiplied out."""
+        """Yield the summands of a product. A factor that is a sum is multiplied out if one of its terms is a
+        constant matrix, or if it has n^2 entries."""
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
             alone = [inner for _, inner in parts if len(inner) == 1 and inner[0].constant is not None]
@@ -230,7 +231,7 @@ class _Compiler:
         return self.multiplied(self.product(left), self.product(right))
 
     def single(self, factor: _Factor) -> _Stored:
-        """Return the unknown or a sum as a matrix."""
+        """Return the stored matrix of a single factor, which is the unknown or a sum."""
         if factor.constant is not None:
             raise self.constant_product()
         if isinstance(factor.formula, Unknown):
@@ -239,7 +240,7 @@ class _Compiler:
         return self.total(summands, factor.rows, factor.columns)
 
     def constant_product(self) -> SceneError:
-        """Return the error for a constant matrix or a product of constant matrices."""
+        """Return the error for a summand that is a constant matrix or a product of constant matrices."""
         return SceneError(
             "a constant matrix that is not multiplied by X",
             where=self.reader.name,
@@ -250,7 +251,8 @@ class _Compiler:
         """Return the product of a constant matrix and another matrix."""
         assert factor.constant is not None
         constant = self.constant(factor.constant)
-        # C Z^T = (Z C^T)^T: the stored matrix is not transposed, and the constant changes its side.
+        # C Z^T = (Z C^T)^T: instead of transposing the stored matrix Z, the program multiplies it from the
+        # other side by the transposed constant matrix.
         transposed = factor.transposed is not other.transposed
         right = from_right is not other.transposed
         rows = other.rows if from_right else factor.rows
@@ -273,7 +275,8 @@ class _Compiler:
         return _Stored(target)
 
     def constant(self, given: Constant, *, transposed: bool = False) -> ConstantMatrix:
-        """Return a constant matrix or its transpose with its entries read."""
+        """Read the entries of a constant matrix, and return the matrix or its transpose for the array
+        program."""
         key = id(given), transposed
         if key not in self.constants:
             name = f"matrix_{len(self.constants) + 1}"
@@ -283,8 +286,8 @@ class _Compiler:
 
 
 def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
-    """Return the statements without a copy at the end, if the copied matrix is computed by the statement
-    before."""
+    """Return the statements. If the last one only copies the matrix that the statement before it computes,
+    the copy is omitted, and that statement computes the result directly."""
     *before, last = body
     assert isinstance(last, Combination)
     (term,) = last.terms
@@ -294,7 +297,8 @@ def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
 
 
 def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
-    """Return the least number of products of a chain, and the place where the last product is formed."""
+    """Return the least number of scalar multiplications for a product of matrices, and the number of factors
+    to the left of the matrix multiplication that is made last."""
     n = len(factors)
     best: dict[tuple[int, int], tuple[float, int]] = {(i, i + 1): (0.0, i) for i in range(n)}
     for length in range(2, n + 1):
@@ -310,7 +314,8 @@ def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
 
 
 def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...]) -> float:
-    """Return the number of products of two matrices; infinity if both are constant."""
+    """Return the number of scalar multiplications in the product of two matrices that are products
+    themselves; infinity if both are constant."""
     rows, inner, columns = left[0].rows, right[0].rows, right[-1].columns
     first, second = (side[0].constant if len(side) == 1 else None for side in (left, right))
     if first is not None and second is not None:

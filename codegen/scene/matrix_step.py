@@ -2,8 +2,8 @@
 
 A formula consists of :func:`A`, :data:`IDENTITY`, :data:`h` and numbers, sums and products, and the functions
 :func:`bracket`, :func:`projected`, :func:`expm` and :func:`logm`. Each formula has a type: an element of the
-Lie algebra, an element of the group, or another matrix. The exponential of an element of the algebra is the
-exponential of the group. For all other matrices exp and log have closed forms, and only for two rows.
+Lie algebra, an element of the group, or another matrix. The group computes the exponential of an element of
+the algebra. All logarithms and all other exponentials have closed forms, which exist only for 2 x 2 matrices.
 
 >>> projection = expm(projected(logm(IDENTITY + h * A(0))))
 >>> projection.place, projection.text()
@@ -47,7 +47,7 @@ class Evaluation(Generic[S]):
 
 @dataclass(frozen=True)
 class Scalar:
-    """``value`` h^``power``."""
+    """The scalar ``value`` h^``power``, where h is the step size."""
 
     value: Fraction
     power: int
@@ -176,7 +176,7 @@ class Sum(Binary):
 
     @property
     def place(self) -> Place:
-        """The algebra for two elements of the algebra."""
+        """ALGEBRA if both terms are elements of the algebra, otherwise MATRIX."""
         return Place.ALGEBRA if self._both(Place.ALGEBRA) else Place.MATRIX
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -193,7 +193,7 @@ class Product(Binary):
 
     @property
     def place(self) -> Place:
-        """The group for two elements of the group."""
+        """GROUP if both factors are elements of the group, otherwise MATRIX."""
         return Place.GROUP if self._both(Place.GROUP) else Place.MATRIX
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -210,7 +210,7 @@ class Commutator(Binary):
 
     @property
     def place(self) -> Place:
-        """The algebra for two elements of the algebra."""
+        """ALGEBRA if both matrices are elements of the algebra, otherwise MATRIX."""
         return Place.ALGEBRA if self._both(Place.ALGEBRA) else Place.MATRIX
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -243,7 +243,7 @@ class Multiple(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The algebra for an element of the algebra."""
+        """ALGEBRA if the matrix is an element of the algebra, otherwise MATRIX."""
         return Place.ALGEBRA if self.of.place is Place.ALGEBRA else Place.MATRIX
 
     def parts(self) -> tuple[MatrixFormula, ...]:
@@ -295,11 +295,11 @@ class Exponential(Unary):
 
     @property
     def place(self) -> Place:
-        """The group for an element of the algebra."""
+        """GROUP if the argument is an element of the algebra, otherwise MATRIX."""
         return Place.GROUP if self.of.place is Place.ALGEBRA else Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this formula if its argument is not in the algebra."""
+        """Yield this formula if its argument is not in the algebra, then such formulas in the argument."""
         if self.of.place is not Place.ALGEBRA:
             yield self
         yield from super().closed_forms()
@@ -325,7 +325,7 @@ class Logarithm(Unary):
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this formula."""
+        """Yield this formula, then the closed forms in its argument."""
         yield self
         yield from super().closed_forms()
 
@@ -369,8 +369,10 @@ def logm(x: MatrixFormula) -> MatrixFormula:
 
 @dataclass(frozen=True)
 class MatrixStep:
-    """A stated step: y1 = M y0 with the matrix M of ``formula``; ``order`` is the order that the scene
-    states."""
+    """A step that the scene states: y1 = M y0, where M is the value of ``formula``.
+
+    ``order`` is the order of the step according to the scene.
+    """
 
     formula: MatrixFormula
     order: int
@@ -383,7 +385,7 @@ class MatrixStep:
 
 @lru_cache(maxsize=16)
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
-    """Return the matrix, on the entries of matrices, of the orthogonal projection onto the algebra."""
+    """Return the orthogonal projection onto the algebra, as a matrix that acts on the entries of a matrix."""
     from sympy import Matrix, Rational
 
     d = FloatDomain(0.0)
@@ -395,14 +397,14 @@ def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
 
 
 def _split(d: Domain, m: Vector[S]) -> tuple[S, Vector[S], S]:
-    """Return s, N and det N for a 2 x 2 matrix s + N whose part N has trace zero."""
+    """Return s, N and det N for the 2 x 2 matrix s + N, where s is a number and N has trace zero."""
     half = d.rational(1, 2)
     s, a = half * (m[0] + m[3]), half * (m[0] - m[3])
     return s, (a, m[1], m[2], -a), -(a * a + m[1] * m[2])
 
 
 def _exponential(d: Domain, m: Vector[S]) -> Vector[S]:
-    """Return exp(s + N) = e^s (c_0(det N) + c_1(det N) N) for a 2 x 2 matrix; N^2 = -det N."""
+    """Return exp(s + N) = e^s (c_0(det N) + c_1(det N) N) for a 2 x 2 matrix; N has trace zero."""
     s, traceless, z = _split(d, m)
     scale = d.call("exp", s)
     c0, c1 = scale * d.call("signed_stumpff0", z), scale * d.call("signed_stumpff1", z)
@@ -419,7 +421,8 @@ def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     s, traceless, z = _split(d, m)
     one, half = d.rational(1), d.rational(1, 2)
     r = d.call("sqrt", d.call("fabs", z))
-    # All formulas of a selection are evaluated, so for z > 0 the logarithms have the argument 1.
+    # Both alternatives of ``choose`` are evaluated. For z > 0 the logarithms are not used, so that their
+    # argument is replaced by 1.
     above, below = (d.call("log", d.call("choose", z, one, x)) for x in (s + r, s - r))
     angle = d.call("choose", z, d.call("atan2", r, s), half * (above - below))
     g = d.call("choose", r, d.call("quotient", angle, r), d.call("quotient", one, s))

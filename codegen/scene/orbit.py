@@ -1,8 +1,8 @@
 """Sample points on the manifold of a problem, at which formulas are compared.
 
-The points are on the orbit of the initial state under the group, at times of the span. Two formulas may be
-equal only because the state satisfies the equations of the group, such as g^T g = 1. At the sample points
-such formulas have equal values. Numbers have 40 digits.
+The points are on the orbit of the initial state under the group, and their times lie in the time span of the
+problem. Two formulas may be equal only because the state satisfies the equations of the group, such as
+g^T g = 1. At the sample points such formulas have equal values. Numbers have 40 digits.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ POINTS = 4
 
 @dataclass(frozen=True)
 class Orbit:
-    """A problem as a field, which can be evaluated at sample points of its manifold.
+    """A problem in the form of a field, with the sample points at which formulas are compared.
 
     ``symbols`` are the coordinates, ``start`` the initial state, ``roots`` the components of f. The group of
     a Hamiltonian problem is T*G, which acts on itself.
@@ -130,7 +130,7 @@ class Orbit:
 
 
 def orbit_of(problem: Problem) -> Orbit:
-    """Return the sample points of a problem."""
+    """Return the orbit of a problem, with its sample points."""
     field = problem.as_field()
     start = tuple(e for block in field.state for e in block.initial)
     return Orbit(

@@ -13,7 +13,7 @@ from codegen.ir.domain import FloatDomain
 from codegen.scene.problem import Problem
 
 DISPLACEMENT = 1e-4
-"""The distance from the orbit of the points that are projected in the test."""
+"""The distance between the orbit and the points that the test projects."""
 
 REDUCED = 1e-2
 """A projection reduces a small distance to about its square. The test requires that the distance after the
@@ -50,7 +50,8 @@ def reaches_orbit(problem: Problem) -> bool:
 def _orthonormal(
     vectors: Sequence[Sequence[float]], known: Sequence[Sequence[float]] = ()
 ) -> list[list[float]]:
-    """Return an orthonormal basis that extends ``known`` to a basis of the span of ``vectors`` and ``known``.
+    """Return vectors that form, together with ``known``, an orthonormal basis of the span of all given
+    vectors.
 
     The vectors in ``known`` must be orthonormal; the result does not contain them.
     """

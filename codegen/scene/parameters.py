@@ -53,9 +53,9 @@ class Signal(sympy.Symbol):  # type: ignore[misc]
 def param(name: str, default: object) -> Parameter:
     """Return a sympy symbol for a parameter with a rational default.
 
-    A float means the shortest decimal that prints it: 0.1 is 1/10. Emitted code contains the default as a
-    constant, unless the parameter is requested as a run-time argument.
-    :class:`SceneError` is raised for a default that is not rational.
+    A float denotes the decimal number that Python prints for it: 0.1 is 1/10. Emitted code contains the
+    default as a constant, unless the parameter is requested as a run-time argument. :class:`SceneError` is
+    raised for a default that is not rational.
     """
     value = exact(default)
     if value is None:

@@ -65,8 +65,8 @@ class Problem:
 
     ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
     state's symbols, the parameters and ``t``. ``paired`` is True if the state is (q, mu). ``parts`` are named
-    summands of the Hamiltonian, ``flows`` the exact flows that a splitting composes, ``stated`` the formulas
-    of (q, mu) after the time tau for parts whose flow the scene defines.
+    summands of the Hamiltonian, and ``flows`` are the exact flows that a splitting composes. The scene may
+    state the flow of a part itself: ``stated`` then contains the formulas of (q, mu) after the time tau.
 
     ``runtime`` names the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value is
     not the default. ``roots`` contain the formulas of the signals; ``open_roots`` are the same components
@@ -75,14 +75,14 @@ class Problem:
     If emitted code reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution``
     contains the coordinates in which a step of Taylor's method computes. ``coordinates`` is the map with
     which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential map. ``matrices``
-    is the field if it is given by formulas of whole matrices; for large matrices ``roots`` is then empty.
-    If ``carries_momentum`` is true, the problem is linear in (q, p), and the last coordinate is the momentum
-    of the time (:mod:`codegen.scene.linear_extension`). ``steps`` are the steps that the scene states as
-    functions of matrices (:mod:`codegen.scene.matrix_step`). If ``sites`` is given, the problem is the
-    equation of one site of a lattice, and ``roots`` also contain the coordinates of neighbours
+    is the field if it is given by formulas of whole matrices; for large matrices ``roots`` is then empty. If
+    ``carries_momentum`` is true, the problem is linear in (q, p), and the last coordinate is the momentum
+    conjugate to the time (:mod:`codegen.scene.linear_extension`). ``steps`` are the steps that the scene
+    states as functions of matrices (:mod:`codegen.scene.matrix_step`). If ``sites`` is given, the problem is
+    the equation of one site of a lattice, and ``roots`` also contain the coordinates of neighbours
     (:mod:`codegen.scene.sites`). ``figures`` are the figures that the file of the scene declares
-    (:mod:`codegen.scene.figure`). ``derived`` stores the problems that families derive from this problem, by
-    the kind of the family. A search uses each of them for hundreds of methods.
+    (:mod:`codegen.scene.figure`). ``derived`` is a cache of the problems that families derive from this
+    problem; the key is the kind of the family. A search uses each of them for hundreds of methods.
     """
 
     name: str
@@ -130,7 +130,7 @@ class Problem:
     @property
     def linear(self) -> bool:
         """True if the field does not depend on the state: y' = A(t).y, a linear problem in time."""
-        # A tangent field on matrices with orthonormal columns depends on the matrix.
+        # A field that is given by formulas of whole matrices may have no formulas in coordinates.
         if self.matrices is not None:
             return self.matrices.linear
         state = set(self.symbols)
@@ -168,7 +168,7 @@ class Problem:
     def values(self, domain: Domain, state: Sequence[S], t: S | None = None) -> Bindings:
         """Return the values of all symbols: state, parameters and the time; the default of the time is 0.
 
-        Run-time parameters stay symbols in expressions.
+        If the domain consists of expressions, run-time parameters stay symbols.
         """
         return {**dict(zip(self.symbols, state, strict=True)), **self.scalars(domain, t)}
 
@@ -224,8 +224,10 @@ class Problem:
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return F v, where F is the product of the functions of ad_x in ``word``; with ``dual``, of
-        ad*_x."""
+        """Return F v, where F is the product of the functions of ad_x that are listed in ``word``.
+
+        If ``dual`` is true, they are functions of ad*_x.
+        """
         return self.group.require(ClosedFormSeries).series(domain, word, dual, x, v)
 
     @property

@@ -1,9 +1,10 @@
 """Parts of the field of a lattice with exact flows: local parts, and interactions of pairs of neighbours.
 
-A part has generators: the velocity of a site is the sum over all parts. If the generators of a part are
-constant along the solutions of this part alone, its flow is y -> exp(tau f(y)).y, which is exact. The flows
-of pairs that have no site in common commute. The pairs along an axis of the lattice therefore form two sets:
-the first sites of a set have even indices, those of the other odd indices.
+A part consists of formulas for elements of the Lie algebra, the generators. A site has the sum of the
+velocities f(y).y for the generators f of all parts. If the generators of a part are constant along the
+solutions of this part alone, the flow of the part is y -> exp(tau f(y)).y, which is exact. The flows of pairs
+that have no site in common commute. The pairs along an axis of the lattice therefore form two sets: in one
+set the first site of each pair has an even index, in the other set an odd index.
 """
 
 from __future__ import annotations
@@ -28,8 +29,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Pair:
-    """The interaction of the sites i and i + offset: the generators ``first`` of site i and ``second`` of the
-    other site, in the coordinates of both."""
+    """The interaction of the sites i and i + offset.
+
+    ``first`` are the generators of site i and ``second`` those of the other site. Both are formulas in the
+    coordinates of both sites.
+    """
 
     offset: Sequence[int]
     first: Sequence[sympy.Expr]
@@ -44,8 +48,8 @@ def read_parts(
 ) -> tuple[SitePart, ...]:
     """Return the parts of a scene; ``size`` is the dimension of the group.
 
-    SceneError is raised for formulas that contain other symbols, and for offsets that are not a step forwards
-    along one axis.
+    SceneError is raised for formulas that contain unknown symbols, and for offsets that are not a step
+    forwards along one axis.
     """
     return tuple(_read(reader, y, size, name, given) for name, given in (parts or {}).items())
 
@@ -73,7 +77,10 @@ def _read(
 
 def check_parts(scene: Problem, orbit: Orbit) -> None:
     """Raise SceneError if a part depends on time, if its generators are not constant along its own flow, or
-    if the velocity of all parts differs from the velocity of the field. ``orbit`` is that of one site."""
+    if the sum of the velocities of all parts differs from the velocity of the field.
+
+    ``orbit`` contains the sample points of one site.
+    """
     sites = scene.sites
     assert sites is not None
     for part in sites.parts:
@@ -91,7 +98,7 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
 
 
 def _velocity(scene: Problem, part: SitePart) -> tuple[tuple[str, ...], list[Expr]]:
-    """Return the coordinates of the sites of a part, and their derivatives by the part."""
+    """Return the coordinates of the sites of a part, and the time derivatives that this part gives them."""
     domain, dim = ExprDomain(part.roots[0].space), scene.group.dim
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     slopes: list[Expr] = []
@@ -119,14 +126,14 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
 
 
 def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols at a point, with the next point as the state of a neighbour."""
+    """Return the values of all symbols at a sample point; the next sample point is the neighbour's state."""
     point = dict(orbit.points[number])
     other = orbit.points[(number + 1) % len(orbit.points)]
     return point | {s: other[own] for s, own in zip(partner, scene.symbols, strict=bool(partner))}
 
 
 def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
-    """Compare the velocities at a site with all neighbours, and at sites without some neighbours."""
+    """Compare the velocity by all parts with that by f, with all neighbours and without some neighbours."""
     axes = [part.axis for part in sites.parts if part.symbols]
     offsets = {*sites.offsets}
     for axis in axes:
@@ -183,7 +190,7 @@ def _summed(
     point: Mapping[str, mpmath.mpf],
     states: Mapping[Offset, Mapping[str, mpmath.mpf]],
 ) -> list[mpmath.mpf]:
-    """Return the velocity of a site by all parts whose other site exists."""
+    """Return the velocity of a site, summed over its local parts and its pairs with existing neighbours."""
     total = [orbit.domain.rational(0)] * len(scene.symbols)
     own = tuple(point[s] for s in scene.symbols)
     dim = scene.group.dim

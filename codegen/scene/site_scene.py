@@ -56,13 +56,13 @@ def SiteScene(
 
     The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the state of a neighbour
     that does not exist: a column of formulas in ``y``, t and parameters, or a mapping from each offset to
-    such a column. Zeros describe a free end for forces that are linear in the neighbours, ``y`` itself a free
-    end for forces that depend on differences, constants a clamped end, and formulas in t a driven end.
-    ``parts`` are summands of the field with exact flows, which splittings compose: a column of formulas in
-    ``y``, or a :class:`codegen.scene.site_parts.Pair` for the interaction of two neighbours.
-    :class:`SceneError` is raised for the errors of a field scene, for offsets of different lengths, and for a
-    neighbour outside an open boundary without a formula, and for parts whose flow is not exact or whose sum
-    is not the field.
+    such a column. Zeros describe a free end if the forces are linear in the neighbours. ``y`` itself
+    describes a free end if the forces depend on differences. Constants describe a clamped end, and formulas
+    in t a driven end. ``parts`` are summands of the field with exact flows, which splittings compose: a
+    column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for the interaction of two
+    neighbours. :class:`SceneError` is raised for the same errors as in a field scene. It is also raised for
+    offsets of different lengths, for a neighbour outside an open boundary without a formula, and for parts
+    whose flow is not exact or whose sum is not the field.
     """
     check_group(name, group)
     reader = Reader(name, list(y))
@@ -93,8 +93,8 @@ def SiteScene(
 def with_frozen_neighbours(scene: Problem) -> Problem:
     """Return the problem of one site whose neighbours do not move: their coordinates are parameters.
 
-    The values of these parameters are near the initial state of a site. They are used where formulas are
-    compared; emitted code reads the states of the neighbours.
+    The values of these parameters are near the initial state of a site. Only comparisons of formulas use
+    these values; emitted code reads the states of the neighbours.
     """
     sites = scene.sites
     assert sites is not None

@@ -23,7 +23,7 @@ Offset = tuple[int, ...]
 
 
 def offset_text(offset: Offset) -> str:
-    """Return an offset as a part of a name.
+    """Return the text that denotes an offset in the names of symbols.
 
     >>> offset_text((1,)), offset_text((0, -1))
     ('at_p1', 'at_0_m1')
@@ -50,8 +50,8 @@ def offset_of(symbol: str, coordinates: Collection[str]) -> Offset | None:
 def neighbour(y: Iterable[sympy.Symbol], offset: Sequence[int]) -> sympy.Matrix:
     """Return the column of the coordinates of a neighbour's state; ``y`` are the coordinates of a site.
 
-    ``offset`` contains an integer for each dimension of the lattice. :class:`SceneError` is raised for
-    another offset, and for the offset of the site itself.
+    ``offset`` contains an integer for each dimension of the lattice. :class:`SceneError` is raised for an
+    offset with too many, too large or fractional entries, and for the offset of the site itself.
 
     >>> S = sympy.Matrix(sympy.symbols("S0:3", real=True))
     >>> neighbour(S, (1,)).T
@@ -84,8 +84,11 @@ def right(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
 
 @dataclass(frozen=True)
 class SitePart:
-    """A part of the field with an exact flow: the generators of a site, or those of both sites of a pair
-    along an axis, and the symbols of the second site."""
+    """A part of the field with an exact flow.
+
+    ``roots`` are the generators of one site, or those of both sites of a pair of neighbours along ``axis``.
+    For a pair, ``symbols`` are the coordinates of the second site.
+    """
 
     name: str
     roots: tuple[Expr, ...]
@@ -98,9 +101,10 @@ class Sites:
     """The lattice of a scene: its dimension, the offsets of the neighbours that the field reads, and the
     symbols of their coordinates.
 
-    If the lattice is not periodic, ``outside`` contains the formulas for the states of neighbours that do not
-    exist, one column for each offset, in the coordinates of the site itself, the time and parameters.
-    ``parts`` are the parts of the field whose flows splittings compose (:mod:`codegen.scene.site_parts`).
+    If the lattice is not periodic, ``outside`` contains one column of formulas for each offset: the state of
+    a neighbour that does not exist. The formulas contain the coordinates of the site itself, the time and
+    parameters. ``parts`` are the parts of the field whose flows splittings compose
+    (:mod:`codegen.scene.site_parts`).
     """
 
     dimension: int
@@ -111,7 +115,7 @@ class Sites:
 
     @property
     def periodic(self) -> bool:
-        """True if the first and the last sites of each row are neighbours."""
+        """True if the first and the last site along each axis are neighbours."""
         return not self.outside
 
     @property

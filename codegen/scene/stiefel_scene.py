@@ -33,7 +33,10 @@ MOST_ROWS = 8
 These formulas are needed by measurements, and by methods in coordinates; their length grows as n^3."""
 
 TOLERANCE = 1e-10
-"""The largest error of the orthonormality of y0 and of the tangency of the velocity, relative to 1 + |V|."""
+"""The largest error of the orthonormality of y0.
+
+For the error of the tangency of the velocity V, the limit is TOLERANCE times n (1 + |V|) with the largest
+entry |V|."""
 
 
 def StiefelScene(
@@ -147,11 +150,14 @@ def _largest(gram: Sequence[float], unit: bool) -> float:
 
 
 def _elsewhere(start: Sequence[float], k: int) -> list[float]:
-    """Return another matrix with orthonormal columns: fixed numbers added, and columns orthonormalised."""
+    """Return another matrix with orthonormal columns.
+
+    Fixed numbers are added to the entries of ``start``, and the columns are then orthonormalised.
+    """
     columns: list[list[float]] = []
     for j in range(k):
         column = [x + 0.3 * math.sin(7.0 * i + 3.0 * j + 1.0) for i, x in enumerate(start[j::k])]
-        # Orthogonalising twice removes the rounding errors of the first time.
+        # The second orthogonalisation removes the rounding errors of the first.
         for other in [*columns, *columns]:
             c = math.fsum(map(float.__mul__, column, other))
             column = [x - c * y for x, y in zip(column, other, strict=True)]

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from codegen.scene.problem import Problem
 
 RADIANS = 200
-"""The largest angle in radians of the fastest rotation of a variant over the time span, if the rotation is
-not damped.
+"""The largest angle, in radians, by which the fastest undamped rotation of a variant may turn during the time
+span.
 
 For angles above a few hundred radians the phase error hides the order of every explicit method.
 """

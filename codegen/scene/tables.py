@@ -46,7 +46,7 @@ class TableData(sympy.Atom):  # type: ignore[misc]
 
 
 class TableValue(sympy.Expr):  # type: ignore[misc]
-    """The value of a table at an expression; sympy differentiates it."""
+    """The value of a table at an expression; sympy can differentiate this value."""
 
     is_commutative = True
     is_real = True
@@ -112,7 +112,7 @@ def linear_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fr
 
 
 def spline_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-    """Return the coefficients of the natural cubic spline, about the beginning of each interval.
+    """Return the coefficients of the natural cubic spline, for powers of x minus the start of each interval.
 
     >>> xs, ys = ([Fraction(k) for k in numbers] for numbers in ((0, 1, 2), (0, 1, 0)))
     >>> [[str(c) for c in row] for row in spline_rows(xs, ys)]
@@ -128,9 +128,10 @@ def spline_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fr
 
 
 def _bends(widths: Sequence[Fraction], slopes: Sequence[Fraction]) -> list[Fraction]:
-    """Return the second derivatives m at the points, by elimination in the tridiagonal system.
+    """Return the second derivatives m_k of the spline at the points, by elimination in a tridiagonal system.
 
-    For 0 < k < n, w_{k-1} m_{k-1} + 2 (w_{k-1} + w_k) m_k + w_k m_{k+1} = 6 (s_k - s_{k-1}); m_0 = m_n = 0.
+    With the widths w_k and the slopes s_k of the intervals, the equations for 0 < k < n are w_{k-1} m_{k-1} +
+    2 (w_{k-1} + w_k) m_k + w_k m_{k+1} = 6 (s_k - s_{k-1}); m_0 = m_n = 0.
     """
     pivots: list[tuple[Fraction, Fraction]] = []
     ratio, right = Fraction(0), Fraction(0)
@@ -148,7 +149,7 @@ def _bends(widths: Sequence[Fraction], slopes: Sequence[Fraction]) -> list[Fract
 def _joined(
     xs: Sequence[Fraction], ys: Sequence[Fraction], rows: list[tuple[Fraction, ...]], outside: str
 ) -> PiecewisePolynomial:
-    """Return the piecewise polynomial with the given rows, extended to points outside the table."""
+    """Return the piecewise polynomial with the given rows of coefficients, extended beyond the table."""
     if outside == HOLD:
         return PiecewisePolynomial(tuple(xs), (xs[0], *xs), ((ys[0],), *rows, (ys[-1],)))
     # A piecewise polynomial has at least one knot, but a table with two points has one interval and no inner

@@ -65,7 +65,7 @@ GALLERY = (
 )
 
 EXTENDED = "+u"
-"""The suffix of a scene name that denotes the scene extended by the time and the momentum of the time."""
+"""The suffix of a scene name that denotes the scene extended by the time and its conjugate momentum."""
 
 _REGISTERED: dict[str, tuple[Problem, str]] = {}
 """The registered scenes and their descriptions, by name."""
@@ -102,10 +102,10 @@ def load(name: str) -> Problem:
     """Return a gallery scene, a registered scene, or the variable ``scene`` of the Python file at the path
     ``name``.
 
-    ``NAME+u`` is a Hamiltonian scene extended by the time and the momentum of the time
+    ``NAME+u`` is a Hamiltonian scene extended by the time and its conjugate momentum
     (:mod:`codegen.scene.extended_phase_space`). ``NAME[alpha=1/2,eps=3]`` is a scene in which parameters have
-    other values. :class:`SceneError`, with file and line, is raised for a file that fails or defines no
-    scene.
+    other values. :class:`SceneError` is raised for a file that fails or defines no scene; the message
+    contains the file and the line.
 
     >>> load("driven_spin[nu=3/5]").parameters["nu"].text()
     '3/5'
@@ -222,7 +222,7 @@ def _run(name: str, path: Path) -> Problem:
 def _named(scene: Problem, name: str, about: str = "") -> Problem:
     """Return the scene with another name.
 
-    A scene without a title gets the first line of ``about`` as its title, or else the name.
+    A scene without a title gets the first line of ``about`` as its title, or ``name`` if ``about`` is empty.
     """
     first = next((line.strip() for line in about.splitlines() if line.strip()), "").removesuffix(".")
     return replace(scene, name=name, title=(first or name) if scene.title == scene.name else scene.title)

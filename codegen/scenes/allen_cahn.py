@@ -2,9 +2,9 @@
 
 H. Marthinsen's thesis, section 2.2.2: u' = L u + N(u). The group consists of the maps u -> exp(t L) u + c,
 and f(u) = (1, N(u)). Lie-Euler is the exponential Euler method exp(h L) u + h phi(h L) N(u) with phi(z) =
-(exp(z) - 1)/z, and the other methods are exponential integrators. L is the second difference on points at
-the distance 1/7, with u = 0 at both ends. The bracket of (L1, c1) and (L2, c2) has the translation L1 c2 -
-L2 c1; section 2.2.2 prints an additional c1.
+(exp(z) - 1)/z, and the other methods are exponential integrators. L is eps times the second difference
+quotient on points with the spacing 1/7, with u = 0 at both ends. The bracket of (L1, c1) and (L2, c2) has the
+translation L1 c2 - L2 c1; section 2.2.2 prints an additional c1.
 
 A method with negative coefficients, such as ``cg3``, integrates diffusion backwards in a part of each step;
 its long steps lose all digits. Runs backwards in time grow without bound.

@@ -3,9 +3,10 @@
 R. Grossman, P. S. Krishnaprasad and J. E. Marsden, The dynamics of two coupled rigid bodies, in: Dynamical
 Systems Approaches to Nonlinear Problems in Systems and Circuits (SIAM, 1988), 373-378. The joint is at the
 point d_k of body k, on a principal axis, and eps is the reduced mass. The kinetic energy of the bodies
-alone is sum_k P_k.J_k^-1 P_k/2, where P_k is the momentum in the body. The joint subtracts b.S^-1 b/2: b is
-the velocity with which the bodies would separate at the joint, and S = 1/eps + sum_k g_k C_k g_k^T with C_k
-= hat(d_k)^T J_k^-1 hat(d_k) is the inverse of the mass that resists it. Energy and total momentum are kept.
+alone is sum_k P_k.J_k^-1 P_k/2, where P_k is the momentum in the body. The joint subtracts b.S^-1 b/2. Here b
+is the velocity with which the bodies would separate at the joint. S = 1/eps + sum_k g_k C_k g_k^T with C_k =
+hat(d_k)^T J_k^-1 hat(d_k) is the inverse of the effective mass at the joint. Energy and total momentum are
+kept.
 """
 
 from sympy import Matrix, Rational, diag, eye

@@ -2,7 +2,7 @@
 
 H. Marthinsen's thesis, section 2.2: x' = y, y' = -a x - b x^3 with a = b = 1. Three scenes contain this
 equation with three groups. The group determines which part of the equation a Lie group method keeps constant
-in a step. In this scene it is the whole field, so every family reduces to its classical method. In
+in a step. In this scene this part is the whole field, so every family reduces to its classical method. In
 ``duffing_sl2`` it is the stiffness of the spring, and in ``duffing_se2`` the cubic part of the force. The
 errors of Lie-Euler with 50 steps to t = 2 are 9.2e-2 for ``duffing``, 1.1e-2 for ``duffing_sl2`` and 1.6e-2
 for ``duffing_se2``.

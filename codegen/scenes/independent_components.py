@@ -43,7 +43,7 @@ for signal in mixed:
     length = sqrt(mean(rest, rest))
     signals.append([a / length for a in rest])
 
-# Twelve decimals of the moments are the same on every machine.
+# The moments are rounded to twelve decimals, which are the same on every machine.
 moments: dict[tuple[int, ...], Rational] = {
     places: Rational(f"{mean(*(signals[k] for k in places)):.12f}")
     for places in combinations_with_replacement(PLACES, 4)

@@ -1,8 +1,8 @@
 """Neighbours of a scene file: modules in the same folder, which the scene may import.
 
-A neighbour is found before any other module of the same name, except modules of the standard library and of
-installed packages. It is loaded for one scene only and removed afterwards, so that a scene in another folder
-can import its own neighbour with the same name.
+A neighbour with the name of a module of the standard library or of an installed package is ignored. Any other
+neighbour is found before other modules of the same name. It is loaded for one scene only and removed
+afterwards, so that a scene in another folder can import its own neighbour with the same name.
 """
 
 from __future__ import annotations

@@ -18,7 +18,10 @@ draw = Random(1006)
 
 
 def full(c: Matrix) -> Matrix:
-    """Return the 6 x 6 matrix of a link; its transpose is the conjugate transpose of the link."""
+    """Return the real 6 x 6 matrix of a link.
+
+    Its transpose is the real matrix of the conjugate transpose of the link.
+    """
     return c.row_join(Matrix.vstack(-c[3:, :], c[:3, :]))
 
 

@@ -1,7 +1,7 @@
 """The dependency graph of snippets.
 
 A node is a helper or a function of the target's mathematical library, an edge is a call. The folder
-``snippets/TARGET`` has a template for each helper, and ``number.j2`` for the literals in them.
+``snippets/TARGET`` has a template for each helper. Its template ``number.j2`` writes the numbers in helpers.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ class Snippet:
 
 
 def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippet, ...]:
-    """Return every snippet; all targets use the same names. ``batch`` adds the variants of functions that
-    contain no branches, and removes the polynomials that these variants do not use.
+    """Return every snippet; the names are the same for all targets. ``batch`` adds the variants of functions
+    that contain no branches, and removes the polynomials that these variants do not use.
 
     Only double precision has shorter polynomials near zero. In single precision the full polynomial is
     already short.
@@ -76,7 +76,7 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
 def _shared_angle(
     orders: tuple[int, ...], switch: Sequence[float], precision: Precision, batch: bool
 ) -> list[Snippet]:
-    """Return the snippets of the Stumpff functions ``orders`` of one argument."""
+    """Return the snippets that compute the Stumpff functions c_k of one argument for all k in ``orders``."""
     listed: list[Snippet] = []
     name = "stumpff_" + "".join(map(str, orders))
     library = ["sqrt"]
@@ -145,8 +145,10 @@ def graph(precision: Precision = DOUBLE, batch: bool = False) -> nx.DiGraph:
 
 @dataclass(frozen=True)
 class Needed:
-    """What a set of functions requires: library functions, sorted by name, and texts of helpers, callees
-    first."""
+    """The library functions that a set of functions needs, and the texts of the helpers that it needs.
+
+    In ``texts``, each helper comes after the helpers that it calls.
+    """
 
     library: tuple[str, ...]
     texts: tuple[str, ...]
@@ -167,8 +169,8 @@ def needed(
     """Return the helpers and library functions that a module of a target needs, and no others.
 
     ``functions`` are the functions that the module calls. ``sweeps`` is true if the module calls them in
-    sweeps over equations. A function call in a sweep would force the compiler to move many values from
-    registers to memory. In this case C compilers may inline all branches of Stumpff functions. ``wide`` is
+    sweeps over equations. C compilers may then inline all branches of Stumpff functions, because a function
+    call in a sweep would force the compiler to move many values from registers to memory. ``wide`` is
     the common number of rows of all inverted matrices, and 0 if their sizes differ or are large; in C, loops
     over rows of this length are unrolled. ``widest`` is the number of rows of the largest inverted matrix; C
     code reserves memory for one row of this length. ``chain`` is the number of angles that depend on one

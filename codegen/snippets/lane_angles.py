@@ -1,9 +1,9 @@
 """Sine and cosine without branches, for loops over many systems: constants of the reduction, and polynomials.
 
-An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. The sum of 2x/pi and ROUND is
-rounded to an integer by the addition itself. The number pi/2 is a sum of parts: the products of k with all
-parts but the last are exact, because each part has few bits. sin r = r c_1(r^2) and cos r = c_0(r^2) are the
-polynomials of :func:`codegen.snippets.stumpff.economised`.
+An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. The constant ``round`` is so
+large that the floating-point addition 2x/pi + round rounds to an integer. The number pi/2 is a sum of parts:
+the products of k with all parts but the last are exact, because each part has few bits. sin r = r c_1(r^2)
+and cos r = c_0(r^2) are the polynomials of :func:`codegen.snippets.stumpff.economised`.
 """
 
 from __future__ import annotations
@@ -22,8 +22,9 @@ _REDUCED = Fraction(5, 8)
 
 
 def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
-    """Return the constants of the reduction: the largest angle, 2/pi, the parts of pi/2, and the number whose
-    addition rounds to an integer.
+    """Return the constants of the reduction: the largest angle, 2/pi, the parts of pi/2, and ``round``.
+
+    The constant ``round`` is so large that its addition rounds to an integer.
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])

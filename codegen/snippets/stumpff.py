@@ -1,11 +1,11 @@
 """Stumpff functions for z >= 0: their branches, and the coefficients of the polynomials.
 
 c_k(z) = sum_j (-z)^j/(2j+k)!, so c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, c_2 = (1 - cos sqrt z)/z and
-c_3 = (sqrt z - sin sqrt z)/z^(3/2). Below a switch, each function is evaluated by its Taylor polynomial, and
-by a shorter polynomial if z is small, as it is in most steps. Above the switch a closed form without
-cancellation is used: c_2 = c_1(z/4)^2/2, and c_3 = (1 - c_1)/z only where c_1 < 1/2. A set of Stumpff
-functions shares one sine and cosine. Errors stay within two units in the last place, plus the effect of half
-a unit in sqrt z. Beyond :func:`limit` the value is NaN.
+c_3 = (sqrt z - sin sqrt z)/z^(3/2). Up to a certain z, the switch, each function is evaluated by its Taylor
+polynomial. If z is small, as it is in most steps, a shorter polynomial is used. Above the switch a closed
+form without cancellation is used: c_2 = c_1(z/4)^2/2, and c_3 = (1 - c_1)/z only where c_1 < 1/2. A set of
+Stumpff functions shares one sine and cosine. Errors stay within two units in the last place, plus the effect
+of half a unit in sqrt z. Beyond :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from math import factorial
 from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""Up to z = SWITCH[k] the polynomial of c_k is evaluated. For c_3 this is z = 4, because c_1(4) = 0.4546 is
-below 1/2.
+"""Up to z = SWITCH[k] the polynomial of c_k is evaluated. For c_3 the switch is 4, because its closed form
+requires c_1 < 1/2, and c_1(4) = 0.4546.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
@@ -58,7 +58,9 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 
 
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
-    """Return the Taylor coefficients of c_k whose terms at z = ``last`` reach an eighth of the last bit.
+    """Return the Taylor coefficients of c_k up to the last term that matters at z = ``last``.
+
+    A term matters if it is larger than an eighth of the last bit.
 
     By default ``last`` is the switch to the closed form.
 
@@ -79,11 +81,12 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     """Return the shortest polynomial for c_k up to ``last`` with an error of at most 1/16 of the last bit.
 
-    Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial. They are stretched so that
-    they vanish at zero, where the value stays exact. Among the polynomials with a given leading term, they
-    have the smallest maximum. The error of the result is equally large everywhere, and in a steady motion it
-    always has the same sign. For a single value, an error of half a bit would be small enough. In 64,000
-    steps, however, such an error makes the norm of a quaternion drift by 4e-12.
+    Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial. The Chebyshev polynomials
+    are stretched so that they vanish at zero; the value at zero therefore stays exact. Among the polynomials
+    with a given leading term, they have the smallest maximum. The error of the result is equally large
+    everywhere, and in a steady motion it always has the same sign. For a single value, an error of half a bit
+    would be small enough. In 64,000 steps, however, such an error makes the norm of a quaternion drift by
+    4e-12.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]
@@ -117,7 +120,7 @@ def _chebyshev(n: int, slope: Fraction, shift: Fraction) -> list[Fraction]:
 
 
 def constants(k: int, last: Fraction | int | None = None, precision: Precision = DOUBLE) -> tuple[float, ...]:
-    """Return :func:`coefficients` as numbers of a format, each rounded once."""
+    """Return :func:`coefficients` as floating-point numbers of the given precision, each rounded once."""
     return tuple(precision.round(c) for c in coefficients(k, last, precision.bits))
 
 

@@ -18,7 +18,7 @@ from orderconds.tableau.extension import Extension
 def extension_order(tableau: Tableau) -> ExtensionOrder | None:
     """Return the order of the continuous extension of a tableau; None if the tableau has no extension.
 
-    The orders up to one above the claimed order are evaluated.
+    The conditions are evaluated up to the order that follows the claimed order.
 
     >>> order = extension_order(Tableau.load("rk4"))
     >>> order.order, order.certificate, order.continuous
@@ -58,7 +58,7 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the condition for the coefficient of theta^p of a tree with n nodes."""
+    """Return the condition of a tree with n nodes for the coefficient of theta^p."""
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")
 

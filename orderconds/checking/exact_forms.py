@@ -1,8 +1,8 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
 Each coefficient is compared with fractions of small denominator, then with numbers p + q sqrt(d), where d is
-the same for all coefficients. The exact numbers are accepted only if the tableau with these numbers has, with
-the certificate ``exact``, the order that the given digits support.
+the same for all coefficients. The exact numbers are accepted only if the tableau with these numbers has at
+least the order that the given digits support, and if this order has the certificate ``exact``.
 """
 
 from __future__ import annotations
@@ -76,8 +76,8 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
-    """Return the text of each number as an element of one field, or None if the numbers are not
-    recognised."""
+    """Return a text for each number, where all numbers belong to one field Q or Q(sqrt(d)). Return None if
+    the numbers are not recognised."""
     fractions = {constant: _fraction(constant) for constant in constants}
     texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
     others = [constant for constant, x in fractions.items() if x is None]

@@ -144,8 +144,9 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return the first condition of this order that no method of the family satisfies, or None. The condition
-    is returned only if this method violates it.
+    """Return the first condition of this order that every method of the family violates, with its residual.
+
+    The result is empty if there is no such condition, or if the digits of the coefficients do not decide it.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -230,8 +231,8 @@ def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
     """Yield the conditions that decide order n. A small number of conditions is yielded at once, as
     (conditions, True), a large number in batches, each as (batch, False).
 
-    The conditions are an independent set or, if such a set costs more, the conditions of all trees. The size
-    of the batches doubles.
+    These conditions imply all conditions of order n (:meth:`Family.decisive_conditions`). Each batch has
+    twice the size of the batch before.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

@@ -18,9 +18,9 @@ from orderconds.tableau import Tableau, dumps
 class Refinement:
     """The refined ``tableau``.
 
-    For a tableau with a table ``[proof]``, ``decimals`` are the new decimals by name, ``pinned`` the names of
-    the decimals that were kept fixed, and ``proof`` the proof. For doubles and other rounded decimals,
-    ``exact`` are the recognised exact numbers by name.
+    For a tableau with a table ``[proof]``, ``decimals`` maps names to the new decimals, ``pinned`` contains
+    the names of the decimals that were kept fixed, and ``proof`` is the proof. For doubles and other rounded
+    decimals, ``exact`` maps names to the recognised exact numbers.
     """
 
     tableau: Tableau
@@ -41,8 +41,8 @@ class Refinement:
 def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refinement:
     """Make the coefficients of a tableau exact or more precise.
 
-    If the tableau has a table ``[proof]``, ``digits`` (10 to 1000) places of its decimals are computed and
-    proved. Otherwise doubles and rounded decimals are recognised as fractions or numbers p + q sqrt(d); the
+    If the tableau has a table ``[proof]``, its decimals are computed and proved to ``digits`` places (10 to
+    1000). Otherwise doubles and rounded decimals are recognised as fractions or numbers p + q sqrt(d); the
     exact method has at least the order of the given method. ``tableau`` may also be a file or a name of the
     library.
 

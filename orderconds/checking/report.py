@@ -20,9 +20,9 @@ UNCLAIMED = "unclaimed"
 
 
 class EmbeddedOrder(Struct, frozen=True):
-    """The claimed order of the embedded row (a second row of weights, used to estimate the error) in the
-    family ``own``, and the computed orders of the row by family.
+    """The orders of the embedded row, which is a second row of weights that is used to estimate the error.
 
+    ``claimed`` is the claimed order in the family ``own``, and ``orders`` are the computed orders by family.
     ``certificates`` are the certificates of these orders, by family. ``own`` is ``rk`` if the row consists of
     weights, and ``cf`` if the row is an update by exponentials. ``failing`` are the failing conditions of the
     family ``own`` at the next order.
@@ -43,8 +43,8 @@ class ExtensionOrder(Struct, frozen=True):
     """The claimed and the computed order of a continuous extension in the family ``rk``.
 
     ``continuous`` states whether b_i(1) = b_i: the values at the ends of neighbouring steps agree. ``smooth``
-    states whether their derivatives agree, too. None means that this is not decided. ``failing`` are the
-    failing conditions of the next order; the coefficient of a power of theta fails.
+    states whether the derivatives at these ends agree, too. None means that this is not decided. ``failing``
+    are the failing conditions of the next order, each for the coefficient of one power of theta.
     """
 
     claimed: int
@@ -89,12 +89,14 @@ class RegisterForm(Struct, frozen=True):
 
 
 class SymmetryOrder(Struct, frozen=True):
-    """The largest q such that a step of size -h after a step of size h differs from the identity by O(h^(q +
-    1)), on vector spaces (``family`` is ``rk``) or on groups (``cf``).
+    """The largest q such that a step of size -h after a step of size h differs from the identity by
+    O(h^(q + 1)).
 
-    ``order`` is None for a symmetric method, for which every q is possible. If ``at_least`` is true, larger
-    trees were not evaluated. ``certificate`` is ``decimal`` if the digits support the order but do not prove
-    it.
+    ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
+
+    ``order`` is None for a symmetric method, for which every q is possible. If ``at_least`` is true,
+    ``order`` is a lower bound, because larger trees were not evaluated. ``certificate`` is ``decimal`` if the
+    digits support the order but do not prove it.
     """
 
     family: str
@@ -114,7 +116,11 @@ class SymmetryOrder(Struct, frozen=True):
 
 @dataclass(frozen=True, repr=False)
 class Report:
-    """The result of ``check`` for one tableau; ``broken_claims`` are property claims that do not hold."""
+    """The result of ``check`` for one tableau.
+
+    ``broken_claims`` are messages about all failures other than those in ``orders``, such as false
+    properties or a missing proof.
+    """
 
     name: str
     file: str | None
@@ -154,8 +160,11 @@ class Report:
 
     @property
     def effective_symmetry(self) -> int | None:
-        """The order to which the method is symmetric, if the method is not symmetric and this order is higher
-        than its order implies; otherwise None."""
+        """The order to which an effectively symmetric method is symmetric; None for all other methods.
+
+        A method of order p is symmetric at least to the order 2 floor(p/2) + 1. If this order is larger for a
+        method that is not symmetric, the method is effectively symmetric.
+        """
         if self.symmetry is None or self.symmetry.order is None or self.symmetry.at_least:
             return None
         order = next((f.order for f in self.orders if f.family == self.symmetry.family), None)

@@ -114,8 +114,8 @@ def judge(
     If ``sizes`` is a list and no condition fails, the largest residual is appended to it.
 
     Verdicts are ``zero``, ``fails``, ``supported`` (the residual is a narrow ball around zero) and
-    ``undecided`` (it is a wide ball around zero). ``balls_first`` is faster if most conditions fail; it does
-    not change the result.
+    ``undecided`` (it is a wide ball around zero). If ``balls_first`` is true, ball arithmetic is used before
+    exact arithmetic. This is faster if most conditions fail, and the result is the same.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))

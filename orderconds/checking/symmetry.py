@@ -22,12 +22,12 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The largest rooted trees and the largest ordered forests that are evaluated."""
+"""The largest numbers of vertices of the rooted trees and of the ordered forests that are evaluated."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
-    """Return the order to which a method is symmetric; None if the format has no series of one step with one
-    vector field.
+    """Return the order to which a method is symmetric; None for a format other than Runge-Kutta and
+    commutator-free methods.
 
     ``symmetric`` states whether the method is known to be symmetric. A Runge-Kutta tableau is examined on
     vector spaces, a commutator-free method on groups.

@@ -105,7 +105,7 @@ def _register_form(tableau: Tableau) -> RegisterForm | None:
 
 
 def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:
-    """Return the orders that digits support but no proof."""
+    """Return the orders that are supported by digits but not proved."""
     return [x for x in orders if x.certificate in NOT_PROVED]
 
 
@@ -153,7 +153,8 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
     """Return the orders of the embedded row in families whose stages do not depend on the weights.
 
-    These are the families in ``wanted``, the classical family ``rk``, and the family of the tableau format.
+    The families are those in ``wanted`` with this property, the classical family ``rk``, and the family of
+    the tableau format.
     """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:

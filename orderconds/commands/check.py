@@ -252,7 +252,7 @@ class _Outcome(Struct, frozen=True):
 
 
 def _checked(job: _Job) -> _Outcome:
-    """Check one tableau. Report an unreadable file and continue with the others."""
+    """Check one tableau. For an unreadable file, return a message, so that the other files are checked."""
     from orderconds.checking import check, read
 
     try:

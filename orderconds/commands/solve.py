@@ -161,7 +161,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours, so the name is verified before it begins.
     verify_name(options["name"], "--name")
-    # The limit is the same as for order p - 1, because symmetric methods of even order p need only the
+    # Only the trees up to order p - 1 are counted, because symmetric methods of even order p need only the
     # conditions up to order p - 1.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(

@@ -56,7 +56,7 @@ def command(write: str | None, against: str | None, as_json: bool) -> int:
 
 
 def computed() -> Iterator[tuple[str, ...]]:
-    """Yield the cells of every tableau of the library.
+    """Yield one row of cells for each tableau of the library.
 
     >>> next(computed())[:2]
     ('alexander2', 'rk')

@@ -4,9 +4,9 @@ Every format is translated to and from the keys of a tableau file
 (:func:`orderconds.tableau.record.from_data`). An imported tableau therefore obeys the grammar of tableau
 files, and its text is never executed as code. Importing an exported method gives exactly the same method;
 rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other formats omit the
-proof (:func:`left_out`). A decimal from another program counts as exact if it has fewer than 12 significant
-digits, as a double if it has the digits of a double, else as rounded (``~``). The floats of a NumPy archive
-are doubles.
+proof (:func:`left_out`). A decimal from another program counts as a double if it has the digits of a double,
+as rounded (``~``) if it has at least 12 significant digits, and otherwise as exact. The floats of a NumPy
+archive are doubles.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Return the keys of a file with a name and, if there are embedded weights, with their order."""
+    """Return the keys of a file; a missing name and a missing order of embedded weights are added."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:

@@ -150,7 +150,8 @@ def from_arrays(entries: Arrays, where: str) -> Data:
 
 
 def _verify_types(entries: Arrays, where: str) -> None:
-    """Raise an error for a value of the wrong type: texts, rows and matrices of texts are allowed."""
+    """Raise an error unless each value is a text, a row of texts or a matrix of texts, as its name
+    requires."""
     for name, value in entries.items():
         depth = 0 if name in TEXTS else 2 if name in MATRICES else 1
         if not _has_depth(value, depth):

@@ -1,4 +1,4 @@
-"""Claims in files that hold text, not tables: ``rk=4, cg=3, symmetric=true``, or an object in JSON."""
+"""Claims in file formats without tables: a text ``rk=4, cg=3, symmetric=true``, or an object in JSON."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def claims_from(text: str, where: str) -> Data:
 
 
 def json_table(text: str, where: str) -> Data:
-    """Return a table from its JSON.
+    """Return the table that a JSON text contains.
 
     >>> json_table('{"rk": 4}', "claims")
     {'rk': 4}

@@ -1,7 +1,7 @@
 """Texts of a tableau as comments of source files. Each text is one line, so that it cannot end the comment.
 
-A backslash and every character that could end a line or a comment, or change the direction of writing, is
-escaped as in Python; ``*/`` and ``/*`` are separated for C.
+Backslashes are escaped as in Python, and so are characters that could end a line or change the direction of
+writing. In ``*/`` and ``/*`` a backslash separates the two characters, because they delimit comments in C.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def escaped(text: str) -> str:
 
 
 def unescaped(text: str) -> str:
-    r"""Return the text that :func:`escaped` has written.
+    r"""Return the original text for a result of :func:`escaped`.
 
     >>> unescaped(escaped("a\nb */ c\\d")) == "a\nb */ c\\d"
     True

@@ -2,7 +2,7 @@
 
 A plain Butcher tableau can be read as well. Each of its lines contains c_i and a row of A. A line that begins
 with an empty cell contains b; a second such line contains the embedded weights. Blank cells elsewhere are
-zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are left out
+zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are ignored
 (:mod:`orderconds.exchange.rows`).
 
 Lines ``claims,rk=4`` or ``order,4`` state claims, also in a plain Butcher tableau. An embedded row has a line
@@ -87,7 +87,10 @@ def _is_plain(table: Table) -> bool:
 
 
 def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
-    """Return the arrays of a plain Butcher tableau: lines of c and A, then b, without a name or named b."""
+    """Return the arrays of a plain Butcher tableau.
+
+    The first lines contain c and A. The lines of weights begin with an empty cell or a name in ``WEIGHTS``.
+    """
     stages = [[coefficient(x) for x in row] for row in table if row[0] and row[0] not in WEIGHTS]
     weights = [[coefficient(x) for x in row[1:]] for row in table if not row[0] or row[0] in WEIGHTS]
     if not weights or len(weights) > 2:

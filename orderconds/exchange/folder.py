@@ -21,7 +21,7 @@ SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h
 """The suffixes of files that may hold a tableau."""
 
 EXCUSES = "DECIMAL"
-"""A file of a folder with the names of tableaux whose orders need no proof."""
+"""The name of a file that lists the tableaux of its folder whose orders need no proof."""
 
 NO_KEY = "no key of a tableau (family, A, b, ...)"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)

@@ -1,8 +1,8 @@
 """JSON: the keys and values of a tableau file, one to one.
 
 A number with a decimal point is a coefficient of another program
-(:func:`orderconds.exchange.arrays.coefficient`): ``0.5`` is exactly 1/2, ``0.3333333333333333`` a double. A
-file without a family has the family of its arrays, and claims may be a text, ``"rk=4"``.
+(:func:`orderconds.exchange.arrays.coefficient`): ``0.5`` is exactly 1/2, ``0.3333333333333333`` a double. If
+a file states no family, its arrays determine the family. Claims may be a text such as ``"rk=4"``.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def write(data: Data) -> bytes:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the object, with a family and with texts for numbers that are not integers.
+    """Return the object. A missing family is added, and numbers that are not integers become texts.
 
     >>> read(b'{"A": [[0.5]], "b": [0.3333333333333333], "order": 1}', "m.json")
     {'family': 'rk', 'A': [['0.5']], 'b': ['0.3333333333333333d'], 'order': 1}

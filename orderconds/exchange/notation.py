@@ -13,7 +13,7 @@ from orderconds.tableau.grammar import Constant, Expression, Name, Power, parse
 
 
 def to_python(text: str) -> str:
-    """Return a coefficient as SymPy source, exact.
+    """Return a coefficient as SymPy source, without rounding.
 
     >>> to_python("1/4 - sqrt(3)/6"), to_python("2^(1/3)"), to_python("-0.5")
     ('Rational(1, 4) - sqrt(3)/6', 'Integer(2)**Rational(1, 3)', 'Rational(-1, 2)')
@@ -26,7 +26,11 @@ def _number(x: Fraction) -> str:
 
 
 def _python(x: Expression, tight: int) -> str:
-    """Return x as Python source; ``tight`` is 1 inside a product, 2 in a divisor or a base."""
+    """Return x as Python source, with parentheses if ``tight`` requires them.
+
+    ``tight`` is 1 for the first factor of a product and after a minus sign, 2 for later factors and for
+    divisors, and otherwise 0.
+    """
     if isinstance(x, Constant):
         if x.is_double:
             return printed(x.value)

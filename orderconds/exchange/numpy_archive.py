@@ -1,7 +1,8 @@
 """NumPy: an ``.npz`` archive with float64 arrays (``A``) and with their exact entries as text (``A_exact``).
 
 If an archive has no exact text for an array, its floats are doubles (:mod:`orderconds.tableau.doubles`).
-Arrays of Python objects are refused and never unpickled. ``order=4`` or ``claims="rk=4"`` states claims.
+Arrays of Python objects are refused and never unpickled. An entry ``order=4`` or ``claims="rk=4"`` of the
+archive states claims.
 """
 
 from __future__ import annotations

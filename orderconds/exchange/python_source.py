@@ -3,8 +3,8 @@
 A module is parsed, not executed. Its assignments at the top level are read in order. They may contain lists,
 tuples, numbers, arithmetic, square roots, names assigned before, ``np.zeros``, entries (``A[1, 0] = 1``), and
 the constructors of arrays and exact numbers of NumPy, SymPy and ``fractions``. Arithmetic is exact: ``1/3``
-is the fraction. If a statement that is not understood may change an array, the file is refused;
-:mod:`orderconds.exchange.python_module` executes a module if the user asks for it.
+is the fraction 1/3 and not a double. If a statement that is not understood may change an array, the file is
+refused; :mod:`orderconds.exchange.python_module` executes a module if the user asks for it.
 """
 
 from __future__ import annotations
@@ -137,7 +137,7 @@ def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
 
 
 def _follow(statement: ast.stmt, values: Values) -> None:
-    """Take one statement at the top level into account."""
+    """Update the known values by one statement at the top level of the module."""
     if isinstance(statement, ast.Import) or (isinstance(statement, ast.Expr) and _is_harmless(statement)):
         return
     if isinstance(statement, ast.ImportFrom):
@@ -161,7 +161,10 @@ def _follow(statement: ast.stmt, values: Values) -> None:
 
 
 def _import(statement: ast.ImportFrom, values: Values) -> None:
-    """Take ``from fractions import Fraction as F`` into account; other modules are not understood."""
+    """Update the known names by an import such as ``from fractions import Fraction as F``.
+
+    Names of modules that are not in :data:`MODULES` get an unknown value.
+    """
     names = [alias.asname or alias.name for alias in statement.names]
     values.forget(list(values.known) if "*" in names else names, statement.lineno)
     root = (statement.module or "").partition(".")[0]

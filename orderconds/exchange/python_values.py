@@ -29,7 +29,7 @@ ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
 """Constructors of arrays whose entries have one type: an entry of an array of integers cannot become 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""Parts of the names of types of integers, of complex numbers, and of floats with few digits."""
+"""Texts in the names of array types other than float64: integers, complex numbers, and short floats."""
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
@@ -39,7 +39,7 @@ MAX_OPERATIONS = 5_000
 
 @dataclass
 class Array:
-    """A list, a tuple or an array of values; ``integral`` if its entries stay integers."""
+    """A list, a tuple or an array of values; ``integral`` is true if its entries can only be integers."""
 
     items: list[Value]
     integral: bool = False
@@ -82,7 +82,7 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """The names of imported functions, by the name in the module."""
+    """The original name of each imported function, by its name in the module."""
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
 
@@ -160,7 +160,7 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return the text of a number, because a double does not determine the digits in the source."""
+        """Return the text of a number in the source, because its digits do not follow from the double."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""

@@ -17,7 +17,7 @@ _COLUMN_OF_TABLEAU = re.compile(r"[aA]\w*")
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a table, whose cells have no blanks at the ends, and the header, if there is one."""
+    """The rows of a table and its header, if there is one. Blanks at the ends of cells are removed."""
 
     rows: tuple[tuple[str, ...], ...]
     header: tuple[str, ...] = ()

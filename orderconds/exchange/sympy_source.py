@@ -36,7 +36,7 @@ _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
 def write(data: Data) -> bytes:
-    """Return Python source; rows are matrices of one row.
+    """Return Python source; each row of coefficients is a matrix with one row.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
     b = Matrix([[1]])
@@ -55,10 +55,11 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield the named numbers, as the text of a number or as a root. A number comes after all numbers to
-    which it refers.
+    """Yield each named number with its definition, which is a text or a root. A number comes after all
+    numbers to which it refers.
 
-    A root has descending coefficients and its index among the real roots, as in ``CRootOf``.
+    A root is given by the descending coefficients of its polynomial and by its index among the real roots, as
+    in ``CRootOf``.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
     while remaining:
@@ -95,7 +96,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return the keys with new names for numbers whose names would conflict in Python source."""
+    """Return the keys of a file; numbers get new names if their names would conflict in Python source."""
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()

@@ -91,7 +91,7 @@ class UnevaluatedNumbers:
 
     @property
     def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
-        """(name, minimal polynomial, isolating decimal) of the roots that have a name."""
+        """The triple (name, minimal polynomial, isolating decimal) of each root that has a name."""
         return tuple((name, *root) for name, root in self._roots.items())
 
     def rational(self, p: int, q: int = 1) -> Unevaluated:
@@ -114,8 +114,8 @@ class UnevaluatedNumbers:
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0, so that no number counts as too large. Reading the file has already refused such
-        numbers."""
+        """Return 0, so that no number counts as too large. Numbers that are too large were already refused
+        when the file was read."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:

@@ -97,8 +97,8 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 
 
 def action(tree: Velocity) -> Diagram:
-    """Return the diagram of an action tree. The branches are the letters of its word, followed by its
-    covectors.
+    """Return the diagram of an action tree. The branches of the root are the letters of the word of the tree,
+    followed by its covectors.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]

@@ -14,7 +14,8 @@ class Style:
     """The characters of one drawing style.
 
     ``fork`` and ``last`` join a branch to its parent, and ``rail`` continues the line to the next branch.
-    A force f(t * u) is drawn with a note ``(▸*▸)``, which shows its position * in the word.
+    A note such as ``(▸*▸)`` after a vertex shows the position of its edge to the parent in a word: ``*`` is
+    this edge, and each ``▸`` is a branch.
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')

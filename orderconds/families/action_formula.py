@@ -79,7 +79,7 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the group element of ``row``, where u is ``before``, v
+        """Return the coefficient of the word u x v in the group element of ``row``. Here u is ``before``, v
         is ``after``, and the letter x is a variation of the velocity of ``stage``."""
 
     def condition(self, tree: Velocity) -> Formula:
@@ -195,8 +195,8 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the product of ``a_ji`` (or ``b_i`` for the update) and the coefficients of two words: the
-        word before and the word after the letter from exponential i."""
+        """Return the coefficient of the word u x v. It is ``a_ji`` (or ``b_i`` for the update) times the
+        coefficient of the words before and after the letter x, which comes from exponential i."""
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
 

@@ -120,13 +120,13 @@ class Family(ABC):
     """True if the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
     truncated."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order at which the compiler reduces the number of brackets to the minimum for methods
-    without ``cutoff``."""
+    """For methods without ``cutoff`` whose order is at most this number, the compiler reduces the number of
+    brackets to the minimum."""
     cutoff: int | None = None
     """The number of brackets after which dexpinv is truncated; None: dexpinv is not truncated."""
 
     default_series: ClassVar[bool] = False
-    """True if ``orderconds modified`` may choose this family for a tableau if the user names no family."""
+    """True if ``orderconds modified`` may choose this family when the user names no family."""
 
     # Search
     unknowns: ClassVar[str | None] = None

@@ -85,8 +85,8 @@ class CommutatorFreeFamily(OrderedForestFamily):
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials that lead to the stages are symmetric; the method is
-        then symmetric."""
+        """Return True if the products of exponentials that lead to the stages are symmetric. This implies
+        that the method is symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -145,8 +145,12 @@ def _word(
     row_total: Callable[[str], Formula],
     row_sum: Formula | None,
 ) -> Formula:
-    """Return length! times the coefficient of a word in the product of exponentials of ``row``, where
-    ``length`` is the length of the word."""
+    """Return length! times the coefficient of a word in a product of exponentials, where ``length`` is the
+    length of the word.
+
+    The coefficient of k_j in exponential J is ``row(J, j)``, and its sum over J is ``row_total(j)``. If
+    ``row_sum`` is not None, it is the formula of the sum of ``row_total(j)`` over j, such as c_i.
+    """
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None

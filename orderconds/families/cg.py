@@ -60,8 +60,8 @@ class CrouchGrossmanFamily(OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials that lead to the stages are symmetric; the method is
-        then symmetric."""
+        """Return True if the products of exponentials that lead to the stages are symmetric. This implies
+        that the method is symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -105,8 +105,12 @@ def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
 
 
 def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) -> Formula:
-    """Return length! times the coefficient of a word in the product of exponentials of ``row``, where
-    ``length`` is the length of the word."""
+    """Return length! times the coefficient of a word in a product of exponentials, where ``length`` is the
+    length of the word.
+
+    The coefficient of k_i in the exponential with index i is ``row(i)``. If ``row_sum`` is not None, it is
+    the formula of the sum of ``row(i)`` over i, such as c_i.
+    """
     letters = trees_of(word)
     if len(set(letters)) == 1:
         # Exponentials of multiples of t commute. Hence the coefficient of the word t^k is the k-th power of

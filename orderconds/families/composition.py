@@ -122,8 +122,8 @@ class CompositionFamily(WordFamily):
         return "symmetric_composition"
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return compositions with random step sizes; the number of pairs is half the number of conditions up
-        to ``order``."""
+        """Return compositions with random step sizes. The number of pairs is one more than the number of
+        independent conditions up to ``order``."""
         pairs = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         alpha, beta = (tuple(ring.random(generator) for _ in range(pairs)) for _ in range(2))
         return AdjointComposition(alpha, beta)

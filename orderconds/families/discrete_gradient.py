@@ -58,6 +58,6 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None. The cost of a step counts evaluations of the vector field, but a step of these methods
+        """Return None. A :class:`Work` counts evaluations of the vector field, but a step of these methods
         evaluates the energy and its differential."""
         return None

@@ -24,7 +24,7 @@ MATRICES = ("a", "ahat")
 WEIGHTS = ("b", "bhat")
 
 kept_branches = lru_cache(maxsize=1 << 16)(branches)
-"""A tree with a cached list of its branches."""
+"""The function :func:`branches` with a cache of its results."""
 
 
 def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list[Element]]:
@@ -39,8 +39,8 @@ def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list
 
 
 def weight(tree: DirectedTree, weights: str = "b") -> Formula:
-    r"""Return sum_i b_i tau_tree(i) as an index sum. ``weights`` is the name of the weights, ``b`` or
-    ``bhat``.
+    r"""Return the elementary weight of a tree with two kinds of edges as an index sum. ``weights`` is the
+    name of the weights b_i in the formula, ``b`` or ``bhat``.
 
     >>> from orderconds.formula import named
     >>> named(weight(b"\0\2\3")).text()
@@ -109,10 +109,11 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return an index sum. The summand is the product of ``factors`` and the stage value of ``tree`` at the
-    last index in ``indices``.
+    """Return the sum over ``indices`` of the product of ``factors`` and tau_tree(i), where i is the last
+    index.
 
-    Equal subtrees are collected in powers, and therefore the formula needs no simplification.
+    tau_tree(i) is the product of sum_j a_ij tau_branch(j) over the branches at the root of the tree. Equal
+    branches are collected in powers. Therefore the formula needs no simplification.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

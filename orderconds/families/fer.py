@@ -59,8 +59,8 @@ class FerFamily(MagnusFamily):
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the method is not a product exp(F_1) exp(F_2) of
-        this form."""
+        """Raise :class:`~orderconds.errors.InputError` unless the last exponent contains no commutators
+        and all other exponents contain only commutators."""
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):

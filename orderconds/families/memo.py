@@ -1,8 +1,8 @@
 """A cache for the series of a method.
 
-A check evaluates the conditions of one method for orders 1, 2, .... The series stores its values, and
-computes values on large trees from stored values on smaller trees. The cache keeps the series between two
-orders.
+A check evaluates the conditions of one method for orders 1, 2, .... The series of the method stores
+its values, and computes values on large trees from stored values on smaller trees. The cache keeps the series
+from one order to the next.
 """
 
 from __future__ import annotations

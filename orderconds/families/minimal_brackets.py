@@ -1,5 +1,5 @@
-"""Runge-Kutta-Munthe-Kaas methods with the fewest brackets. ``rkmk`` without ``cutoff`` is compiled in this
-form.
+"""Runge-Kutta-Munthe-Kaas methods with the fewest brackets. The compiler uses these programs for ``rkmk``
+without ``cutoff``.
 
 The conditions are equal to those of ``rkmk``, but their left-hand sides are computed from the Lie-Butcher
 series of the compiled program. Hence the computed order is the order of the program.

@@ -1,4 +1,4 @@
-"""Reductions: theorems that reduce the number of conditions of one order that a check evaluates.
+"""Reductions: theorems by which a check needs to evaluate fewer conditions, or none, at some order.
 
 ``check`` evaluates orders 1, 2, .... When it evaluates order n, all conditions of lower order hold. Then
 

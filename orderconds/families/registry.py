@@ -1,5 +1,5 @@
-"""The registry of families. A family is built in, registered by a program, or an entry point of an installed
-package."""
+"""The registry of families. A family is built in, or a program registers it, or an installed package offers
+it in an entry point."""
 
 from __future__ import annotations
 

@@ -3,8 +3,8 @@ conditions.
 
 Two laws make conditions dependent. First, for a symplectic method, phi(u o v) = phi(u) phi(v) - phi(v o u);
 this equation relates two trees that differ in the position of the root (HLW VI.7.1). Second, the values of a
-group-like series on words satisfy the shuffle relations a(u) a(v) = a(u sh v), so the values on Lyndon words
-determine all other values (Reutenauer, Free Lie Algebras, Thm 6.1).
+group-like series on words satisfy the shuffle relations a(u) a(v) = a(u sh v). Therefore the values on Lyndon
+words determine all other values (Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -170,8 +170,7 @@ def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomia
     r"""Return the value of a group-like series on a word of trees as a polynomial in its values on Lyndon
     words.
 
-    All values in this relation, on both sides, are multiplied by factors: the factor of the value on a word
-    is ``scale`` of the word.
+    On both sides of this relation, the value on each word is multiplied by ``scale`` of the word.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

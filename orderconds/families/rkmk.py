@@ -101,11 +101,11 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return the members of :meth:`conditions` that do not follow from other conditions of this order or
         from conditions of lower order.
 
-        Their number is the number of rooted trees, 1, 1, 2, 4, 9, ..., because the method is a Runge-Kutta
-        method for the problem transformed to the Lie algebra, which is a vector space. At order R + 3 there
-        is one more condition, which no tableau satisfies. Up to order :data:`RANKED` the conditions are
-        selected by ranks of matrices, which requires NumPy. Beyond this order all of :meth:`conditions` are
-        returned.
+        Their number is the number of rooted trees, 1, 1, 2, 4, 9, .... The reason is that the method applies
+        a Runge-Kutta method to the problem transformed to the Lie algebra, which is a vector space. At order
+        R + 3 there is one more condition, which no tableau satisfies. Up to order :data:`RANKED` the
+        conditions are selected by ranks of matrices, which requires NumPy. Beyond this order all of
+        :meth:`conditions` are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -132,9 +132,10 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return the smaller of ``limit`` and R + 2. The order R + 2 is the highest order that is possible
         with this truncation of dexpinv.
 
-        At the next order the values of every tableau satisfy a relation that the values of the exact flow
-        violate. At this order there is one essential condition more than there are rooted trees. The number
-        of essential conditions is computed by ranks of matrices, which requires NumPy.
+        At order R + 3 the values of every tableau satisfy a relation that the values of the exact flow
+        violate. Therefore the number of essential conditions of order R + 3 exceeds the number of rooted
+        trees by one. The number of essential conditions is computed by ranks of matrices, which requires
+        NumPy.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -150,8 +151,11 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
 
 class _Words:
-    """The coefficients of words as index sums. The argument ``i`` is the index of a stage, or None for the
-    update of the step."""
+    """The coefficients of words in the exponents u_i = sum_j a_ij dexpinv_{u_j} k_j, as index sums.
+
+    The argument ``i`` is the index of a stage. If ``i`` is None, b_j replaces a_ij, and the exponent is that
+    of the update.
+    """
 
     def __init__(self, cutoff: int | None) -> None:
         self._cutoff = cutoff

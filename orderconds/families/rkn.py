@@ -163,8 +163,8 @@ def text(functional: Functional) -> str:
 
 
 def formula(functional: Functional) -> Formula:
-    """Return the left-hand side of the condition of a combination as an index sum. The coefficients a_i are
-    the step sizes of T, b_i are the step sizes of V, and c_i = a_1 + ... + a_i.
+    """Return the left-hand side of the condition of a linear combination of words, as an index sum. The
+    coefficients a_i are the step sizes of T, b_i are the step sizes of V, and c_i = a_1 + ... + a_i.
 
     >>> from orderconds.formula import named
     >>> named(formula((((0, 1), 1), ((1, 0), 1)))).text()
@@ -257,10 +257,10 @@ def _relation(functional: Functional) -> tuple[tuple[tuple[Functional, ...], Fra
 
 
 def relation(functional: Functional) -> Polynomial:
-    """Return the left-hand side of a combination as a polynomial in left-hand sides of independent
-    combinations.
+    """Return the left-hand side of a condition as a polynomial in left-hand sides of independent conditions.
 
-    The coefficients are the solution of a linear system.
+    Each condition is given by a linear combination of words. The coefficients of the polynomial are the
+    solution of a linear system.
 
     >>> relation((((1, 0), 1),))
     {((((0,), 1),), (((1,), 1),)): Fraction(1, 1), ((((0, 1), 1),),): Fraction(-1, 1)}

@@ -158,8 +158,8 @@ class SplittingFamily(WordFamily):
         return StageForm(names, method)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
-        """Return splittings with random steps. The number of stages exceeds the number of conditions of
-        ``order`` by one."""
+        """Return splittings with random steps. They have at least as many random coefficients as there are
+        independent conditions up to ``order``."""
         stages = 1 + sum(len(self.independent(n)) for n in range(1, order + 1)) // self.parts
         steps = [(part, ring.random(generator)) for _ in range(stages) for part in range(self.parts)]
         return Splitting(tuple(map(self.text, self.words(1))), tuple(steps))
@@ -235,8 +235,8 @@ def two_part_formula(word: Word) -> Formula:
 
 
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
-    """Yield all divisions of runs of these lengths into blocks, each with its multinomial factor. Each stage
-    contributes one block."""
+    """Yield all divisions of runs of these lengths into blocks, each with its multinomial factor. The
+    letters of one block come from the same stage."""
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
 

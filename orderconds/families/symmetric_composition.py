@@ -107,8 +107,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None. The result is not used, because this function is called only for families that have
-        the name of a tableau format."""
+        """Return None. No caller uses this result: the function is called only for families whose name is
+        also the name of a tableau format."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:

@@ -86,7 +86,7 @@ class TaylorFamily(Family):
         raise self._unconditional()
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None. The cost of a step counts evaluations of the vector field, but a step of Taylor's
+        """Return None. A :class:`Work` counts evaluations of the vector field, but a step of Taylor's
         method evaluates recurrences."""
         return None
 

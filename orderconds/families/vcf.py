@@ -35,10 +35,10 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """The family ``vcf``.
 
-    Independent conditions are selected by the ranks of their values at random methods. ``update`` and
-    ``stage`` are the numbers of exponentials in the update and in each stage of the random methods. The
-    default numbers are large enough to give one independent condition for each elementary Hamiltonian. A
-    Runge-Kutta tableau is interpreted with one velocity in each exponential.
+    Independent conditions are selected by the ranks of matrices of their values for random methods.
+    ``update`` and ``stage`` are the numbers of exponentials in the update and in each stage of the random
+    methods. The default numbers are large enough to give one independent condition for each elementary
+    Hamiltonian. A Runge-Kutta tableau is interpreted with one velocity in each exponential.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -94,8 +94,8 @@ class VariationalCommutatorFree(ActionFamily):
         return cls() if all_nonzero(method.as_runge_kutta(ring).b, ring) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials that lead to the stages are symmetric; the method is
-        then symmetric."""
+        """Return True if the products of exponentials that lead to the stages are symmetric. This implies
+        that the method is symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:

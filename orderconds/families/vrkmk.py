@@ -1,9 +1,9 @@
 """Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: ``vrkmk(r)``.
 
 Equation (3.16) of Bogfjellmo and Marthinsen defines the method. The order is computed from the series of the
-method. It is min(p, R + 2), where p is the order as a symplectic partitioned Runge-Kutta method, and R = r if
-r is 0 or odd, R = r + 1 if r >= 2 is even. For some r this order is higher than the bound in Theorem 3.5.3 of
-Bogfjellmo and Marthinsen. The tests of the project verify the order.
+method. It is min(p, R + 2), where p is the order as a symplectic partitioned Runge-Kutta method. Here R = r
+if r is 0 or odd, and R = r + 1 if r >= 2 is even. For some r this order is higher than the bound in Theorem
+3.5.3 of Bogfjellmo and Marthinsen. The tests of the project verify the order.
 """
 
 from __future__ import annotations

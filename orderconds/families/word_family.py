@@ -102,7 +102,8 @@ class WordFamily(Family):
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return :meth:`polynomial`, rewritten for left-hand sides that are multiplied by :meth:`scale`."""
+        """Return the relation of :meth:`polynomial` between left-hand sides instead of values. A left-hand
+        side is a value multiplied by :meth:`scale`."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

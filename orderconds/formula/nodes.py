@@ -107,7 +107,8 @@ def product(*factors: Formula) -> Formula:
     """Return the product of formulas. Nested products are flattened, numbers are moved to the front, and
     equal factors are combined to powers.
 
-    Factors are equal if they differ only in the names of bound indices. A zero factor gives zero.
+    Factors that differ only in the names of bound indices count as equal. If a factor is zero, the product is
+    zero.
 
     >>> c = coefficient("c", "i")
     >>> product(coefficient("b", "i"), c, c).text()
@@ -125,8 +126,8 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Different factors are compared only if at least two factors contain sums, because different factors can
-    # be equal up to the names of bound indices only if both contain sums.
+    # Factors that contain sums count as equal if they differ only in the names of bound indices. This
+    # comparison takes time. It is omitted if at most one factor is not a single coefficient.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -142,7 +143,7 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
     """Return the sum of rational multiples of formulas. Nested sums are flattened, and equal terms are
     collected.
 
-    Terms are equal if they differ only in the names of bound indices.
+    Terms that differ only in the names of bound indices count as equal.
 
     >>> c = coefficient("c", "i")
     >>> total((1, c), (Fraction(-3, 2), c), (1, one())).text()

@@ -85,8 +85,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 class _Key:
     """A tableau as a key of the cache of proofs. Two keys are equal if both tableaux were read from files
-    with equal content. Therefore the proof is computed once, although several families use it and the file
-    is read again."""
+    with equal content. Therefore the proof is computed only once, even if several families use it or the
+    file is read again."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau

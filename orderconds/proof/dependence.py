@@ -41,7 +41,8 @@ MAX_PRIMES = 24
 not found."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""A dependent condition as a combination of monomials; each coefficient is x + y sqrt(d)."""
+"""A map from each dependent condition to its combination of monomials, modulo one prime. A pair (x, y) is the
+coefficient x + y sqrt(d) of a monomial."""
 
 
 @dataclass(frozen=True)
@@ -173,7 +174,8 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """The value of a product of left-hand sides at random members and at the exact flow."""
+    """The values of a product of conditions: the product of the left-hand sides at random members of the
+    sub-family, and the product of the right-hand sides, which is the value of the exact flow."""
 
     factors: Monomial
     members: Sample
@@ -189,7 +191,7 @@ class _Value:
 
 @dataclass(frozen=True)
 class _Sampling:
-    """Conditions of a family, evaluated at random members modulo a prime."""
+    """Conditions of a family, evaluated modulo a prime at random members (methods) of the sub-family."""
 
     family: Family
     symbolic: SymbolicCoefficients

@@ -6,12 +6,13 @@ the file and not from its decimals:
 
 ``symmetric``    a palindromic composition of a symmetric method. The order is even, and only conditions of
                  odd order are needed, one for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2).
-                 A composition of midpoint rules is equal to the method with the composed tableau, in every
-                 family in which a step of the composed tableau is the sequence of these midpoint steps
-                 (Bogfjellmo and Marthinsen, Lemma 3.5.4). A Magnus method on s Gauss nodes depends only on
-                 the polynomial that interpolates A(t) at the nodes. The interpolation error is orthogonal to
-                 all polynomials of degree below s and changes the flow of Y' = A(t) Y by O(h^(2s + 1)). Up to
-                 order 2s, the letters 1, ..., s therefore suffice (Iserles and Norsett 1999).
+                 A composition of midpoint rules is equivalent to a Runge-Kutta tableau. In some families
+                 one step of the tableau is the sequence of the midpoint steps. In these families the order
+                 of the composition is also the order of the tableau (Bogfjellmo and Marthinsen, Lemma
+                 3.5.4). A Magnus method on s Gauss nodes depends only on the polynomial that interpolates
+                 A(t) at the nodes. The interpolation error is orthogonal to all polynomials of degree below
+                 s and changes the flow of Y' = A(t) Y by O(h^(2s + 1)). Up to order 2s, the letters 1, ...,
+                 s therefore suffice (Iserles and Norsett 1999).
 ``low-storage``  a 2N scheme (two registers). Its order on a group is equal to its order on a vector
                  space (see below).
 ``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
@@ -20,8 +21,8 @@ the file and not from its decimals:
                  the conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
 2N schemes. The module :mod:`orderconds.series.two_registers` states the theorem and names the rooted trees
-whose conditions are independent for these schemes. From order 6 on, these are not all rooted trees: 18 of 20
-at order 6.
+whose conditions are independent for these schemes. From order 6 on, the conditions of some rooted trees are
+dependent: at order 6, the conditions of 18 of the 20 rooted trees are independent.
 """
 
 from __future__ import annotations
@@ -155,7 +156,7 @@ def equations(tableau: Tableau) -> Equations:
 
 
 def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions of rooted trees that are independent for 2N schemes."""
+    """Return independent conditions for 2N schemes. Each of these conditions belongs to a rooted tree."""
     from orderconds.series.two_registers import independent_trees
 
     trees = {tree for n in range(1, proof.order + 1) for tree in independent_trees(n)}

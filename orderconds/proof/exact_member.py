@@ -93,8 +93,8 @@ class ExactMember:
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
-        """Return True if a combination equals the left-hand side at this member, and the right-hand side at
-        the exact flow.
+        """Return True if two equations hold at this member. In the first, the combination of left-hand sides
+        equals the left-hand side of ``condition``. In the second, right-hand sides replace left-hand sides.
 
         In this case ``condition`` follows from the conditions in the combination, at every member.
         """

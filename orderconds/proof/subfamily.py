@@ -9,8 +9,8 @@ the exact flow. Then the omitted condition holds if the kept conditions hold.
 The combinations are found modulo primes (:mod:`orderconds.proof.dependence`), but a computation modulo primes
 is not a proof. Therefore each combination is verified exactly at one random member of the sub-family, which
 is computed from a digest of the file (:mod:`orderconds.proof.exact_member`). A condition without a verified
-combination is kept. A condition with a constant left-hand side is also kept, unless exact arithmetic finds it
-equal to the right-hand side. If a file has several radicals, random numbers replace the radicals. The
+combination is kept. A condition with a constant left-hand side is also kept, unless exact arithmetic shows
+that the two sides are equal. If a file has several radicals, random numbers replace the radicals. The
 sub-family then contains more methods, and the verified statement is stronger than necessary.
 """
 

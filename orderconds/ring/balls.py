@@ -58,7 +58,7 @@ class Balls:
         return self.around(centre, radius)
 
     def root(self, x: Ball, index: int) -> Ball:
-        """Return the real root of x with this index.
+        """Return the real ``index``-th root of x.
 
         Raises ValueError for an even root of a ball that contains negative numbers.
         """
@@ -79,8 +79,8 @@ class Balls:
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return the number of bits in the binary exponent of x. The mantissa is not counted, because the
-        precision limits its size."""
+        """Return the absolute value of the binary exponent of the midpoint or of the radius, whichever is
+        larger. The mantissa is not counted, because the precision limits its size."""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
@@ -123,7 +123,7 @@ class Balls:
         return f"{sign}{body[:-places]}.{body[-places:]}~"
 
     def key(self, x: Ball) -> tuple[int, ...]:
-        """Return the exact end points of the ball as integers."""
+        """Return the numerators and denominators of the exact end points of the ball."""
         low, high = endpoints(x.value)
         return int(low.p), int(low.q), int(high.p), int(high.q)
 
@@ -183,7 +183,7 @@ class Enclosures:
         return Balls(self.bits).text(Ball(x, self.bits))
 
     def key(self, x: arb) -> tuple[int, ...]:
-        """Return the exact end points of the ball as integers."""
+        """Return the numerators and denominators of the exact end points of the ball."""
         return Balls(self.bits).key(Ball(x, self.bits))
 
     def approximate(self, x: arb, digits: int = 20) -> str:
@@ -199,8 +199,8 @@ def _magnitude(x: arb) -> int:
 
 
 def _supported_places(radius: fmpq) -> int:
-    """Return the largest number d of decimal places with radius + half a unit <= one unit, that is, 10^-d >=
-    2 radius."""
+    """Return the largest d with 10^-d >= 2 radius. A decimal with d places then has an error of at most one
+    unit of its last place: half a unit for the radius and half a unit for rounding."""
     # The conversion by flint has no limit; Python converts at most 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:

@@ -51,7 +51,7 @@ class Jets:
         return Jet(arb(fmpq(p, q)), self.width)
 
     def root(self, x: Jet, index: int) -> Jet:
-        """Return the real root of x with this index.
+        """Return the real ``index``-th root of x.
 
         Raises ValueError if x may be zero. For an even index, it also raises ValueError if x may be negative.
         """

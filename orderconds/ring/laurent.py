@@ -17,7 +17,8 @@ Exponents = tuple[int, ...]
 
 
 class LaurentPolynomials:
-    """The ring Q[names, 1/names]. Terms are in degree-lexicographic order of the numerators.
+    """The ring Q[names, 1/names]. Terms are sorted in the degree-lexicographic order of their
+    numerators.
 
     >>> R = LaurentPolynomials(["b1", "b2"])
     >>> b1, b2 = R.generators
@@ -61,7 +62,8 @@ class LaurentPolynomials:
         return " + ".join(self._render(*term) for term in self.terms(x)).replace("+ -", "- ") or "0"
 
     def key(self, x: Laurent) -> Key:
-        """Return the terms with integer numerators and denominators."""
+        """Return a triple for each term: the exponents, and the numerator and denominator of the
+        coefficient."""
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
     def approximate(self, x: Laurent, digits: int = 20) -> str:

@@ -35,9 +35,10 @@ class NodalAlgebra:
     """The algebra Q[z]/M for the nodes of a method. The matrices and weights of the method are linear maps of
     this algebra.
 
-    ``corrections[kind]`` contains pairs (k, polynomial): the non-zero differences of A z^k and the integral
-    of z^k. ``moments`` contains pairs (k, number): the non-zero differences b.c^k - 1/(k + 1). Vectors are
-    ``fmpq_poly`` of degree below the number of stages.
+    ``corrections[kind]`` contains a pair (k, polynomial) for each k for which A z^k differs from the integral
+    of z^k. The polynomial is the difference. ``moments`` contains a pair (k, number) for each k for which
+    b.c^k - 1/(k + 1) is not zero. The number is this difference. Vectors are ``fmpq_poly`` of degree below
+    the number of stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -100,8 +101,9 @@ class NodalAlgebra:
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
     """Return the algebra for the nodes c_i = sum_j a_ij of the first matrix.
 
-    The result is None if the field of the coefficients is Q, if two nodes are equal, or if the
-    polynomial M of the nodes, a number b.c^k, or a vector A c^k as a polynomial in c is not rational.
+    The result is None if the field of the coefficients is Q, or if two nodes are equal. It is also None if
+    one of the following is not rational: the number b.c^k for some k, a coefficient of the polynomial M, or a
+    coefficient of some A c^k as a polynomial in c.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))

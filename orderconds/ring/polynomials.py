@@ -61,7 +61,8 @@ class Polynomials:
         return self._render(x, str)
 
     def key(self, x: fmpq_mpoly) -> Key:
-        """Return the terms with integer numerators and denominators."""
+        """Return a triple for each term: the exponents, and the numerator and denominator of the
+        coefficient."""
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
     def approximate(self, x: fmpq_mpoly, digits: int = 20) -> str:

@@ -14,11 +14,11 @@ from orderconds.ring.precision import precision
 
 
 def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, Enclosure]:
-    """Return the monic irreducible factor that has the only real root in [near - unit, near + unit], and this
-    root.
+    """Return a monic irreducible factor of a polynomial, and a real root of the factor.
 
-    ``coefficients`` are in ascending order. Raises ValueError if the interval contains no root or more than
-    one.
+    The root is the only real root of the polynomial in [near - unit, near + unit]. Raises ValueError if the
+    interval contains no root or more than one. ``coefficients`` are those of the polynomial, in ascending
+    order.
 
     >>> factor, root = isolate([fmpq(-2), fmpq(0), fmpq(0), fmpq(1)], fmpq(126, 100), fmpq(1, 100))
     >>> factor, root(64).overlaps(arb(2).root(3))
@@ -29,11 +29,11 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
 
 
 def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -> tuple[list[Fraction], int]:
-    """Return the monic irreducible factor that has the only real root in [near - unit, near + unit], and the
-    index of the root.
+    """Return a monic irreducible factor of ``minpoly``, and the index of a real root of the factor.
 
-    The coefficients of both polynomials are in ascending order. The index counts the real roots of the factor
-    from 0, in ascending order. Raises ValueError if the interval contains no root or more than one.
+    The root is the only real root of ``minpoly`` in [near - unit, near + unit]. Raises ValueError if the
+    interval contains no root or more than one. The index counts the real roots of the factor from 0, in
+    ascending order. The coefficients of both polynomials are in ascending order.
 
     >>> minpoly = [Fraction(-2), Fraction(0), Fraction(1)]
     >>> coefficients, place = place_of_root(minpoly, Fraction(7, 5), Fraction(1, 10))
@@ -49,8 +49,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, int]:
-    """Return the monic irreducible factor that has the only real root in [near - unit, near + unit], and the
-    index of this root."""
+    """Return a monic irreducible factor of the polynomial, and the index of a real root of the factor. The
+    root is the only real root of the polynomial in [near - unit, near + unit]."""
     polynomial = fmpq_poly(list(coefficients))
     if polynomial.degree() < 1:
         raise ValueError("a constant polynomial has no root")
@@ -64,8 +64,10 @@ def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> t
 
 
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:
-    """Return the shortest decimal with at least 10 places that identifies ``root``. No other root differs
-    from the decimal by at most one unit of its last place.
+    """Return a decimal that identifies ``root`` among the real roots of the polynomial ``monic``.
+
+    The decimal differs from ``root`` by at most one unit of its last place, and from all other real roots by
+    more. It has 10 places if they suffice, otherwise 20, 40, ... places.
 
     >>> from flint import fmpq_poly
     >>> from orderconds.ring.precision import precision

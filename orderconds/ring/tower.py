@@ -141,7 +141,8 @@ class Tower:
     def _adjoin(
         self, powers: list[Algebraic], enclosure: Enclosure, generator: Callable[[int], Generator]
     ) -> Algebraic:
-        """Return b in the new field, where b^k = sum_j powers[j] b^j with k = len(powers)."""
+        """Return b as an element of the field, which is extended if it does not contain b. The number b is
+        given by ``enclosure`` and the equation b^k = sum_j powers[j] b^j with k = len(powers)."""
         field = self.field
         if len(powers) == 1:
             return powers[0]
@@ -169,8 +170,8 @@ class Tower:
 
 
 class _Relation:
-    """An element c that generates an algebra: its characteristic polynomial, and a and b as polynomials in
-    c."""
+    """An element c that generates the algebra over Q in which b is adjoined to Q(a). The attributes are the
+    characteristic polynomial of c, and a and b as polynomials in c."""
 
     def __init__(self, solution: fmpq_mat, dimension: int) -> None:
         column = [fmpq_poly([solution[i, j] for i in range(dimension)]) for j in range(3)]

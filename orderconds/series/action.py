@@ -149,12 +149,14 @@ class ActionSeries(ABC):
         update.
 
         Let ``F(t)`` be the right-invariant field of t at (q0, mu1), divided by the order of the symmetry
-        group of t. The step changes a function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f
-        (q0)``, where the field of the first letter acts first. The same coefficients determine the momentum.
-        Let mubar be the momentum relative to q0, with mubar1 = Ad*_{q1} mu1. Then mubar1 - mubar0 is the sum
-        over t = (v, M) of (the coefficient of the one-letter word t) times the covector ``x -> -D_q H(x v |
-        M)``, in which the derivative along x is applied first. The coefficient of ``<mu1, ad t_1 ... ad t_k
-        x>`` in mubar1 is the coefficient of the word ``t_k ... t_1``.
+        group of t. For every function f on the group, ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f
+        (q0)``, where the field of the first letter acts first.
+
+        The same coefficients determine the momentum. Let mubar be the momentum relative to q0, with mubar1 =
+        Ad*_{q1} mu1. Then mubar1 - mubar0 is a sum over the trees t = (v, M). The term of t is the
+        coefficient of the one-letter word t, times the covector ``x -> -D_q H(x v | M)``. In this covector
+        the derivative along x is applied first. If mubar1 is expanded in the covectors ``x -> <mu1, ad t_1
+        ... ad t_k x>``, the coefficient of this covector is the coefficient of the word ``t_k ... t_1``.
         :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates q1 and mu1 in this way.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
@@ -188,12 +190,16 @@ class CommutatorFreeSeries(ActionSeries):
         self._inverse_factorial = [ring.one]
 
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return sum_{J_1 <= ... <= J_k} prod phi_{J_l}(t_l) / prod (run lengths)!."""
+        """Return sum_{J_1 <= ... <= J_k} prod phi_{J_l}(t_l) / prod (run lengths)!.
+
+        Here phi_J(t) is the coefficient of the letter t in exponent J. A run is a maximal block of letters
+        with equal J_l.
+        """
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v. A run of r + 1 + r' letters that contains x has the factor 1/(r +
-        1 + r')!."""
+        """Return the coefficient of u x v. If x, r letters before x and r' letters after x come from the same
+        exponential, they have the factor 1/(r + 1 + r')!."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:

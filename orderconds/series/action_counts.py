@@ -7,7 +7,9 @@ def tree_counts(order: int) -> tuple[int, ...]:
     """Return the numbers of unrooted trees (elementary Hamiltonians) with 1, 2, ..., ``order`` vertices.
 
     The generating function of the numbers is U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W =
-    1/(1 - T). The numbers are upper bounds of the numbers of independent conditions.
+    1/(1 - T). Here Lie(T) counts the Lie elements over the g-valued trees, which T counts, and E(P) counts
+    the multisets of the g*-valued trees, which P counts. The numbers are upper bounds of the numbers of
+    independent conditions.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)

@@ -1,8 +1,8 @@
 """The action series of the exact flow: iterated integrals over [0, 1] of univariate polynomials over Q.
 
-In the formulas of :mod:`orderconds.series.action`, a time s replaces a stage, ordered integrals replace sums
-over stages, and a_ji is replaced by 1 if time i is earlier than time j, else by 0. The factor 1/b_i is
-omitted:
+In the formulas of :mod:`orderconds.series.action`, a time s replaces a stage, and ordered integrals replace
+sums over stages. The coefficient a_ji is replaced by 1 if time i is earlier than time j, else by 0. The
+factor 1/b_i is omitted:
 
 - ``Phi_w(s)`` is the iterated integral of tau over 0 <= s_1 <= ... <= s_k <= s;
 - ``psi_{L(t_1...t_k)}(s)`` is the iterated integral over 1 >= s_1 >= ... >= s_k >= s;

@@ -22,8 +22,8 @@ Terms = tuple[tuple[Fraction, int, int], ...]
 """Triples (coefficient, m, n) of the terms X^n xi X^m."""
 
 Varied = dict[int, Element]
-"""The coefficients of a word u x v, by the stage whose velocity x varies. Zero coefficients may be
-omitted."""
+"""A map from stages to coefficients of a word u x v, where the letter x is a variation of the velocity of the
+stage. Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -182,8 +182,8 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the terms of dexpinv_{(r),X_j} for a letter that follows the word ``before`` and precedes
-        the word ``behind``. The result None means zero."""
+        """Return, for each stage j, the factor that dexpinv_{(r),X_j} contributes to a letter of xi_j. The
+        letter follows the word ``before`` and precedes the word ``behind``. The result None means zero."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -198,8 +198,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the terms of dexpinv_{(r),X_j} for a letter that follows the word u x v and precedes the
-        word ``behind``."""
+        """Return, for each stage j, the factor that dexpinv_{(r),X_j} contributes to a letter of xi_j. The
+        letter follows the word u x v and precedes the word ``behind``; x is a variation."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -209,8 +209,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the terms of dexpinv_{(r),X_j} for a letter that follows the word ``first`` and precedes the
-        word u x v."""
+        """Return, for each stage j, the factor that dexpinv_{(r),X_j} contributes to a letter of xi_j. The
+        letter follows the word ``first`` and precedes the word u x v; x is a variation."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

@@ -1,11 +1,11 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
-The value of a tree with n vertices, for every method of the family and for the flow, is a linear combination
-of monomials of degree n in the values of independent trees. Trees that differ only in the choice of the root
-have the same value. For all other trees, the values at random methods give linear equations for the
-coefficients of the combination. The equations are solved modulo two primes, and the rational coefficients are
-reconstructed from the residues. Three relations of order 4 hold for VCG but not for VCF. These three follow
-from the equation ``psi_{L(H|L)} = 3 psi_{L(HH)} - psi_{L(H)}^2``.
+The value of a tree with n vertices is a linear combination of monomials of degree n in the values of
+independent trees. The combination is the same for every method of the family and for the flow. Trees that
+differ only in the choice of the root have the same value. For all other trees, the values at random methods
+give linear equations for the coefficients of the combination. The equations are solved modulo two primes, and
+the rational coefficients are reconstructed from the residues. Three relations of order 4 hold for VCG but not
+for VCF. These three follow from the equation ``psi_{L(H|L)} = 3 psi_{L(HH)} - psi_{L(H)}^2``.
 """
 
 from __future__ import annotations

@@ -2,11 +2,11 @@
 computes given arguments of exponentials.
 
 The argument u_i is computed before the stage value k_i. Hence brackets in u_i contain only the letters q_1,
-..., q_(i-1). Call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets, in any program for u_1,
-..., u_i, that contain a new letter. Consider the words of two or more letters that contain a new letter.
-Brackets without new letters, and single letters, contribute no such words to an argument. Each argument has a
-part that consists of such words. N is at least the dimension of the space that these parts of all arguments
-span.
+..., q_(i-1). For a fixed m < i, call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets with
+new letters in any program for u_1, ..., u_i. Consider the words of two or more letters that contain a new
+letter. Brackets without new letters, and single letters, contribute no such words to an argument. Each
+argument has a part that consists of such words. N is at least the dimension of the space that these parts of
+all arguments span.
 
 The first bracket with new letters is [x + sum c_n q_n, y + sum d_n q_n], where x and y contain no new
 letters. The part of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where all P_n = d_n x
@@ -28,8 +28,8 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return P_n for all n >= ``first``, where sum_n ad_(P_n) q_n is the part of x in which letters q_n with
-    n >= ``first`` occur once.
+    """Return P_n for all n >= ``first``, where sum_n ad_(P_n) q_n is the part of x with exactly one letter
+    q_n, n >= ``first``, in each word.
 
     P_n is computed from the words of at least two letters that end in q_n.
 
@@ -44,11 +44,11 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return the difference of x and a Lie element, for x without constant term. The difference is zero if
-    and only if x is a Lie element.
+    """Return x - y, where y is a Lie element that is computed from x, for x without constant term. The result
+    is zero if and only if x is a Lie element.
 
-    The Lie element is computed by Dynkin's theorem: the map to right-normed brackets multiplies a Lie element
-    of degree n by n.
+    In y, a right-normed bracket divided by n replaces each word of n letters of x. By Dynkin's theorem, y = x
+    if x is a Lie element.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)

@@ -1,8 +1,8 @@
 """Programs with equally many brackets but fewer terms. Terms are moved between brackets with equal left
 factors.
 
-If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]. Hence a new bracket C + t B may replace C, and t B
-is subtracted in all rows that use C. The number of brackets does not change.
+If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]. Hence a new bracket D = C + t B may replace C. In
+all rows (linear combinations) that use C, it is replaced by D - t B. The number of brackets does not change.
 """
 
 from __future__ import annotations
@@ -69,7 +69,8 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
 def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
-    """Return the program in which B_r + t B_q replaces B_r; t B_q is subtracted in all rows that use B_r."""
+    """Return the program in which the bracket D = B_r + t B_q replaces the bracket B_r. In all rows that use
+    B_r, it is replaced by D - t B_q."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:

@@ -26,8 +26,8 @@ from orderconds.trees.levels import branches
 from orderconds.trees.ordered import ordered_trees
 
 Name = tuple[str, int]
-"""A term of a row: ``("k", j)`` for a stage value, or ``("B", r)`` for a bracket. Both indices are counted
-from 0."""
+"""A stage value ``("k", j)`` or a bracket ``("B", r)`` in a linear combination. Both indices are counted from
+0."""
 
 Row = dict[Name, Element]
 
@@ -37,10 +37,10 @@ class BracketProgram:
     """A program that computes the arguments u_1, ..., u_s of the stages and u of the step. Several arguments
     may use the same bracket.
 
-    Stage i is k_i = f(exp(u_i) y0), and the step is exp(u) y0. ``brackets[r]`` contains the rows of x and y
-    in B_r = [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows of the same
-    form, in which k denotes h k. ``least`` is a lower bound for the number of brackets in any program for
-    these arguments. ``grades[j]`` is the grade of q_j.
+    Stage i is k_i = f(exp(u_i) y0), and the step is exp(u) y0. A row is a linear combination of the elements
+    h k_j and of earlier brackets. ``brackets[r]`` contains the rows of x and y in B_r = [x, y], ``stages``
+    contains the rows of u_1, ..., u_s, and ``update`` is the row of u. ``least`` is a lower bound for the
+    number of brackets in any program for these arguments. ``grades[j]`` is the grade of q_j.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -71,10 +71,10 @@ def fewest_brackets(
     """Return a program with few brackets that has the same order as RKMK with an explicit tableau (A, b).
 
     The tableau must have the order ``order``. The ring must be able to decide whether an element is zero, and
-    to divide. The equations of the search may leave some coefficients free. In the first attempt free
-    coefficients are zero. In the following attempts, whose number is ``attempts``, some of the free
-    coefficients are small pseudorandom numbers. The search starts with the lower bound ``least`` as the limit
-    for the number of brackets, and raises the limit by one until an attempt succeeds. Raises
+    to divide. The equations of the search may leave some coefficients free. First, the search sets these
+    coefficients to zero. If this fails, it makes ``attempts`` further attempts, in which some of these
+    coefficients are small pseudorandom numbers. The limit for the number of brackets is at first the lower
+    bound ``least``. It is raised by one whenever all attempts have failed. Raises
     :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
@@ -158,10 +158,10 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
     """Return, for each stage i, the combinations u_j + c u_i that need only one bracket, where stage j is
     later than stage i.
 
-    Let q be the latest stage value in the brackets of u_i. The latest stage value in the brackets of u_j must
-    also be q. Each of the two arguments needs two brackets with q. The combination needs only one bracket,
-    because its part that contains q is ad_P q with a Lie element P. The program computes u_j from this
-    combination and u_i.
+    Let q be the latest stage value in the brackets of u_i. It must also be the latest stage value in the
+    brackets of u_j. In u_i, and likewise in u_j, the terms with q need two brackets. In the combination they
+    need only the bracket [P, q], where P is a Lie element. The program computes u_j from this combination and
+    u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -255,9 +255,10 @@ class _Search:
         """Return the row of an argument whose new brackets have this shape, and add these brackets to the
         pool. Return None if the argument has no such form.
 
-        The equations are linear, except for products of an unknown in x and an unknown in y. Each sweep
-        solves linear equations in which one of the two factors is fixed: y from the previous sweep, or the
-        part of x that lower grades determine. Sweeps end when all equations hold.
+        The equations are linear, except for products of an unknown in x and an unknown in y. The method is
+        therefore iterative. Each iteration fixes one of the two factors and solves the resulting linear
+        equations. The fixed factor is either y from the previous iteration, or the part of x that the
+        equations of lower grade determine. The iteration ends when all equations hold.
         """
         if shape.leading and len(self.pool) < 3:
             return None

@@ -103,8 +103,12 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficient of k_j in dexpinv, if the given words precede and follow the letter k_j. The
-        result None means zero."""
+        """Return, for each stage j, the number by which dexpinv_{(r),u_j} multiplies the coefficient of a
+        letter in k_j.
+
+        In the resulting word, the words ``start`` and ``end`` precede and follow the letter. They have
+        ``before`` and ``behind`` letters. The result None means that all numbers are zero.
+        """
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:
@@ -118,7 +122,8 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms u^n k u^m of dexpinv that contribute to a letter k between words of these lengths.
+        """Return the terms u^n k u^m of dexpinv that contribute to words in which ``before`` letters precede
+        the letter from k and ``behind`` letters follow it.
 
         ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and the rightmost factor u^m acts first. A word occurs
         in u^m only if it has at least m letters; the empty word occurs in u^0 only.

@@ -1,11 +1,12 @@
 """Selection of independent conditions on ordered forests in a family. The conditions are evaluated at random
 methods of the family, and the rank of their values shows which conditions are independent.
 
-A condition is superfluous under two requirements. First, for every method of the family, its left-hand side
-is the same linear combination of simpler left-hand sides of the same order and of products of left-hand sides
-of lower order. Second, the values of the exact flow satisfy this relation. The exact flow is therefore one of
-the samples. If the exact flow violates the relation, no method satisfies the condition, and the condition is
-not removed. An example is order 3 of Runge-Kutta-Munthe-Kaas methods without brackets (cutoff 0).
+A condition is superfluous under two requirements. First, its left-hand side is a linear combination of
+simpler left-hand sides of the same order and of products of left-hand sides of lower order. The coefficients
+of this combination are the same for every method of the family. Second, the values of the exact flow satisfy
+this relation. The exact flow is therefore one of the samples. If the exact flow violates the relation, no
+method satisfies the condition, and the condition is not removed. An example is order 3 of
+Runge-Kutta-Munthe-Kaas methods without brackets (cutoff 0).
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
-A step whose series has the values a is the flow, over the time h, of a vector field f~ = f + h f_2 + ...
-whose series has the values b. The values are related by a = exp(b) with respect to composition: a = sum_j
-(1/j!) L^(j-1) b, where L is a sum over cuts with one component (HLW IX.9.1; on ordered forests Lundervold and
-Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+Let a be the values of the series of a step. The step is the flow, over the time h, of a vector field f~ = f +
+h f_2 + .... Let b be the values of the series of f~. Then a is the exponential of b with respect to
+composition: a = sum_j (1/j!) L^(j-1) b, where L is a sum over cuts with one component (HLW IX.9.1; on ordered
+forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class VectorField:
 
     def beyond_first(self, forest: bytes) -> Element:
         """Return the value of the flow minus the value of the field on a tree or forest. This difference
-        depends only on the values on smaller trees."""
+        depends only on the values of the field on smaller trees."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
@@ -100,10 +100,11 @@ def modified_field(step: Character) -> VectorField:
 def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, Element], ...]:
     """Return pairs of a tree t and its coefficient b(t)/sigma(t) in H~ = sum h^(|t|-1) b(t)/sigma(t) H(t).
 
-    H(t) for t = [t_1 ... t_m] is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)); the sum is over the
+    For t = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). The sum is over the
     free trees with at most ``order`` vertices that no edge divides into equal halves (HLW IX.9.2). Raises
-    :class:`~orderconds.errors.InputError` for a Lie-Butcher series. The same error is raised if b(u o v) +
-    b(v o u) = 0 is not proved for all u and v, because the field may then not be Hamiltonian.
+    :class:`~orderconds.errors.InputError` for a Lie-Butcher series. The same error is raised unless it is
+    proved that b(u o v) + b(v o u) = 0 for all u and v. Without this proof, the field need not be
+    Hamiltonian.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

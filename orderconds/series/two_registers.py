@@ -27,8 +27,9 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives of a function, the leftmost first: None is the derivative along k, and a tuple is
-the derivative along the elementary differential of f with the derivatives in the tuple."""
+"""A product of derivatives of a function, from left to right. None denotes the derivative along k. A tuple
+denotes the derivative along a vector field, which is obtained by applying the derivatives in the tuple to
+f."""
 
 Combination = dict[Operator, int]
 
@@ -107,8 +108,8 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return rooted trees with ``order`` vertices on which the values of 2N schemes are independent: together
-    with the values on smaller trees they determine the values on all trees with ``order`` vertices.
+    """Return rooted trees with ``order`` vertices on which the values of 2N schemes are independent. These
+    values and the values on smaller trees determine the values on all trees with ``order`` vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -126,8 +127,8 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
     values on rooted forests, {ordered forest: {rooted forest: coefficient}}.
 
     The value on a rooted forest is the product of the elementary weights of its trees. The result holds for
-    every 2N scheme and for the exact flow. Raises ValueError if an ordered forest is no such combination; by
-    the theorem this does not happen.
+    every 2N scheme and for the exact flow. Raises ValueError if the value on an ordered forest is not such a
+    combination, which the theorem excludes.
 
     >>> from orderconds.trees.levels import text
     >>> {text(w): {text(u): str(x) for u, x in row.items()} for w, row in in_rooted_forests(2).items()}
@@ -173,7 +174,9 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Differentiate along k: the new derivative acts last on the function, or on one of the fields f."""
+    """Apply the letter D, the derivative along k. By the product rule the result is a sum of terms. In one
+    term, D acts on the function after all other derivatives. In the other terms, D acts on one of the
+    elementary differentials."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -181,7 +184,7 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Replace each k in turn by f."""
+    """Apply the letter K: return the sum of the products in which one of the k is replaced by f."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:
@@ -191,7 +194,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Apply a letter inside each factor that is a derivative along an elementary differential."""
+    """Apply the letter of ``act`` to one elementary differential at a time, and return the sum of the
+    results."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

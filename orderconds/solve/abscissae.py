@@ -9,8 +9,9 @@ For Crouch-Grossman methods m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of
 x_i y_i = 1/3 for any two abscissae x, y among c, chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i
 (chat_i - m_i)^2 = 0. If the weights are positive, the three abscissae are equal. In practice the three
 abscissae are also equal in solutions with negative weights. For a given update, sum_j a_ij = m_i then holds
-for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. This transport problem is solved along a
-spanning tree of the free entries.
+for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. The row sums and column sums of the
+matrix with the entries b_i a_ij are therefore known. This linear system is solved for the entries on a
+spanning tree, as in a transportation problem.
 """
 
 from __future__ import annotations
@@ -119,12 +120,12 @@ def symmetric_transport(
     """Return formulas for those entries of ``own`` that the abscissae determine.
 
     The method is symmetric (:mod:`orderconds.solve.paths`). Stage i consists of the first ``leave[i]``
-    exponentials of ``update``, followed by exponentials that belong only to stage i. The sum of the j-th
-    entries of the latter exponents is called x_ij. ``own`` contains the rows x_i of the stages before the
-    middle. ``middle`` is the row of a middle stage, if there is one. Let j' = s + 1 - j. The equation of
-    column j is sum_i b_i (x_ij - x_ij') = C_j, where C_j consists of the terms without entries of ``own``.
-    This equation is solved for an entry in the last row of ``own``. The equation of row i states that the
-    abscissa of stage i is m_i. This equation is solved for one entry of row i.
+    exponentials of ``update``, followed by exponentials that belong only to stage i. Let x_ij be the sum of
+    the j-th entries of the exponents that belong only to stage i. ``own`` contains the rows x_i of the stages
+    before the middle. ``middle`` is the row of a middle stage, if there is one. Let j' = s + 1 - j. The
+    equation of column j is sum_i b_i (x_ij - x_ij') = C_j, where C_j consists of the terms without entries of
+    ``own``. This equation is solved for an entry in the last row of ``own``. The equation of row i states
+    that the abscissa of stage i is m_i. This equation is solved for one entry of row i.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -24,11 +24,11 @@ class Ansatz:
     the names of the unknowns, ``numbers`` the formulas of dependent coefficients by name, and ``body`` all
     other lines. ``cells`` contains the names of the coefficients that are not constants.
 
-    ``family`` is the label of the family whose conditions are solved, and ``reduction`` the reason in the
-    file why they suffice (:mod:`orderconds.proof.equations`). If ``abelian`` is true, they are the conditions
-    of the tableau to which the method reduces on an abelian group. The principal error is that of the family
-    ``measured``; None: of the same family. Random starts are near ``centre``, a value for each free
-    coefficient.
+    ``family`` is the label of the family whose conditions are solved. ``reduction`` is the reason, stated in
+    the file, why some of these conditions suffice (:mod:`orderconds.proof.equations`). If ``abelian`` is
+    true, the conditions are those of the tableau to which the method reduces on an abelian group. The
+    principal error is computed for the family ``measured`` or, if ``measured`` is None, for ``family``.
+    Random starts are near ``centre``, a value for each free coefficient.
     """
 
     family: str

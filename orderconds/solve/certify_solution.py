@@ -161,7 +161,8 @@ def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
 
 
 def determined(slopes: Floats) -> list[int]:
-    """Return the indices of the unknowns that elimination with complete pivoting selects, in ascending order.
+    """Return the indices, in ascending order, of the unknowns that elimination with complete pivoting selects
+    as pivots.
 
     >>> determined(np.array([[0.0, 2.0, 1.0], [0.0, 4.0, 2.0]]))
     [1]

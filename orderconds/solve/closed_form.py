@@ -1,8 +1,9 @@
 """Lattice reduction that recognises numbers of high precision as elements of one number field.
 
-If a real number x is near a root of a polynomial with small integer coefficients, the lattice spanned by
-(e_k, N x^k), with N large, has a short vector (Lenstra, Lenstra and Lovasz 1982). The result is not proved.
-The caller must verify it by exact arithmetic in the field.
+Let the real number x be near a root of a polynomial with small integer coefficients, and let N be large. The
+lattice that the vectors (e_k, N x^k) span then has a short vector, which contains these coefficients
+(Lenstra, Lenstra and Lovasz 1982). The result is not proved. The caller must verify it by exact arithmetic in
+the field.
 """
 
 from __future__ import annotations

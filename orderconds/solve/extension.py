@@ -1,11 +1,12 @@
 """Continuous extensions of Runge-Kutta methods, from linear equations over the ring of the tableau.
 
-Let Phi_i(t) be the product of the branches of the tree t at stage i. The coefficients beta_p of theta^p have
-order q if sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) for |t| = p, and 0 for all other trees of at most q nodes.
-For each p this is a linear system; of its solutions the one of least norm is taken. If the first stage is the
-field at the old state, beta_1 is chosen such that the derivative at the beginning is this field. The last
-powers are then changed within the kernel of the system, such that b_i(1) = b_i and, if the last stage is the
-field at the new state, such that the derivative at the end is this field.
+The weights of the extension are b_i(theta) = sum_p beta_{p,i} theta^p. Let sum_i b_i Phi_i(t) be the
+elementary weight of the tree t. The extension has order q if, for each p and for all trees of at most q
+nodes, sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) if |t| = p, and 0 otherwise. For each p this is a linear
+system, whose solution of least norm is taken. If the first stage value is f(y_0), it is also taken as the
+derivative at theta = 0, by the choice of beta_1. The coefficients of the last powers are then changed such
+that b_i(1) = b_i. If, in addition, the last stage value is f(y_1) and q > 1, they are also changed such that
+the derivative at theta = 1 is this value. All changes belong to the kernel of the linear system.
 """
 
 from __future__ import annotations

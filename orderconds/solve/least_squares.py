@@ -1,7 +1,8 @@
 """Damped least squares (Levenberg 1944; Marquardt 1963), computed for many starting points together.
 
-The damping is the norm of the residual times a factor that shrinks after each success. The method therefore
-converges quadratically near solutions, isolated or not (Yamashita and Fukushima 2001).
+The damping is the norm of the residual times a factor that shrinks after each successful step. The method
+therefore converges quadratically near solutions, even if they are not isolated (Yamashita and Fukushima
+2001).
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ System = Callable[[Floats], tuple[Floats, Floats]]
 """A function of an array points x n; it returns residuals (points x m) and Jacobians (points x m x n)."""
 
 SOLVED = 1e-13
-"""A system counts as solved if the norm of its residual is below this number. Smaller norms may be rounding
-errors."""
+"""A system counts as solved if the norm of its residual is below this number. A norm below this number may
+consist of rounding errors only."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:

@@ -1,9 +1,9 @@
 """The parametrisation of low-storage (2N) schemes: the unknowns are the coefficients A_i and B_i.
 
-A 2N scheme has on a group the order that it has on a vector space (:mod:`orderconds.proof.equations`). The
+On a group, a 2N scheme has the same order as on a vector space (:mod:`orderconds.proof.equations`). The
 search therefore solves the conditions of rooted trees, which are fewer than those of commutator-free methods:
-17 in place of 38 up to order 5. Up to order 6 there are 37 conditions of rooted trees in place of 113; for 2N
-schemes two of the 37 follow from the other 35.
+17 instead of 38 up to order 5, and 37 instead of 113 up to order 6. For 2N schemes, two of the 37 conditions
+follow from the other 35.
 """
 
 from __future__ import annotations

@@ -1,15 +1,16 @@
 """The exponentials of commutator-free methods in a search. Either all coefficients are free, or the method
 has a symmetric form.
 
-Let a method have s stages and m exponentials in the update, and let bar exchange stages j and s + 1 - j. The
-method is symmetric under two conditions. First, reversing the order of the exponentials and applying bar does
-not change the update. Second, stages i and s + 1 - i branch off the update after k and m - k exponentials,
+Let a method have s stages and m exponentials in the update, and let bar X be the exponent X in which stages j
+and s + 1 - j are exchanged. The method is symmetric under two conditions. First, reversing the order of the
+exponentials and applying bar does not change the update. Second, for each i there is a k such that stage i
+branches off the update after k exponentials, and stage s + 1 - i after m - k exponentials:
 
     Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
     Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
 
-A step of length -h is then the inverse of a step of length h: the exponentials that lead from y1 to stage s +
-1 - i are equal to the exponentials that lead from y0 to stage i.
+A step of length -h is then the inverse of a step of length h: the exponents from y1 to stage s + 1 - i are
+the exponents from y0 to stage i, with opposite signs and with bar applied.
 """
 
 from __future__ import annotations
@@ -75,8 +76,8 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with the first exponentials of the update; about m i/s of these m exponentials are
-        # used.
+        # Stage i begins with the first exponentials of the update. The number of these exponentials is about
+        # m i/s.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

@@ -85,7 +85,8 @@ class Problem:
         return list(self.family.residuals(method, ring, conditions))
 
     def _read(self, method: Method, ring: Ring) -> Method:
-        """Return the method whose coefficients the solved conditions contain."""
+        """Return the method whose coefficients occur in the conditions of the search. If the ansatz is
+        ``abelian``, this is the tableau on an abelian group."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method

@@ -112,7 +112,8 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need only these conditions.
+    # Only orders below p are checked: a symmetric method of even order p needs no conditions of order p.
+    refuse_too_many_trees(families.get(family), order - 1)
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,

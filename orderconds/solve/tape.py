@@ -26,8 +26,8 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind whose arguments are rows of earlier levels. The results are the rows ``start``
-    to ``stop`` - 1."""
+    """Operations of one kind, whose arguments are results of earlier levels. The results of this level are
+    stored in rows ``start`` to ``stop`` - 1 of the array of values."""
 
     kind: int
     start: int

@@ -54,8 +54,8 @@ def _latex(x: Expression, tight: int) -> str:
 
 
 def _split_sign(x: Expression) -> tuple[str, Expression]:
-    """Return the sign of a negative number or of an expression -y, and the number or y without it. For other
-    expressions, return no sign and the expression."""
+    """Return a sign and the expression without this sign. The sign is "-" for a negative number and for an
+    expression -y. For all other expressions the sign is empty."""
     if isinstance(x, Chain) and x.operators == ("-",) and x.operands[0] == Constant(Fraction(0)):
         return "-", x.operands[1]
     if isinstance(x, Constant) and not x.unit and x.value < 0:

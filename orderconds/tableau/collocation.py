@@ -8,7 +8,7 @@ of these rules, in which l_j are the Lagrange polynomials of the nodes:
 rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation
 columns             D(s): a_ij is b_j / b_i times the integral of l_i from c_j to 1
 first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher's Lobatto III)
-mean                the mean of two such matrices (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
+mean                the mean of two of these matrices (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
 ==================  ======================================================================================
 
 Two kinds, Radau IIA and Lobatto IIIA, have an embedded row for step-size control. The row is the quadrature
@@ -45,7 +45,8 @@ Matrix = list[list[Algebraic]]
 
 
 class Nodes:
-    """The nodes c, ascending, as numbers of one field, with the weights and Lagrange polynomials over them.
+    """The nodes c in ascending order, as elements of one number field, with their weights and Lagrange
+    polynomials.
 
     ``left`` is true if 0 is a node, ``right`` if 1 is a node, and ends = left + right. M is the derivative of
     order s - ends of x^(s - right) (x - 1)^(s - left); hence 0 and 1 are roots of M if they are nodes.

@@ -44,7 +44,8 @@ BLANK = r"\,"
 """A narrow space between a factor and a vector field."""
 
 Equation = tuple[str, Sequence[str]]
-"""The left-hand side of an equation, and the parts of its right-hand side. A line ends after a part."""
+"""The left-hand side of an equation, and the parts of its right-hand side. A line may be broken after each
+part."""
 
 
 def equations(tableau: Tableau) -> str:
@@ -74,7 +75,8 @@ def has_name(text: str) -> bool:
 
 
 def short_text(x: Element, tableau: Tableau) -> str:
-    """Return the text of a coefficient. The text of a double has six digits, and a ball has few digits.
+    """Return the text of a coefficient. A double has six digits, and the text of a ball has about
+    :data:`SHORT` characters.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau = Tableau.rk([[0, 0], ["1/2", 0]], [0, 1])
@@ -88,7 +90,8 @@ def short_text(x: Element, tableau: Tableau) -> str:
 
 
 def _decimal(x: Element, tableau: Tableau) -> str:
-    """Return a coefficient as a decimal with few digits and a tilde. Digits after these are cut."""
+    """Return a coefficient as a decimal with :data:`SHORT` digits and a tilde. Further digits are cut off,
+    not rounded."""
     nearest = Decimal(cast("RealRing", tableau.ring).nearest_float(x))
     return f"{Context(prec=SHORT, rounding=ROUND_DOWN).plus(nearest):f}~"
 
@@ -187,8 +190,8 @@ def _name(name: str) -> str:
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
-    """Return a product of exponentials and its initial value in parts. The exponential at the right acts
-    first."""
+    """Return the parts of a formula: a product of exponentials, applied to its initial value. The exponential
+    at the right acts first."""
     start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
     parts = [part for row in reversed(stage.exponentials) for part in _exponential(row, tableau)]
     return [*parts[:-1], parts[-1] + start] if parts else [start]

@@ -41,7 +41,8 @@ class Scalars(Protocol):
         """Return a rational number or, if the unit is positive, a ball around this number."""
 
     def root(self, x: Element, index: int) -> Element:
-        """Return the real root. Raises ValueError for an even root of a negative number."""
+        """Return the real root of x with this index (2 for the square root). Raises ValueError for an even
+        root of a negative number."""
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
         """Return the real root whose distance from ``near`` is at most ``unit``. Raises ValueError unless

@@ -34,13 +34,14 @@ _WIDTHS = {
     r"\Omega": 7.3,
 }
 _OTHER = 5.2
-"""The width of a digit is 5 points, that of most letters 4 to 6."""
+"""The assumed width of every other character. A digit is 5 points wide, and most letters are 4 to 6 points
+wide."""
 
 _SMALLER = 0.8
 """The ratio of the width of a digit in a fraction, an index or an exponent to its normal width."""
 
 _SMALLEST = 0.68
-"""The ratio in the smallest font, that of a fraction in a fraction."""
+"""The same ratio for the smallest font, which is used for a fraction inside a fraction."""
 
 
 def width(latex: str) -> float:
@@ -60,8 +61,9 @@ class _Reader:
         self.position = 0
 
     def formula(self, scale: float = 1.0) -> float:
-        """Return the width up to the end of the group or of the formula. In numerators, indices and
-        exponents, ``scale`` is the size of the font."""
+        """Return the width from the current token to the end of its group in braces or, outside of braces, to
+        the end of the formula. ``scale`` is the size of the font relative to normal text. It is smaller in
+        numerators, indices and exponents."""
         total = 0.0
         while self.position < len(self.tokens):
             token = self._next()
@@ -125,7 +127,7 @@ def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
 
 def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
     r"""Yield the lines of an equation for the environment ``aligned``. A line is broken between two parts.
-    ``free`` is the width of a right-hand side.
+    ``free`` is the width that is available for a right-hand side.
 
     >>> list(lines("x", ["a + b", " + c"], 30))
     ['x &= a + b', '&\\quad  + c']
@@ -142,7 +144,7 @@ def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
 
 
 def separated(entries: Sequence[str], opening: str = "(", closing: str = ")") -> list[str]:
-    """Return the parts of a list of entries in brackets.
+    """Return a list of entries in brackets, divided into parts. A line may be broken between two parts.
 
     >>> separated(["1", "2"])
     ['(1, ', '2)']

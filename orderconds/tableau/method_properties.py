@@ -153,8 +153,8 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Return True if a step of length -h undoes a step of length h (HLW V.3).
 
-    The condition for an adjoint pair is alpha_{s+1-i} = beta_i. The condition for a splitting is that its
-    flows in reverse order are the same flows. The condition for a Magnus method is in
+    The condition for an adjoint pair is alpha_{s+1-i} = beta_i. A splitting satisfies the condition if the
+    list of its flows is equal to the reversed list. The condition for a Magnus method is in
     :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ

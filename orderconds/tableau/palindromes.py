@@ -1,10 +1,11 @@
 """Symmetry of commutator-free methods: a symmetric method is unchanged if its exponentials are read
 backwards.
 
-Exchange stages j and s + 1 - j. A step of length -h from y1 undoes a step of length h from y0 under two
-conditions. First, the sequence of exponentials in the update is equal to the reversed sequence. Second, the
-exponentials from y1 to stage s + 1 - i are the exponentials from y0 to stage i with opposite signs.
-Neighbouring exponentials whose exponents are multiples of each other count as one exponential.
+A step of length -h from y1 undoes a step of length h from y0 under two conditions. Each condition compares
+two sequences of exponentials. In one of the two, stages j and s + 1 - j are exchanged. First, the sequence of
+exponentials in the update is equal to the reversed sequence. Second, the exponentials from y1 to stage s + 1
+- i are the exponentials from y0 to stage i with opposite signs. Neighbouring exponentials whose exponents are
+multiples of each other count as one exponential.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ from orderconds.tableau.methods import CommutatorFree, Row
 
 
 def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
-    """Return True if a method is symmetric and its stages need not be permuted; None if balls are too wide to
-    decide.
+    """Return True if a method is symmetric without a permutation of its stages. Return None if balls are too
+    wide to decide.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]

@@ -55,10 +55,11 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
 
 
 def low_storage(tableau: Tableau) -> Rewriting | None:
-    """Return the scheme with two registers (2N) that is equal to the method, or the reason why there is none;
-    None for other formats than tableaux (A, b) and commutator-free methods.
+    """Return the scheme with two registers (2N) that is equal to the method, or the reason why there is none.
+    For formats other than tableaux (A, b) and commutator-free methods, return None.
 
-    Rounded decimals decide the question if the method is a 2N scheme for all values of the decimals.
+    If the rounded decimals of the file have a ``[proof]``, and the method is a 2N scheme for all values of
+    these decimals, ``holds`` is True.
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds

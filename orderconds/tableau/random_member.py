@@ -2,11 +2,11 @@
 and the radicals.
 
 If an identity holds for the random numbers, it holds for all values of the decimals, except with negligible
-probability. The reason is a theorem: two different rational functions of degree at most D have the same value
-at a random point, with 2^128 values for each coordinate, with probability at most D / 2^128 (Schwartz 1980;
-Zippel 1979). The numbers are computed from a digest of the file. Hence nobody can construct a file for which
-the test gives a wrong result. All computations are exact computations with rational numbers, not computations
-modulo primes.
+probability. The reason is a theorem. Let each coordinate of a point be drawn at random from 2^128 numbers.
+Two different rational functions of degree at most D then have the same value at this point with probability
+at most D / 2^128 (Schwartz 1980; Zippel 1979). The numbers are computed from a digest of the file. Hence
+nobody can construct a file for which the test gives a wrong result. All computations are exact computations
+with rational numbers, not computations modulo primes.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ Rows = Sequence[Sequence[fmpq]]
 
 
 def determinant(A: Rows) -> fmpq_poly:
-    """Return det(I - zA), the characteristic polynomial of A read backwards.
+    """Return det(I - zA), the characteristic polynomial of A with its coefficients in reverse order.
 
     >>> determinant([[fmpq(1), fmpq(2)], [fmpq(0), fmpq(3)]])
     3*x^2 + (-4)*x + 1
@@ -23,8 +23,8 @@ def determinant(A: Rows) -> fmpq_poly:
 
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
-    """Return two truth values: P/Q is A-stable, P/Q is L-stable. Return None if a pole is on the imaginary
-    axis, or too near it to decide.
+    """Return two truth values: whether P/Q is A-stable, and whether P/Q is L-stable. Return None if a pole is
+    on the imaginary axis, or too near it to decide.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))
     ((True, True), (True, False))

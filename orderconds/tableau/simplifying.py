@@ -21,8 +21,8 @@ def simplifying_order(B: int, C: int, D: int) -> int:
 
 
 def simplifying(method: RungeKutta, ring: Ring, assumptions: Mapping[str, int]) -> Iterator[Element]:
-    """Yield the left-hand side minus the right-hand side of each equation of B(p), C(q) and D(r), where k =
-    1, ..., p in B, k = 1, ..., q in C and k = 1, ..., r in D.
+    """Yield the left-hand side minus the right-hand side of each equation of B(p), C(q) and D(r). The number
+    k runs from 1 to p in B, from 1 to q in C, and from 1 to r in D.
 
     B: sum_i b_i c_i^(k-1) = 1/k; C: sum_j a_ij c_j^(k-1) = c_i^k/k (k = 1 is omitted, because this equation
     defines c); D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k.

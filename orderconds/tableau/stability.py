@@ -27,8 +27,8 @@ coefficients."""
 
 
 LARGEST = 100
-"""The largest implicit block of a rational tableau for which stability is decided. For a block of this size
-the computation with flint takes a second."""
+"""The largest number of stages in an implicit block of A for which stability is decided. For a rational block
+of this size, the computation with flint takes a second."""
 
 EFFORT = 10**11
 """The limit on the work over number fields other than Q. The unit of work is the product of two bits; work up
@@ -219,7 +219,8 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
-    """Return True if every zero of Q has positive real part: Routh's scheme of Q(-z) has no change of sign.
+    """Return True if every zero of Q has positive real part. This holds if Routh's scheme of Q(-z) has no
+    change of sign.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
     [True, False]
@@ -237,7 +238,8 @@ def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
 
 
 def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
-    """Return True if |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2.
+    """Return True if |R(iy)| <= 1 for all real y. For this test, E is a polynomial in x = y^2. The result is
+    True if E is zero, or if its leading coefficient is positive and no zero x > 0 has odd multiplicity.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))

@@ -2,13 +2,14 @@
 
 The state Y and one element K of the Lie algebra are all that a step stores (Williamson, J. Comput. Phys. 35
 (1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). As a commutator-free method a 2N scheme
-has one exponential for each stage, and each stage begins where the last one ended. On a vector space it is
-the Runge-Kutta method whose rows differ by B_i K_i.
+has one exponential for each stage, and each stage begins where the last one ended. On a vector space, a 2N
+scheme is a Runge-Kutta method. The rows i and i + 1 of A differ by B_i K_i, where b counts as row s + 1.
 
 The recognition compares the increment from each stage to the next, or to the update, with B_i K_i, where K_i
 = F_i + sum_{j < i} A_{j+1} ... A_i F_j. The coefficient of F_i in an increment is B_i, and A_i is the
 quotient of the coefficients of F_{i-1} and F_i. If B_i is zero, a later increment gives A_i. At the end the
-scheme is expanded and compared with every coefficient of the tableau, so that a quotient is never trusted.
+scheme is expanded and compared with every coefficient of the tableau, so that the result does not rely on the
+quotients alone.
 """
 
 from __future__ import annotations
@@ -58,9 +59,9 @@ class TwoRegisters:
 
 @dataclass(frozen=True)
 class Rewriting:
-    """The result of a recognition: ``holds`` is None if balls are too wide to decide. ``scheme`` is the 2N
-    scheme unless ``holds`` is False. ``reason`` says why a tableau has no such form; otherwise it is
-    empty."""
+    """The result of a recognition: ``holds`` is None if balls are too wide to decide. If ``holds`` is False,
+    ``reason`` says why the method is not a 2N scheme. Otherwise ``reason`` is empty and ``scheme`` is the 2N
+    scheme."""
 
     holds: Verdict
     scheme: TwoRegisters | None = None
@@ -130,8 +131,8 @@ def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
 
 
 def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
-    """Return the differences of successive rows of A, the last one with b; a text if the first stage is not
-    the start value."""
+    """Return the differences of successive rows, which are the rows of A followed by b. If the first stage is
+    not the start value, return a text that says so."""
     if any(ring.is_zero(x) is False for x in method.A[0]):
         return "the first stage is not the start value"
     rows = (*method.A, method.b)
@@ -139,8 +140,9 @@ def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
 
 
 def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
-    """Return the single exponential from each stage to the next, the last one to the update; a text if there
-    are more exponentials."""
+    """Return the exponent of the single exponential that leads from each stage to the next, and from the last
+    stage to the update. If a stage or the update needs more exponentials, or the first stage is not the start
+    value, return a text that says so."""
     *paths, update = (
         [row for row in method.from_start(stage) if any(ring.is_zero(x) is not True for x in row)]
         for stage in (*method.stages, method.update)

@@ -40,7 +40,7 @@ class RootedRing(Ring, Protocol):
     """A ring in which real roots of polynomials can be computed, such as balls or jets."""
 
     def root(self, x: Element, index: int) -> Element:
-        """Return the real root."""
+        """Return the real root of x with this index (2 for the square root)."""
 
 
 class Unknown(Struct, frozen=True):

@@ -99,7 +99,7 @@ def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
 
 
 def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
-    """Yield the tree rooted at each of its vertices in turn. The colours do not change.
+    """Yield, for each vertex of a tree, the tree with this vertex as its root. The colours do not change.
 
     >>> [text(tree) for tree in bicoloured_rootings(bytes((0, 3)))]
     ['[o]', '(.)']
@@ -108,8 +108,8 @@ def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
 
 
 def moves(tree: BicolouredTree) -> Iterator[tuple[BicolouredTree, BicolouredTree, BicolouredTree]]:
-    r"""Yield, for each edge at the root, the two parts u and v that the edge separates, and the whole tree
-    with its root moved to v.
+    r"""Yield three trees for each edge at the root. The first two are the parts that the edge separates: u,
+    which contains the root, and v. The third is the whole tree with the root moved across the edge to v.
 
     >>> list(moves(b"\0\3"))
     [(b'\x00', b'\x01', b'\x01\x02')]

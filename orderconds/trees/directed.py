@@ -138,7 +138,8 @@ def representative(tree: DirectedTree) -> DirectedTree:
 
 
 def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
-    """Yield the tree rooted at each of its vertices in turn. The edges keep their directions.
+    """Yield, for each vertex of a tree, the tree with this vertex as its root. The edges keep their
+    directions.
 
     >>> [text(tree) for tree in rootings(bytes((0, 2)))]
     ['[.]', '[^.]']
@@ -151,8 +152,8 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
-    r"""For each edge at the root, yield the two parts u (with the root) and v that the edge separates, and
-    the whole tree with the root moved across the edge.
+    r"""Yield three trees for each edge at the root. The first two are the parts that the edge separates: u,
+    which contains the root, and v. The third is the whole tree with the root moved across the edge.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -172,7 +173,7 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        hats[place] = hats[parents[place]] + 1 - 2 * kind  # the kind of this edge changes
+        hats[place] = hats[parents[place]] + 1 - 2 * kind  # Only this edge changes its kind.
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)
     places = [place for place, n in enumerate(rare) if n == least]

@@ -2,8 +2,8 @@
 
 The values of these functionals determine an element of the quotient of the free algebra by the ideal. They
 are therefore coordinates on the group of group-like elements of the quotient. Modulo products of functionals
-of lower weight, they form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie Algebras,
-Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
+of lower weight, the functionals form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie
+Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
 """
 
 from __future__ import annotations

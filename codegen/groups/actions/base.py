@@ -1,8 +1,8 @@
 """The base class of left actions of a group on a manifold.
 
 To define an action, inherit :class:`Action` and write ``name``, ``act`` and ``velocity``. These are enough
-for scenes, emitted code and convergence tests. The other members have defaults, which an action replaces
-where it can say more: the number of coordinates of a point, the equations of the manifold, a projection.
+for scenes, emitted code and convergence tests. The other members have defaults, which an action may override:
+the number of coordinates of a point, the equations of the manifold, a projection.
 """
 
 from __future__ import annotations
@@ -65,8 +65,8 @@ class Action(ABC):
         0."""
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return a point closer to the orbit of ``start`` than y: if the distance of y is eps, the distance
-        of the result is O(eps^2).
+        """Return a point closer to the orbit of ``start`` than y. If y has the distance eps from the orbit,
+        the result has the distance O(eps^2).
 
         By default y is returned, which is correct if the orbit is open.
         """

@@ -14,7 +14,7 @@ class CoadjointAction(Action):
 
     The velocity is x.mu = -ad*_x mu. The Lie-Poisson equation mu' = -ad*_{dH} mu of a Hamiltonian H(mu) is
     the scene with f = dH/dmu, and mu' = ad*_{dH} mu is the scene with f = -dH/dmu. Each orbit is a coadjoint
-    orbit, so all Casimir functions are kept.
+    orbit, so all Casimir functions are conserved.
     """
 
     name = "coadjoint action"

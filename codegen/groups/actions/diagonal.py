@@ -26,8 +26,8 @@ class DiagonalAction(Action):
         self.name = " and ".join(action.name for action in actions)
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the group cannot act in one of these ways, or if a part
-        does not fix the number of its coordinates."""
+        """Raise :class:`codegen.errors.SceneError` if one of the actions is not possible for the group, or
+        does not determine the number of coordinates of its points."""
         for action in self.actions:
             action.check(group, where)
         self._sizes(group, where)
@@ -47,7 +47,7 @@ class DiagonalAction(Action):
         return sizes
 
     def _parts(self, group: LieGroup, y: Vector[S]) -> list[tuple[Action, Vector[S]]]:
-        """Return each part with its coordinates."""
+        """Return each action with the coordinates of its point."""
         sizes = self._sizes(group)
         ends = accumulate(sizes)
         rows = zip(self.actions, ends, sizes, strict=True)

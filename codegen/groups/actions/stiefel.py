@@ -56,10 +56,12 @@ class Stiefel(Columns):
         )
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return Y (3 - Y^T Y)/2, whose columns are orthonormal up to the square of the error of Y^T Y."""
+        """Return Y (3 - Y^T Y)/2. If Y^T Y differs from the unit matrix by eps, the columns of the result are
+        orthonormal up to O(eps^2)."""
         gram, half, k = self._gram(y), d.rational(1, 2), self.columns
         unit: tuple[Vector[S], ...] = units(d, k)
-        # Y + Y E/2 with E = 1 - Y^T Y: the correction is small, so rounding 1 + E/2 is avoided.
+        # With E = 1 - Y^T Y the result is Y + Y E/2. This form adds a small correction to Y, so it avoids the
+        # rounding errors of 1 + E/2.
         defect = [[half * (unit[i][j] - gram[i][j]) for j in range(k)] for i in range(k)]
         rows = [y[i : i + k] for i in range(0, len(y), k)]
         return tuple(

@@ -1,7 +1,7 @@
-"""A method with step-size control by its embedded row, as a candidate of a work-precision diagram.
+"""A method with step-size control by its embedded error estimate, as a candidate of a work-precision diagram.
 
-In the rows of this candidate, ``control`` is both the relative and the absolute tolerance. ``steps`` counts
-accepted steps only; the evaluations and the time include rejected steps.
+In the measured rows (:class:`Row`) of this candidate, ``control`` is both the relative and the absolute
+tolerance. ``steps`` counts accepted steps only; the evaluations and the time include rejected steps.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ method with an error estimate of low order needs many short steps for a tight to
 
 @dataclass
 class AdaptiveCandidate(EmittedCandidate):
-    """A candidate: a method with an embedded row that is emitted to a target and run over the span with
-    step-size control.
+    """A candidate: a method with an embedded error estimate. The method is emitted to a target and run over
+    the span with step-size control.
 
     Raises MethodError for a method without an error estimate.
     """
@@ -48,11 +48,11 @@ class AdaptiveCandidate(EmittedCandidate):
         return not diverged and super().enough(rows)
 
     def run(self, control: float, spans: int) -> int:
-        """Run over a multiple of the span and return the number of accepted steps."""
+        """Run over ``spans`` time spans and return the number of accepted steps."""
         return self.arrive(control, spans=spans).accepted
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
-        """Run over a multiple of the span with this tolerance, and return the result at the end."""
+        """Run over ``spans`` time spans with this tolerance, and return the result at the end."""
         first, last = map(float, self.scene.span)
         try:
             return self.runner.integrator.adaptive(

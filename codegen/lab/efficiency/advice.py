@@ -1,5 +1,5 @@
-"""The Python function that recommends a method: the fastest method of the library for a scene, an error and
-needs.
+"""The Python function that recommends a method: the fastest method of the library that reaches an error on a
+scene and satisfies the needs.
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ class AdvisedMethod:
 
 @dataclass(frozen=True, repr=False)
 class Advice:
-    """The ``best`` method and the second best method ``runner_up``; None if no method reaches the error.
-    ``search`` contains all details. In an ``if`` statement, the object counts as true if there is a
-    best method.
+    """``best`` is the fastest method, and ``runner_up`` is the second fastest method. Each of them is None if
+    no such method reaches the error. ``search`` contains all details. In an ``if`` statement, the object
+    counts as true if there is a best method.
     """
 
     scene: str
@@ -135,7 +135,7 @@ def _interval(span: object) -> tuple[Fraction, Fraction]:
 
 
 def _advised(record: object) -> AdvisedMethod | None:
-    """Return a method of the JSON record of a recommendation."""
+    """Return a method, given its JSON record in a recommendation; None if the record is None."""
     if record is None:
         return None
     values = cast("dict[str, object]", record)

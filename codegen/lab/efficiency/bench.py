@@ -123,10 +123,10 @@ def bench(
     """Return a bench of methods and peers on a scene.
 
     If no methods are named, the default methods for the scene are used (:func:`methods_for`). The methods in
-    ``adaptive`` run with step-size control by their embedded rows. ``forms`` are the keys of the classical
-    forms of the equations for peers and for methods in coordinates; by default all forms are measured. Names
-    and options are checked before the first measurement (InputError). If a method cannot be emitted for the
-    scene, its only row contains the reason.
+    ``adaptive`` run with step-size control by their embedded rows. ``forms`` selects classical forms of the
+    equations by their keys, for peers and for methods that integrate coordinates. By default all forms are
+    measured. Names and options are checked before the first measurement (InputError). If a method cannot be
+    emitted for the scene, its only row contains the reason.
     """
     for target in targets:
         if target not in names():
@@ -173,7 +173,8 @@ def peer_forms(
 ) -> list[Candidate]:
     """Return the candidates of peers: one for each form of the equations.
 
-    A peer that projects its states onto the manifold has one candidate, for the equations as printed.
+    A peer that projects its states onto the manifold has one candidate, for the equations as printed (in the
+    coordinates of the scene).
     """
     return [
         PeerCandidate(scene, peer, exact, budget, equations=e)

@@ -19,10 +19,11 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The largest order for which a recipe with the fewest brackets is added to the recipes with a cut-off.
+"""The largest order for which a recipe without a cut-off is tried, too.
 
-A recipe with a cut-off, for example ``rkmk(2)``, truncates dexp^{-1} after 2 brackets. For higher orders the
-search for the fewest brackets takes seconds.
+A recipe with a cut-off, for example ``rkmk(2)``, truncates dexp^{-1} after 2 brackets. A recipe without a
+cut-off uses the fewest brackets that give the order of the method. For higher orders the search for these
+brackets takes seconds.
 """
 
 
@@ -36,8 +37,8 @@ class Recipe:
     step-size control.
 
     ``order`` is the order that the file of the tableau claims; it is 0 if the file claims no order.
-    ``stages`` is the number of stages or factors of the tableau; recipes of one ``tableau`` share it.
-    ``explicit`` is True if each stage of the tableau depends only on earlier stages.
+    ``stages`` is the number of stages or factors of the tableau; it is equal for all recipes of one
+    ``tableau``. ``explicit`` is True if each stage of the tableau depends only on earlier stages.
     """
 
     method: str
@@ -83,7 +84,7 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 
 
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
-    """Yield the recipes for the equations of a scene as printed.
+    """Yield the recipes for the equations of a scene as printed, that is, in the coordinates of the scene.
 
     On an abelian group, several families reduce to the same classical family and give the same methods; only
     the first of these families is used. The compiler may refuse a recipe later.

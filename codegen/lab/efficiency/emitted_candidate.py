@@ -34,9 +34,9 @@ from codegen.scene.problem import Problem
 class EmittedCandidate:
     """A candidate: a method that is emitted to a target, compiled, and run over the span with equal steps.
 
-    ``equations`` are the equations in one form of the scene, by default the form as printed. ``precompiled``
-    may be the result of :func:`compile_method`. In this case ``emit_seconds`` does not include the time of
-    :func:`compile_method`.
+    ``equations`` are the equations in one form of the scene, by default the form as printed (in the
+    coordinates of the scene). ``precompiled`` may be the result of :func:`compile_method`. In this case
+    ``emit_seconds`` does not include the time of :func:`compile_method`.
     """
 
     scene: Problem
@@ -93,7 +93,7 @@ class EmittedCandidate:
         return self._row(control, h, steps, error, times, statistics)
 
     def run(self, control: float, spans: int) -> int:
-        """Run over a multiple of the span and return the number of steps."""
+        """Run over ``spans`` time spans, with ``control`` steps in each, and return the number of steps."""
         self.runner.final(int(control), spans=spans)
         return spans * int(control)
 

@@ -31,8 +31,8 @@ class Equations:
 
     @property
     def problem(self) -> Problem:
-        """The problem to integrate. For the form as printed it is the scene, which also contains the
-        equations of its manifold.
+        """The problem to integrate: the scene itself for the form as printed, otherwise the problem of the
+        form.
         """
         return self.scene if self.form is None or self.form.printed else self.form.problem
 

@@ -1,13 +1,13 @@
 """The exhaustive search: every recipe of the library is run, and no recipe is left out because of its order,
 its family or a time limit for predictions. A benchmark compares the usual search with this search.
 
-Each recipe is first run by the interpreter with more and more steps, as long as the run may be fast enough.
-The counted operations give the time of a step, and the measured error gives the number of steps for the
-target. The product of this time and this number, divided by SAFE, is a lower bound of the time of the recipe.
-If the bound exceeds WORST times the best measured time for each error, the recipe is excluded. Where equal
-steps have large errors, no implicit recipe and no recipe with step-size control is excluded. All other
-recipes are emitted, compiled and raced. A sample of the excluded recipes is also raced. The times of the
-sample show whether the bound is safe.
+Each recipe is first run by the interpreter with more and more steps, as long as a compiled run with this
+number of steps may be fast enough. The counted operations give the time of a step, and the measured error
+gives the number of steps for the required error. The product of this time and this number, divided by SAFE,
+is a lower bound of the time of the recipe. If the bound exceeds WORST times the best measured time for each
+error, the recipe is excluded. Where equal steps have large errors, no implicit recipe and no recipe with
+step-size control is excluded. All recipes that are not excluded are emitted, compiled and raced. A sample of
+the excluded recipes is also raced. The times of the sample show whether the bound is safe.
 """
 
 from __future__ import annotations
@@ -45,11 +45,10 @@ class Exhausted:
     """The result of an exhaustive search.
 
     ``known`` is the time of a known recipe for each error, ``results`` contains the runs for each error, and
-    ``recipes`` is the number of recipes of the library.
-    ``raced`` recipes were emitted and measured, ``refused`` recipes cannot be compiled for the scene,
-    ``copies`` have the same code as another recipe, and ``excluded`` exceed the bound. ``nearest`` is the
-    least time of the sampled excluded recipes divided by the best time for the same error. ``complete`` is
-    False if the time limit ended the search.
+    ``recipes`` is the number of recipes of the library. ``raced`` recipes were emitted and measured,
+    ``refused`` recipes cannot be compiled for the scene, ``copies`` have the same code as another recipe, and
+    ``excluded`` exceed the bound. ``nearest`` is the smallest ratio of the time of a sampled excluded recipe
+    to the best time for the same error. ``complete`` is False if the time limit ended the search.
     """
 
     known: Mapping[float, float]
@@ -64,7 +63,7 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least measured time for an error in seconds."""
+        """Return the least measured time, in seconds, for an error."""
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 
@@ -85,8 +84,8 @@ def exhaust(
 ) -> Exhausted:
     """Search the whole library for each error of ``known``.
 
-    ``known`` contains the measured time of some recipe for each error in seconds; infinity if no recipe is
-    known to reach the error. The search ends after ``most`` seconds.
+    ``known`` contains, for each error, the measured time of some recipe in seconds. The time is infinite if
+    no recipe is known to reach the error. The search ends after ``most`` seconds.
     """
     search = Search(request.task, (request.goal,))
     limits = {error: WORST * SAFE * seconds for error, seconds in known.items()}
@@ -136,13 +135,13 @@ def _key(recipe: Recipe) -> Key:
 
 
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
-    """Return the least ratio, over all errors, of the predicted time to the limit for the error. If the ratio
-    is above 1, the recipe is excluded.
+    """Return the smallest ratio of the predicted time for an error to the limit for the same error. If the
+    ratio is above 1, the recipe is excluded.
 
-    Three kinds of recipes are not excluded (ratio 0), unless a single step exceeds all limits: recipes whose
-    interpreted runs fail, because emitted code, which solves equations by Newton's method, may succeed;
-    implicit recipes with rough predictions, for the same reason; and recipes with step-size control
-    (``adaptive``) and rough predictions, because these are predictions for equal steps.
+    Three kinds of recipes have the ratio 0 and are not excluded, unless a single step exceeds all limits.
+    First, recipes whose interpreted runs fail: emitted code may succeed, because it solves equations by
+    Newton's method. Second, implicit recipes with rough predictions, for the same reason. Third, recipes with
+    step-size control (``adaptive``) and rough predictions, because these predictions are for equal steps.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)

@@ -3,7 +3,8 @@
 Runs with equal steps solve implicit blocks by fixed-point iteration, because the difference quotients of
 Newton's method take long. Runs with step-size control solve implicit blocks by Newton's method, because they
 are used for stiff scenes, where fixed-point iteration does not converge in long steps. The step sizes are
-chosen as in emitted code (:mod:`codegen.run.step_control`), but the factor depends on the last step only.
+chosen as in emitted code (:mod:`codegen.run.step_control`), but each step size depends on the error estimate
+of the last step only.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ MOST_SWEEPS, MOST_NEWTON = 40, 15
 
 SETTLED = 1e-9
 """The iteration of an interpreted implicit block ends when the relative change is at most SETTLED. The error
-of a method is much larger.
+of a method is much larger than SETTLED.
 """
 
 
@@ -39,7 +40,8 @@ class CountingDomain(FloatDomain):
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return True if the relative change is at most SETTLED, and the change. The sweep is counted."""
+        """Return two values: True if the iteration may end, for example because the relative change is at
+        most SETTLED; and the change. The sweep is counted."""
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
         return done or change <= SETTLED * max(map(abs, old), default=0.0), change
@@ -52,7 +54,8 @@ class NewtonDomain(CountingDomain):
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Return the state at the end of the span after equal steps, and the average number of sweeps of a step.
+    """Return the state at the end of the span after equal steps, and the average number of sweeps over an
+    implicit block that an emitted program needs in a step.
 
     Raises ArithmeticError if the run is not finished when the process has used ``end`` CPU seconds.
     """
@@ -77,8 +80,8 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
 def controlled_run(
     program: Program, problem: Problem, order: int, tolerance: float, end: float = math.inf
 ) -> tuple[Vector, int, float]:
-    """Return the state at the end of the span after a run with step-size control, the number of tried steps,
-    and the average number of sweeps of a step.
+    """Return the final state of a run with step-size control, the number of tried steps, and the average
+    number of sweeps over an implicit block in a step.
 
     The program has an embedded solution; ``order`` is the power of h in its error estimate. ``tolerance`` is
     both the relative and the absolute tolerance. Raises ArithmeticError if steps become too short, or if the
@@ -116,8 +119,9 @@ def controlled_run(
 def weighted(
     before: Sequence[float], after: Sequence[float], lower: Sequence[float], tolerance: float
 ) -> float:
-    """Return the norm of an error estimate, the difference of the results ``after`` and ``lower`` of a step
-    from ``before``; infinity if a number is not finite.
+    """Return the weighted norm of the error estimate of a step from the state ``before``. The estimate is the
+    difference of the two results ``after`` and ``lower`` of the step. The norm is infinite if a number is not
+    finite.
 
     >>> round(weighted([1.0, 0.0], [1.0, 0.0], [1.0 + 2e-3, 1e-3], 1e-3), 9)
     1.0

@@ -22,14 +22,15 @@ that is predicted for any recipe.
 """
 
 FRESH = 8
-"""A result that depends on all predictions is computed again when the number of predictions has grown by the
+"""A bar depends on all predictions. It is computed again when the number of predictions has grown by the
 factor 1 + 1/FRESH.
 """
 
 
 EVEN = 4.0
-"""The delay of a queue increases by one for every EVEN turns that the queue has had, for every EVEN orders
-between its order and the usual order, and for every factor of two in the predicted time of its recipes.
+"""The queue with the smallest delay is next. The delay increases by one for every EVEN recipes that were
+taken from the queue, and for every EVEN orders between the order of the queue and the usual order. It also
+increases by one for every factor of two in the predicted time of the recipes.
 """
 
 FAILED = 4.0
@@ -62,11 +63,11 @@ class Jobs(Sequence[Job]):
     """The recipes to predict, each with the bars of its goals.
 
     A job is created only when a worker process is free, so its bars use all predictions up to this time. The
-    queues take turns, and queues of orders that are usual for an error are first. If a kind of recipe is
-    predicted to be slower than another kind, its queues have a delay, the logarithm of the ratio of the
-    times. ``controlled`` contains the recipes that can also run with step-size control, each with the goals
-    for which it can do so. The recipes of the methods ``early`` are first, so that slow recipes are
-    recognised early.
+    queues take turns, and queues of orders that are usual for an error are first. Queues of slow kinds of
+    recipes are delayed by the binary logarithm of a ratio: the predicted time of this kind divided by the
+    least predicted time of all kinds. ``controlled`` contains the recipes that can also run with step-size
+    control, each with the goals for which it can do so. The recipes of the methods ``early`` are first, so
+    that slow recipes are recognised early.
     """
 
     def __init__(
@@ -121,16 +122,17 @@ class Jobs(Sequence[Job]):
         return recipe
 
     def _place(self, queue: Queue) -> float:
-        """Return a number that is small for queues with a fast family, few turns and a usual order. The queue
-        with the smallest number is next.
+        """Return the whole delay of a queue. It is small for queues with a fast family, few turns and a usual
+        order. The queue with the smallest delay is next.
         """
         distance = min(abs(queue[1] - order) for order in self.usual)
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the delay of a queue: log2 of its predicted time divided by the least predicted time.
+        """Return the part of the delay that depends on predicted times: log2 of the predicted time of the
+        queue divided by the least predicted time.
 
-        It is FAILED if all predictions of its kind failed.
+        The result is FAILED if all predictions of this kind of recipe failed.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -144,8 +146,8 @@ class Jobs(Sequence[Job]):
         return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
-        """Use a prediction for later jobs. Vague predictions are not used, because their times are too
-        short.
+        """Use a prediction for later jobs. Vague predictions are not used, because the times that they
+        predict are too short.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return

@@ -23,12 +23,13 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 
 Shape = tuple[tuple[str, int], ...]
-"""The kind and the width of each argument of an operation."""
+"""The kind and the width (number of components) of each argument of an operation."""
 
 
 @dataclass(frozen=True)
 class Symbolic:
-    """An operation of a problem on symbols: the expressions of its results, and the width of each result.
+    """An operation of a problem on symbols: the expressions of its results, and the width (number of
+    components) of each result.
 
     ``symbols`` are the names of the components of the arguments, followed by the step size.
     """
@@ -59,7 +60,7 @@ def symbolic(assign: Assign, problem: Problem, shape: Shape) -> Symbolic:
 
 
 def _called(name: str) -> Callable[..., float | tuple[float, ...]]:
-    """Return a function of the math library, or another function of :class:`FloatDomain`."""
+    """Return the function with this name, from the math library or from :class:`FloatDomain`."""
     known: Callable[..., float] | None = getattr(math, name, None)
     domain = FloatDomain(0.0)
     if vector_function(name) is not None:
@@ -99,7 +100,7 @@ class Numeric(Operation):
 
 @dataclass(frozen=True)
 class NumericLinear(Operation):
-    """A linear combination; the coefficients are doubles with powers of the step size."""
+    """A linear combination, whose coefficients are doubles times powers of the step size."""
 
     coefficients: tuple[tuple[float, int], ...]
     name = "lin"

@@ -26,7 +26,8 @@ from orderconds.errors import InputError
 class PeerCandidate:
     """A peer on a scene. If the peer does not support the scene, its only row contains the reason.
 
-    ``equations`` are the equations in one form of the scene, by default the form as printed.
+    ``equations`` are the equations in one form of the scene, by default the form as printed (in the
+    coordinates of the scene).
     """
 
     scene: Problem

@@ -1,11 +1,12 @@
 """The predicted time of a recipe for an error, from a few interpreted steps and counted operations.
 
-The step program is interpreted with a small number of steps; its error and the order of the method give the
-number of steps for another error. If the error of equal steps remains large, for example on stiff scenes, a
-run with step-size control is interpreted, too. The cost of a step is the sum of the costs of its operations.
-The cost of an operation is computed once for each scene from its expressions. The prediction ignores common
-subexpressions of different operations, which the compiler computes once. Therefore it only decides which
-recipes are compiled and measured first, and which recipes are too slow to be compiled.
+The step program is interpreted with a small number of steps. The error of this run and the order of the
+method give the number of steps for another error. If the error of equal steps remains large, for example on
+stiff scenes, a run with step-size control is interpreted, too. The cost of a step is the sum of the costs of
+its operations. The cost of an operation is computed once for each scene from its expressions. The prediction
+ignores common subexpressions of different operations, which the compiler computes once. Therefore the
+prediction only decides which recipes are compiled and measured first, and which recipes are too slow to be
+compiled.
 """
 
 from __future__ import annotations
@@ -62,7 +63,7 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
-"""Methods do not come close to an error if their least error is more than FAR times as large."""
+"""Methods "do not come close" to an error if their least error is more than FAR times this error."""
 
 CALL = 8.0
 """The time in nanoseconds of the loop around a step, which reads and writes the state."""
@@ -170,9 +171,9 @@ class Predictor:
     """Predicts the times of recipes for one form of a scene. The cost of each operation is computed once.
 
     ``beginning`` returns the equations on the first of :data:`PARTS` parts of the span, with the reference at
-    its end. ``failures`` counts, for each kind of method (family, explicit or not), the methods whose runs on
-    the whole span failed since the last success; ``uncontrolled`` counts the failed runs with step-size
-    control.
+    the end of this part. ``failures`` counts, for each kind of method (family, explicit or not), the methods
+    whose runs on the whole span failed since the last success; ``uncontrolled`` counts the failed runs with
+    step-size control.
     """
 
     equations: Equations
@@ -206,7 +207,8 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # A run that the bars limit to few steps shows that the method is slow.
+        # If the bars permit only few steps and the error is still large, the method is too slow for the bars.
+        # The first part of the span is then not interpreted.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -226,7 +228,7 @@ class Predictor:
         """Return the prediction for a method with step-size control; None if no interpreted run succeeds.
 
         ``equal`` is the prediction for equal steps. The tolerance is reduced until the error is below
-        ``target`` or the time for interpreted runs is used.
+        ``target`` or the time for interpreted runs is used up.
         """
         kind = (method.family, equal.explicit)
         if method.embedded() is None or self.uncontrolled[kind] >= TRIES:
@@ -266,8 +268,8 @@ class Predictor:
         return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return two times in nanoseconds: the operations of a step outside of implicit blocks, and one sweep
-        over all implicit blocks.
+        """Return two times in nanoseconds: the time of the operations of a step outside of implicit blocks,
+        and the time of one sweep over all implicit blocks.
 
         ``widths`` contains the numbers of components of the inputs. The numbers of components of all other
         variables are added to it.
@@ -332,15 +334,15 @@ def matrix(block: Solve, widths: Mapping[Var, int], sweep: float) -> float:
     """Return the time in nanoseconds for the matrix of Newton's method and its inversion.
 
     ``sweep`` is the time of one evaluation of the equations. The equations of different stages contain the
-    derivatives of the same field at different states. The derivatives with respect to one vector of unknowns
-    therefore give the whole matrix.
+    same field at different states. The matrix therefore takes only as many evaluations as the largest vector
+    of unknowns has components.
     """
     own = [widths[u] for u in block.unknowns]
     return max(own) * sweep + WEIGHTS.arithmetic * sum(own) ** 2 + WEIGHTS.cubes * sum(own) ** 3
 
 
 def size_of(exact: Reference) -> float:
-    """Return the size of the final state, at least 1."""
+    """Return the Euclidean norm of the final state, or 1 if the norm is smaller."""
     return max(1.0, math.hypot(*map(float, exact.state)))
 
 
@@ -351,7 +353,7 @@ def widths_of_inputs(program: Program, problem: Problem) -> dict[Var, int]:
 
 
 def amounts(roots: Sequence[Expr]) -> Amounts:
-    """Return the amounts of work of expressions.
+    """Return the numbers of arithmetic operations, divisions and calls in expressions.
 
     >>> from codegen.ir.expr import Space
     >>> x, y = map(Space().sym, "xy")

@@ -125,7 +125,7 @@ class Racer:
         self.overhead = Overhead(lambda: self.run(1.0, 0))
 
     def run(self, control: float, spans: int = 1) -> tuple[Vector, int]:
-        """Return the state and the number of steps of a run over a multiple of the span."""
+        """Return the state and the number of steps of a run over ``spans`` time spans."""
         length = self.last - self.first
         if self.entry.recipe.adaptive:
             tolerance, last = (10.0**-control, self.first + spans * length)
@@ -138,7 +138,7 @@ class Racer:
         return tuple(self.integrator.run(self.initial, h, spans * steps, self.first)), spans * steps
 
     def prepare(self, control: float) -> None:
-        """Prepare runs with a control, outside of measured times. An emitted module needs no preparation."""
+        """Prepare runs with a control. This time is not measured. An emitted module needs no preparation."""
 
     def error(self, control: float) -> float:
         """Return the error of a run; infinity if the run fails."""
@@ -209,8 +209,8 @@ class Racer:
         return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
 
     def _coarsened(self, control: float, error: float) -> float:
-        """Return the control with the fewest steps or the largest tolerance that bisection finds and that
-        reaches the error.
+        """Return the coarsest control (the fewest steps or the largest tolerance) that reaches the error,
+        found by bisection.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

@@ -1,4 +1,5 @@
-"""The time to reach an accuracy, interpolated between runs, and the fastest candidate for each decade.
+"""The time to reach an accuracy, interpolated between runs, and the fastest candidate for each decade of
+accuracy.
 
 A candidate may have runs on several forms of the equations. Its time for an accuracy is the time of the
 fastest form.
@@ -90,7 +91,7 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful rows, except rows for which another form of the equations is faster.
+    """Return the successful rows, except rows whose error another form of the equations reaches in less time.
 
     The rows of several forms are ordered by their errors, from large to small.
     """

@@ -1,5 +1,5 @@
-"""The requirements and the errors of tables of recommended methods: one column for each requirement, one row
-for each error.
+"""The requirements and the errors for which a table recommends methods: one column for each requirement, one
+row for each error.
 """
 
 from __future__ import annotations

@@ -39,15 +39,15 @@ time.
 """
 
 UNSEEN = 4.0
-"""The safety factor for a kind of recipe of which no recipe was measured yet."""
+"""The safety factor for recipes of a kind if no recipe of this kind was measured yet."""
 
 LEADERS, CLOSE = 4, 1.4
 """At most LEADERS recipes are timed again. Their times are at most CLOSE times the best time."""
 
 CONTROLLED = 100.0
-"""The additional safety factor for a kind of recipe with step-size control of which no recipe was measured
-yet, if equal steps have large errors. On stiff scenes, equal steps can take some hundred times as long as
-controlled steps.
+"""An additional safety factor where equal steps have large errors. It applies to recipes with step-size
+control if no recipe of the same kind was measured yet. On stiff scenes, equal steps can take some hundred
+times as long as controlled steps.
 """
 
 ROUND = 6
@@ -63,7 +63,8 @@ PREDICTING = 0.5
 """When the reference solution is known, predictions may use this fraction of the remaining time budget."""
 
 UNREACHED = 1e-3
-"""The predicted gain of every recipe for a goal that, according to the predictions, no recipe reaches."""
+"""If the predictions say that no recipe reaches a goal, the predicted gain of each recipe for this goal is
+UNREACHED."""
 
 LONG_STEPS = 20_000
 """The number of steps of the long run that tests recommendations for long times."""
@@ -146,8 +147,9 @@ class Search:
                 return
 
     def expected(self, recipe: Recipe, error: float) -> float:
-        """Return the predicted time of a recipe for an error in seconds, corrected by the ratio for its kind
-        of recipe.
+        """Return a cautious (short) estimate of the time of a recipe for an error, in seconds. It is the
+        predicted time, corrected by the ratio of measured to predicted times for this kind of recipe, and
+        divided by a safety factor.
         """
         prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
@@ -244,11 +246,11 @@ class Search:
         return prediction is not None and not prediction.failure
 
     def best(self, goal: Goal) -> float:
-        """Return the least measured time for a goal in seconds."""
+        """Return the least measured time, in seconds, for a goal."""
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
-        """Yield the fastest result of each recipe that reaches a goal and satisfies its needs.
+        """Return the fastest result of each recipe that reaches a goal and satisfies its needs.
 
         A run for a smaller error than the error of the goal also reaches the goal. Recipes that a long run
         excluded are omitted.
@@ -315,8 +317,8 @@ class Search:
                 return ranked, [recipe.label for recipe in self.lost[goal]]
 
     def _ranked(self, goal: Goal) -> list[Result]:
-        """Time the fastest recipes for a goal again, and return the ranking without those that a long run
-        excludes.
+        """Time the fastest recipes for a goal again, and return the ranking without the recipes that a long
+        run excludes.
 
         If a long run of one of the two fastest recipes loses a conserved quantity, shorter steps are tried.
         """

@@ -94,8 +94,8 @@ def _beginning(task: Task, form: str) -> tuple[Equations, Reference]:
 def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:
     """Return the prediction of a recipe for the bars of its goals; runs in a worker process.
 
-    The prediction is for equal steps. If the recipe has step-size control, the prediction with step-size
-    control is added where it is needed. None is returned if there is no bar.
+    The prediction is for equal steps. If the recipe has step-size control and equal steps have large errors,
+    a prediction with step-size control is added. None is returned if there is no bar.
     """
     recipe, bars = job
     if not bars:

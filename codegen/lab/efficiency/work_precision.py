@@ -36,9 +36,9 @@ class Row:
     """One run. ``control`` is the requested tolerance or number of steps, ``h`` the (mean) step size.
 
     ``form`` is the name of the classical form of the equations, '' if the scene has one form only.
-    ``seconds`` is the least CPU time of several batches. Three quarters of the batches take at most 1 +
-    ``spread`` times as long. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run; they
-    are None if they are not counted. ``failure`` is the reason if the run failed, else ''.
+    ``seconds`` is the least CPU time of several batches. Three quarters of the batches take at most (1 +
+    ``spread``) times ``seconds``. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run;
+    they are None if they are not counted. ``failure`` is the reason if the run failed, else ''.
     """
 
     scene: str
@@ -132,8 +132,7 @@ def measure_rows(
 
 
 def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
-    """Return the rows after new measurements, which are made if times do not increase with the number of
-    steps.
+    """Return the rows. Some runs are measured again if the times do not increase with the number of steps.
 
     If a run took longer than a run with more steps, both runs are measured again, at most :data:`AGAIN`
     times, and for each run the smallest time is used. Only runs whose controls are in ``fresh`` are measured

@@ -2,17 +2,18 @@
 
 Errors along one trajectory are correlated, so the confidence interval of a least-squares line would be far
 too narrow. Therefore the record is cut into blocks that are much longer than its oscillations. The means over
-the blocks are nearly independent, so a line through these means has an interval from Student's distribution
-(method of batch means). If consecutive residuals are still correlated, the interval is widened.
+the blocks are nearly independent, so the confidence interval of a line through these means follows from
+Student's distribution (method of batch means). If consecutive residuals are still correlated, the interval is
+widened.
 
-A modulation that is slower than the blocks also has a slope, and its interval may exclude zero. A drift
-therefore also has to persist: the record is divided into five consecutive parts, and their means must be
-monotone. A sinusoid passes this test only if its period is longer than 1.2 times the record.
+A modulation that is slower than the blocks also has a slope, and the interval of this slope may exclude zero.
+A drift therefore also has to persist: the record is divided into five consecutive parts, and their means must
+be monotone. A sinusoid passes this test only if its period is longer than 1.2 times the record.
 
 A random walk has a slope, too, and its residuals are correlated over the whole record. A drift therefore also
-has to differ from a random walk: the variance of the residuals is much smaller than for a random walk with
-the same increments, or the mean increment is far larger than a random walk explains. The test of the variance
-is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
+has to differ from a random walk. One of two conditions is enough: the variance of the residuals is much
+smaller than for a random walk with the same increments, or the mean increment is far larger than a random
+walk explains. The test of the variance is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
 
 The growth of a deviation may end, for example at a fixed point of the method. In this case a line through the
 whole record would have nearly the slope zero. The line is therefore fitted to the part of the record before
@@ -42,8 +43,8 @@ quantity.
 """
 
 BOUNDED, WALK = 0.25, 0.75
-"""A deviation may be bounded if its growth exponent is below BOUNDED, and a random walk if the exponent is
-between BOUNDED and WALK."""
+"""A deviation may be bounded if its growth exponent is below BOUNDED. It may be a random walk if the exponent
+is between BOUNDED and WALK."""
 
 LATE, LATE_CONFINED = 1.5, 2.0
 """The largest deviation of the whole record is divided by the largest deviation of its first half. If the
@@ -56,22 +57,24 @@ is never smaller than STAYS times the largest value afterwards.
 """
 
 WALKING = (0.5, 1.6)
-"""Bounds of the variance ratio of increments over k blocks for a random walk. The ratio is about 1 for a
-random walk, about 1/k for noise, and up to k for a slow modulation.
+"""Bounds of the variance ratio of a random walk. The ratio is the variance of the increments over k blocks,
+divided by k times the variance of the increments over one block. It is about 1 for a random walk, about 1/k
+for noise, and up to k for a slow modulation.
 """
 
 CONFINED = 0.04
-"""The variance of block means about their mean, in units of the number of blocks times the variance of their
-increments. It is less than CONFINED for 3 % of all random walks, of any length and size."""
+"""A bound of the following ratio: the variance of the block means, divided by the number of blocks times the
+variance of the increments between consecutive block means. The ratio is less than CONFINED for 3 % of all
+random walks, whatever their length and size."""
 
 STRAIGHT = 0.0225
-"""The variance of block means about a line, in the units of CONFINED. It is less than STRAIGHT for 1 % of all
-random walks.
+"""A bound of the ratio described at CONFINED, but with the variance of the block means about a fitted line.
+The ratio is less than STRAIGHT for 1 % of all random walks.
 """
 
 STEADY = 3.2
-"""The mean increment over BLOCKS blocks in units of its standard error. It exceeds STEADY for 1 % of all
-random walks."""
+"""A bound of the mean increment between the means of BLOCKS blocks, divided by its standard error. This ratio
+exceeds STEADY for 1 % of all random walks."""
 
 TINY = 1e-24
 """A variance below TINY times the square of the largest deviation consists of rounding errors."""
@@ -121,8 +124,9 @@ class Drift:
         ``lost``: the deviation reaches the size of the quantity, or saturates above half of it. ``exact``:
         there is no deviation. ``rounding``: rounding errors can explain the deviation. ``drift``: the
         interval of the slope excludes zero, the means over consecutive parts of the record are monotone, and
-        a random walk does not explain the slope. ``bounded`` and ``random walk``: there is no drift, and the
-        growth is that of noise or of a random walk. Otherwise the verdict is ``too short to tell``.
+        a random walk does not explain the slope. ``bounded``: there is no drift, and the deviation does not
+        grow. ``random walk``: there is no drift, and the deviation grows like a random walk. Otherwise the
+        verdict is ``too short to tell``.
         """
         if not self.largest < LOST or (self.until is not None and self.largest >= STAYS * LOST):
             return "lost"
@@ -148,7 +152,8 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """True if the quantity drifts or is lost; None if the run is too short to tell."""
+        """True if the verdict is ``drift``, ``random walk`` or ``lost``; None if the run is too short to
+        tell."""
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
     def as_json(self) -> dict[str, object]:
@@ -239,7 +244,8 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the variance of block means about a polynomial of a degree; see :data:`CONFINED`."""
+    """Return the variance of the block means about a fitted polynomial of the given degree, divided as
+    described at :data:`CONFINED`."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
@@ -294,8 +300,8 @@ def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
     residual = z - z.mean() - slope * centred
     square = float(residual @ residual)
     error = math.sqrt(square / (BLOCKS - 2) / float(centred @ centred))
-    # With correlation r between consecutive residuals, the variance of the slope is (1 + r)/(1 - r) times as
-    # large.
+    # If consecutive residuals have the correlation r, the variance of the slope is (1 + r)/(1 - r) times the
+    # variance for independent residuals.
     r = max(float(residual[1:] @ residual[:-1]) / square, 0.0) if square > 0.0 else 0.0
     error *= math.sqrt((1 + r) / (1 - r))
     return slope, float(scipy.stats.t.ppf((1 + CONFIDENCE) / 2, BLOCKS - 2)) * error

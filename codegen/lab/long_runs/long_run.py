@@ -65,8 +65,9 @@ class LongRun:
     distance from the initial state after that many steps forward and back. There is a pair for the whole run.
     A second pair is for a hundredth of the run, because chaos amplifies rounding errors in long runs.
     ``symplectic`` is the largest symplectic defect of a step from several states of the run; None if it was
-    not measured. ``unmeasured`` is the reason why it was not measured, or '' if the scene is not Hamiltonian.
-    ``rounding`` is the growth of rounding errors in the quantities that the method conserves exactly.
+    not measured. ``unmeasured`` is the reason if the defect of a Hamiltonian scene could not be measured,
+    otherwise ''. ``rounding`` is the growth of rounding errors in the quantities that the method conserves
+    exactly.
     """
 
     scene: str
@@ -198,7 +199,7 @@ def _before_saturation(
     name: str, whole: Drift, trajectory: Trajectory, early: Callable[[int], Trajectory]
 ) -> Drift:
     """Return the drift of a quantity before it saturates. If the record has too few samples before the
-    saturation, the first steps are recorded again.
+    saturation, the first steps are recorded again with more samples.
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0

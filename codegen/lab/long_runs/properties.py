@@ -1,8 +1,9 @@
 """Three measured properties of a method on a scene: symplectic, symmetric, without drift of a quantity.
 
-The columns are those of Table 2.1 of H. Marthinsen's thesis. A step is symplectic if its symplectic defect
+They are the columns of Table 2.1 of H. Marthinsen's thesis. A step is symplectic if its symplectic defect
 vanishes (:mod:`codegen.lab.long_runs.symplecticity`). It is symmetric if a step with h and a step with -h
-return to the start. Both are tested in more digits than doubles have, so rounding errors do not decide.
+return to the start. Both properties are tested in more digits than doubles have, so rounding errors do not
+affect the result.
 """
 
 from __future__ import annotations
@@ -18,10 +19,11 @@ from codegen.lab.stability.extreme_steps import DIGITS, solved_step
 from codegen.lower import problem_for
 
 SYMPLECTIC = 1e-12
-"""The largest defect of a symplectic step. The difference quotients of the defect have an error of 1e-20."""
+"""A step counts as symplectic if its defect is below this number. The difference quotients from which the
+defect is computed have an error of about 1e-20."""
 
 SYMMETRIC = 1e-30
-"""The largest ``reversal`` of a symmetric step."""
+"""A step counts as symmetric if its ``reversal`` is below this number."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,8 @@ class Properties:
     """The measured properties of a method; None means that a property was not measured.
 
     ``reversal`` is the distance from the start after a step with h and a step with -h, divided by the change
-    of the state by a step. ``steady`` is False if the first quantity, ``quantity``, drifts or is lost.
+    of the state by a step. ``quantity`` is the first conserved quantity; ``steady`` is False if this quantity
+    drifts or is lost.
     """
 
     method: str

@@ -69,7 +69,7 @@ class Trajectory:
     """The record of a run: times, states and numbers of steps at the samples, the quantities, and the message
     of a failed step.
 
-    ``scales`` are the sizes of the quantities (:func:`scales`).
+    ``scales`` are the sizes of the quantities (:func:`scale`).
     """
 
     times: list[float]

@@ -108,8 +108,8 @@ class Advice(Measurement[Recommendations]):
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
 
     def verdict(self, result: Recommendations, subject: Subject) -> str:
-        """Return a sentence with the fastest methods for the largest and for the smallest error, without
-        requirements.
+        """Return a sentence with the fastest methods, without any requirement, for the largest error and for
+        the smallest error that a method reaches.
         """
         own = result.advice[0].best if result.advice else ()
         choices = [
@@ -166,8 +166,8 @@ def completed(
     """Return lines in which gaps are filled with methods that were measured for the page of the report. A gap
     is an error for which the search found no method.
 
-    Their times are interpolated between measured runs. Gaps remain for requirements that include long times,
-    because only the search makes long runs.
+    The times of these methods are interpolated between measured runs. Gaps remain for requirements that
+    include long times, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []

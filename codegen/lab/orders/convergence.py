@@ -69,9 +69,10 @@ class Convergence:
 
     @property
     def limit(self) -> float:
-        """The highest order that equal steps have across the kinks of the solution."""
+        """The highest order that equal steps can have if the solution has kinks; infinity if it has none."""
         # If k derivatives of the field are continuous at a kink, the local error of the step that contains
-        # the kink has order k + 2. The number of steps with kinks does not depend on h.
+        # the kink has order k + 2. The number of steps that contain a kink does not depend on h, so the error
+        # at the end has this order, too.
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
@@ -120,8 +121,8 @@ class Convergence:
         )
 
     def _short(self) -> str:
-        """Return a text with the order of very short steps and the reason why the order differs from the
-        observed order.
+        """Return a text that states the order measured with very short steps, and why the order observed at
+        the usual step sizes is different.
         """
         text = f"very short steps in 100 digits have order {self.refinement.short:.2f}"
         if not self.refinement.settled:

@@ -102,8 +102,9 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, over trees with directed edges.
 
-    A vertex represents H, differentiated with respect to q along xi for each branch of kind 0, and with
-    respect to mu along n for each branch of kind 1 (:mod:`orderconds.trees.directed`).
+    A vertex represents a derivative of H. For each branch, let (xi, n) be the result of :meth:`tree`. A
+    branch of kind 0 differentiates H with respect to q along xi, and a branch of kind 1 differentiates H with
+    respect to mu along n (:mod:`orderconds.trees.directed`).
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -132,7 +133,7 @@ class CanonicalFields:
 def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     """Return the elementary velocities and covectors of an autonomous polynomial Hamiltonian scene.
 
-    The group is represented by its own matrices, or for R^n by translations of affine space.
+    Group elements are represented by their matrices; for R^n these are the matrices of translations.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
     group = scene.group.require(MatrixRepresentation, where=scene.name)

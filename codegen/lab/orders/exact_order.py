@@ -122,9 +122,9 @@ def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | N
 def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     """Return the leading term of the local error of the step program that is emitted for a method on a scene.
 
-    Raises :class:`codegen.errors.SceneError` if the field is not rational in the coordinates (for example, if
-    it calls ``sqrt``), and :class:`codegen.errors.MethodError` if the coefficients are balls, because a ball
-    does not show if a number is zero.
+    Raises :class:`codegen.errors.SceneError` if the field is not rational in the coordinates, for example if
+    it calls ``sqrt``. Raises :class:`codegen.errors.MethodError` if the coefficients are balls, because a
+    ball does not show if a number is zero.
     """
     ring = method.ring
     third = ring.rational(1, 3)

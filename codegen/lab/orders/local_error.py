@@ -1,10 +1,10 @@
 """The exact local error of a step program: its Taylor coefficients in h, computed in two ways.
 
-The interpreter runs a program on a polynomial scene over Q[[h]] and returns the series of its step. Picard
-iteration returns the series of the exact flow. The difference of the two series starts at h^(p+1), where p is
-the order. In theory, its leading coefficient is a sum over the order conditions: the residual of each
-condition times an elementary differential of the scene. Comparing the leading coefficient with this sum tests
-the program against the order conditions.
+The interpreter runs a program on a polynomial scene over Q[[h]] and returns the series of the state after one
+step. Picard iteration returns the series of the exact flow. The difference of the two series starts at
+h^(p+1), where p is the order. In theory, the leading coefficient of the difference is a sum over the order
+conditions: the residual of each condition times an elementary differential of the scene. Comparing the
+leading coefficient with this sum tests the program against the order conditions.
 """
 
 from __future__ import annotations
@@ -129,7 +129,8 @@ def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
 
 
 def _trees(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the term of the B-series: the sum over rooted trees of residual/symmetry F(t) (HLW III.1)."""
+    """Return the term of the B-series: the sum over rooted trees t of residual/symmetry times F(t) (Hairer,
+    Lubich and Wanner, *Geometric Numerical Integration*, III.1)."""
     fields = FrozenFields(scene, method.ring)
     terms = [
         (x * method.ring.rational(1, levels.symmetry(t)), fields.forest(t))
@@ -139,14 +140,16 @@ def _trees(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _forests(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the Lie-Butcher series: a sum over ordered forests of (value - exact value) F(w)."""
+    """Return a term of the Lie-Butcher series: a sum over ordered forests w of d(w) F(w), where d(w) is the
+    coefficient of w in the numerical solution minus its exact coefficient."""
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
     return _sum(method.ring, terms, len(scene.symbols))
 
 
 def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the P-series: a sum over trees with directed edges of residual/symmetry (xi, n)(t)."""
+    """Return a term of the P-series: a sum over trees t with directed edges of residual/symmetry times the
+    pair (xi, n) of t."""
     fields = CanonicalFields(scene, method.ring)
     terms = [
         (x * method.ring.rational(1, directed.symmetry(t)), fields.tree(t))
@@ -156,8 +159,8 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _action(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the term of the action series: a sum over words. Each word is weighted by its coefficient in
-    the update minus its exact coefficient.
+    """Return the term of the action series: a sum over words (sequences of trees). Each word is weighted by
+    its coefficient in the update minus its exact coefficient.
     """
     ring = method.ring
     family = family_of(method)

@@ -30,8 +30,8 @@ DIGITS = (DOUBLE, 60)
 
 @dataclass(frozen=True)
 class ConvergenceTest:
-    """A convergence test of methods on a scene; its arguments are already checked. :meth:`results` runs the
-    methods.
+    """A convergence test of methods on a scene; its arguments are already checked. :meth:`result` runs one
+    method.
     """
 
     scene: Problem
@@ -127,9 +127,9 @@ def converge(
 ) -> Convergences:
     """Measure the order of methods on a scene and compare it with the order that the order conditions prove.
 
-    The arguments are those of ``orderconds converge``; a method is a name or an
-    :class:`orderconds.Tableau`. A method that cannot be emitted for the scene has a result with the reason.
-    Errors: SceneError, MethodError, UnknownName and TableauError for wrong arguments.
+    The arguments are those of ``orderconds converge``; a method is a name or an :class:`orderconds.Tableau`.
+    If a method cannot be emitted for the scene, its result contains the reason. Wrong arguments raise
+    SceneError, MethodError, UnknownName or TableauError.
     """
     if not methods:
         raise InputError("no method", where="converge", expected="at least one method, such as cf4")

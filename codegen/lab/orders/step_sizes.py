@@ -3,12 +3,12 @@ order.
 
 A slope is the logarithm of the error ratio of neighbouring runs, divided by the logarithm of the ratio of
 their step sizes. If the error of a run may be a rounding error, this run and all runs with shorter steps are
-excluded. For a smooth problem the error is C h^p (1 + O(h)), so a slope differs from p by O(h). Dividing h by
-r divides this difference by r, so the last change of the slope divided by r - 1 estimates the remaining
-difference. Slopes have *settled* when this estimate is at most :data:`SETTLED` for two consecutive slopes.
-The last slope must then be within :data:`TOLERANCE` of the stated order, below or above. The tolerance is
-larger than :data:`SETTLED`, but far smaller than the distance 1 to the next order, so a method whose order is
-higher than stated fails as well.
+excluded. For a smooth problem the error is C h^p (1 + O(h)), so a slope differs from p by O(h). If h is
+divided by r, this difference is also divided by r. Therefore the last change of the slope, divided by r - 1,
+estimates the difference that remains. Slopes have *settled* when this estimate is at most :data:`SETTLED` for
+two consecutive slopes. The last slope must then be within :data:`TOLERANCE` of the stated order, below or
+above. The tolerance is larger than :data:`SETTLED`, but far smaller than 1, the distance to the next order.
+Therefore a method whose order is higher than stated fails as well.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class Refinement:
 
     @property
     def settled(self) -> bool:
-        """True if the estimated error of the last two slopes is at most :data:`SETTLED`."""
+        """True if the estimated error of each of the last two slopes is at most :data:`SETTLED`."""
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]
         return len(last) == 3 and all(c <= SETTLED * (r - 1) for c, r in zip(changes, ratio, strict=True))
@@ -133,9 +133,9 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     """Double the number of steps, from :data:`FIRST` up to ``most``, and return the runs.
 
     The refinement ends when the slopes have settled or rounding dominates. With ``to_rounding`` it continues
-    after the slopes have settled. It also continues after a run that failed, because Newton's method may
-    converge to a wrong solution for a long step, fail for half of this step, and find the right solution for
-    shorter steps. If a method of high order reaches rounding before three slopes have settled, runs with
+    after the slopes have settled. A run that failed does not end the refinement. For example, Newton's method
+    may converge to a wrong solution for a long step, fail for half of this step, and find the right solution
+    for shorter steps. If a method of high order reaches rounding before three slopes have settled, runs with
     longer steps and intermediate runs are added.
     """
     runs: list[Run] = []

@@ -1,8 +1,8 @@
 """The strict protocol: the order of a method on demanding scenes, computed with 50 digits.
 
 The slopes are compared with a stated order: the claim of the tableau file for the family, or a given number.
-A method passes if its slopes settle within a quarter of that order on every scene of
-:mod:`codegen.lab.orders.strict_scenes`. A method whose order is higher than stated fails as well.
+A method passes if, on every scene of :mod:`codegen.lab.orders.strict_scenes`, its slopes settle at a number
+that differs from the stated order by at most 0.25. A method whose order is higher than stated fails as well.
 """
 
 from __future__ import annotations

@@ -87,7 +87,7 @@ def few_decades(axes: Axes) -> None:
 
 
 def log_ticks(axis: Axis, text: Callable[[float], str]) -> None:
-    """Write ``text`` of every power of ten beside an axis."""
+    """Label the powers of ten x on an axis with ``text(x)``."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
     axis.set_major_locator(LogLocator(base=10, numticks=9))
@@ -103,7 +103,7 @@ def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
 def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | None = None) -> None:
     """Put the legend above the axes, so that it does not overlap curves. Equal labels are listed once.
 
-    ``numbers`` are the numbers of the series by label; by default the entries are numbered.
+    ``numbers`` contains the number of the series for each label; by default the entries are numbered from 0.
     """
     entries: dict[str, object] = {}
     for axes in panels:

@@ -196,7 +196,8 @@ class _Plane:
 
     @classmethod
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
-        """Return the part of :data:`PLANE` that contains the stable regions to the left of zero."""
+        """Return a grid over the part of :data:`PLANE` that contains the stable regions, with a margin. The
+        grid covers all of :data:`PLANE` if a region reaches its upper edge."""
         whole = cls.between(*PLANE)
         points = [
             (x, y)
@@ -283,10 +284,11 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 
 
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
-    """Draw the slope of each order of :data:`SLOPES`, in the corner with fewer points.
+    """Draw a line with the slope of each order of :data:`SLOPES`, in a corner of the figure.
 
-    The two corners are the lower left and the upper right corner, because work-precision curves seldom reach
-    them. All lines begin at the upper left corner of a box and end at the lower or right side of the box.
+    The corner is the lower left or the upper right corner, whichever contains fewer points. Work-precision
+    curves seldom reach these corners. All lines begin at the upper left corner of a box and end at the lower
+    or right side of the box.
     """
     if not points:
         return

@@ -40,7 +40,7 @@ def peer(name: str) -> Peer:
 
 
 def source(template: str, scene: Problem) -> str:
-    """Return the C text of a peer on a scene.
+    """Return the C source code of a peer for a scene.
 
     Raises :class:`codegen.errors.SceneError` if there is no projection onto the manifold of the scene.
     """

@@ -150,12 +150,12 @@ class Canvas:
 
 
 def styles(figure: Figure) -> dict[str, Style]:
-    """Return the style of each run of a figure by its name. A method has the colour of all other figures."""
+    """Return the style of each run of a figure by its name. A method has the same colour in all figures."""
     runs = figure.runs
     chosen = Styles([run.method for run in runs])
     if len({run.method for run in runs}) == len(runs):
         return {run.name: chosen.of(run.method) for run in runs}
-    # Several runs use one method: their names decide.
+    # If several runs use the same method, the colours depend on the names of the runs.
     chosen = Styles([method_name(run.name) for run in runs])
     return {run.name: chosen.of(run.name) for run in runs}
 
@@ -165,7 +165,8 @@ REFERENCE_STYLE = Style("var(--ink)", "")
 
 
 def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
-    """Return the indices of at most ``most`` points at equal distances, moved by a part of a distance.
+    """Return the indices of at most ``most`` points at equal distances. The points are moved by the fraction
+    ``shift`` of this distance.
 
     >>> marks(9, 0.5, 3), marks(2)
     ([1, 4, 7], [0, 1])

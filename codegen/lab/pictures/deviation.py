@@ -1,4 +1,4 @@
-"""Draws the largest deviation of a quantity so far, or in windows of time."""
+"""Draws the largest deviation of a quantity up to each time, or in windows of time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LEAST = 1e-17
 """The smallest deviation on the logarithmic axis. Smaller deviations are drawn at this value."""
 
 GROWS = 1.02
-"""A running maximum has a point where it grows by this factor."""
+"""The curve of a running maximum has one point each time the maximum has grown by this factor."""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:

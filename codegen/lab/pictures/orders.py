@@ -20,8 +20,8 @@ from codegen.scene.figure import Orders, Run
 
 
 def draw(figure: Orders, source: Source) -> Drawn:
-    """Return the picture. The dashed line of an order begins below the finest error of the first run of this
-    slope.
+    """Return the picture. At the largest step size, the dashed line of an order shows half the error of the
+    run whose slope is closest to this order.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}

@@ -16,7 +16,7 @@ POINTS = 72.0
 
 @dataclass(frozen=True)
 class Drawn:
-    """A picture: the SVG element, a sentence that is added to the caption, and the numbers behind it.
+    """A picture: the SVG element, a sentence that is added to the caption, and the numbers that were found.
 
     A ``wide`` picture has the width of a page.
     """

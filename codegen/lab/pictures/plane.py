@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MARGIN = 0.06
-"""Distance of the curves from the frame, as a part of the width."""
+"""Distance of the curves from the frame, as a fraction of the width or height of all curves, whichever is
+larger."""
 
 
 def draw(figure: PlaneCurves, source: Source) -> Drawn:

@@ -17,7 +17,7 @@ from codegen.lab.pictures.source import Source, sweep_values
 from codegen.scene.figure import Run, Scan, Sweep
 
 DIGITS = 1e-8
-"""The best value is exact up to this part of the range of the sweep."""
+"""The tolerance of the best value, as a fraction of the range of the sweep."""
 
 
 def draw(figure: Scan, source: Source) -> Drawn:

@@ -79,7 +79,7 @@ class Source:
         return self._integrators[key]
 
     def path(self, run: Run) -> Path:
-        """Return the states that a figure shows of a run."""
+        """Return the states of a run that a figure shows."""
         if run not in self._paths:
             integrator = self.integrator(run)
             self.progress(f"{self.problem.name}, {run.name}: {run.steps} steps")
@@ -92,7 +92,8 @@ class Source:
         return self._paths[run]
 
     def end(self, run: Run, value: float | None = None) -> list[float]:
-        """Return the final state of a run; ``value`` is the value of the parameter that its sweep names.
+        """Return the final state of a run; ``value`` is the value of the parameter that the sweep of the run
+        varies.
 
         Raises :class:`codegen.integrator.StepFailed`.
         """
@@ -108,7 +109,7 @@ class Source:
         return state
 
     def start(self, run: Run, quantities: Sequence[Quantity]) -> numpy.ndarray:
-        """Return quantities at the initial state of the scene of a run."""
+        """Return the values of quantities at the initial state of a run."""
         integrator = self.integrator(run)
         state, time = numpy.array(integrator.initial)[:, None], numpy.array([integrator.span[0]])
         column: numpy.ndarray = formulas(self.problem_of(run), quantities)(state, time)[:, 0]
@@ -138,7 +139,8 @@ class Source:
 
 
 def formulas(problem: Problem, quantities: Sequence[Quantity]) -> ArrayFunction:
-    """Return quantities of a scene as a function of arrays of states and times. Each row is a coordinate.
+    """Return quantities of a scene as a function of arrays of states and times. Each row of the array of
+    states contains the values of one coordinate.
 
     Raises :class:`codegen.errors.SceneError` for a formula with an unknown symbol.
     """

@@ -49,7 +49,7 @@ def draw(figure: SpaceCurves, source: Source) -> Drawn:
 def _box(
     axes: Axes, frame: numpy.ndarray, low: numpy.ndarray, high: numpy.ndarray, names: tuple[str, str, str]
 ) -> None:
-    """Draw the edges of the box, and the range of each coordinate at its lowest edge."""
+    """Draw the edges of the box, and write the range of each coordinate beside one edge."""
     axes.grid(False)
     axes.set_axis_off()
     axes.set_aspect("equal")

@@ -69,7 +69,7 @@ def _draw_rows(
 def _window(
     figure: TimeSeries, times: numpy.ndarray, row: numpy.ndarray
 ) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the part of a row that the figure shows."""
+    """Return the times and the values that the figure shows."""
     first, last = figure.window or (-numpy.inf, numpy.inf)
     shown = (times >= first) & (times <= last)
     return times[shown], row[shown]

@@ -10,8 +10,8 @@ exact result shows the number of digits that the input *determines*.
   rotation by 1e20 radians has no correct digit. The emitted code should return a status for this step.
 - A result is *wrong* if it is finite and rounding does not explain its error.
 
-The number of digits is relative to the size of a block of the state before or after the step; the larger size
-is used. Numbers below the smallest normal double count as zero.
+The number of correct digits refers to the size of a block of the state, before or after the step; the larger
+of these two sizes is used. Numbers below the smallest normal double count as zero.
 
 The equations of a long implicit step have several solutions. If fixed-point iteration converges in the
 interpreter, the exact result is computed from its solution. Otherwise Newton's method in 60 digits starts
@@ -53,8 +53,8 @@ TINY = 2.0**-1022
 """The smallest normal double; results below TINY count as zero."""
 
 ROUNDINGS = 256.0
-"""The error of a step is divided by the change of the result when every input and every operation is rounded
-once. Rounding explains the error if this ratio is at most ROUNDINGS.
+"""Let c be the change of the result of a step if every input and every operation is rounded once. Rounding
+explains the error of the step if the error is at most ROUNDINGS times c.
 """
 
 LEAST = 3
@@ -121,8 +121,9 @@ class Answer:
 def cases(compiled: Compiled) -> Iterator[Case]:
     """Yield the extreme cases.
 
-    Each case is a step from the initial state of the scene with the step size span/100, in which either the
-    state or the step size is replaced by extreme numbers.
+    The first case is a step from the initial state of the scene with the step size span/100. In every other
+    case, the step size or a part of the state has an unusual value, for example zero, a very large number or
+    NaN.
     """
     scene = compiled.scene
     state = tuple(float(x) for x in scene.initial(FloatDomain(0.0)))
@@ -160,8 +161,8 @@ def _firsts(compiled: Compiled) -> list[int]:
 
 
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
-    """Return the state in which every vector is multiplied by ``scale``; None if there are no vectors or if a
-    number overflows.
+    """Return the state in which momenta, points that are rotated, and elements of abelian groups are
+    multiplied by ``scale``. The result is None if the state has no such part or if a number overflows.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:
@@ -264,7 +265,7 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
 def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
     """Return the solution of each implicit block of one emitted step, in the order of the blocks.
 
-    None if the step fails or has no implicit block.
+    The result is None if the step fails or has no implicit block.
     """
     widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
     if not widths:
@@ -357,7 +358,7 @@ def precise_step(
 
 @cache
 def mpmath_context(digits: int) -> mpmath.ctx_mp.MPContext:
-    """Return a new mpmath context with this number of digits."""
+    """Return an mpmath context with this number of digits."""
     # mpmath's global context is not changed, because its precision belongs to the caller.
     import mpmath
 

@@ -1,10 +1,10 @@
 """The largest usable step of a method on a scene, by bisection, and the reason why longer steps are not
 usable.
 
-A number of equal steps over the span is usable if no step fails, the final error is below a tenth of the
-state's size, and a conserved energy has changed by at most a tenth of its size. The reported reason is the
-failure of the run whose number of steps is smaller by one: a solver failed, a number was not finite, the
-energy changed, or the error was too large.
+A number of equal steps over the span is usable if no step fails and the final error is below a tenth of the
+state's size. If the scene conserves an energy, the energy must also change by at most a tenth of its size.
+The reported reason is the failure of the run whose number of steps is smaller by one: a solver failed, a
+number was not finite, the energy changed, or the error was too large.
 """
 
 from __future__ import annotations

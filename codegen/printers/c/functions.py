@@ -40,8 +40,8 @@ from codegen.run.writes import written
 from codegen.snippets.graph import LIBRARY
 
 MANY = 20
-"""Consecutive short statements are printed with several on a line if there are more than this number of
-them."""
+"""If more than this number of short statements follow one another, several of them are printed on each
+line."""
 
 ONE_TEST = "one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise"
 
@@ -60,14 +60,17 @@ class FunctionPrinter:
         self.batch = BATCH in unit.parts or any(f.near for f in unit.functions)
 
     def called(self, name: str, near: bool = False) -> str:
-        """Return the name of a function in C; ``near`` selects the form without branches."""
+        """Return the name of a function in C; ``near`` selects the variant without branches
+        (:mod:`codegen.run.batch`)."""
         name = self.forms(name, near)
         return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def forms(self, name: str, near: bool = False) -> str:
-        """Return the name of the form of a function that a caller uses."""
-        # In a module with loops over lanes or sites, scalar functions use the polynomials of these loops
-        # where they are valid, so that both have the same roundings.
+        """Return the name of the variant of a function that a caller uses; ``near`` is true for a caller
+        without branches."""
+        # In a module with loops over lanes or sites, the loops evaluate sines and cosines by polynomials.
+        # Scalar functions use the same polynomials where these are valid, so that both have the same
+        # roundings.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -93,8 +96,8 @@ class FunctionPrinter:
             return f"{self.prefix}input input, void *context"
         if parameter.kind is Kind.EVENTS:
             return f"{self.prefix}event event, void *data"
-        # ``static n`` tells the compiler that n entries exist. C++, which must read headers, lacks this
-        # syntax.
+        # ``static n`` tells the compiler that n entries exist. C++ programs may include the header, and C++
+        # lacks this syntax.
         promised = "" if header else "static "
         if parameter.kind is Kind.RECORD:
             of = self.record_type(parameter.record)
@@ -300,7 +303,8 @@ class _Body:
         yield "}"
 
     def kind(self, statement: Statement, target: Term) -> str:
-        """Return the type of a target that the statement declares, otherwise an empty text."""
+        """Return the type of the target if the statement declares the target, otherwise an empty text. The
+        type is ``const`` for a variable that is assigned once."""
         name = self.identifiers.of(target) if target.op == "name" else ""
         # Variables that are assigned once are ``const``, so that readers and the compiler know that the value
         # does not change. Statements are identified by id, because equal statements at different places
@@ -379,8 +383,8 @@ class _Body:
         text = self.terms.line(term)
         if term.kind is not Kind.RECORD or term.op == "none" or term.shape:
             return text
-        # A record that is a parameter is already a pointer. Of a local record, or an entry of an array of
-        # records, the address is taken.
+        # A record that is a parameter is already a pointer. The address operator is needed for a local record
+        # and for an entry of an array of records.
         return text if term.text in self.pointers and term.op == "name" else f"&{text}"
 
     def call(self, statement: Call) -> Iterator[str]:

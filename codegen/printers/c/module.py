@@ -32,16 +32,18 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import LIBRARY, needed, snippets
 from codegen.templates import environment
 
-# -ffp-contract=off forbids fused multiply-adds. They round once, a product and a sum round twice, so results
-# would depend on the machine.
+# -ffp-contract=off forbids fused multiply-adds. A fused multiply-add rounds once, but a product and a sum
+# round twice. With both permitted, results would depend on the machine.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno")
-"""Further flags for modules with a batch. The results depend on none of these flags."""
+"""Further flags for modules with a batch and for modules of lattices. The results depend on none of these
+flags."""
 
 FRAMES = 640
-"""The number of bytes of the stack for return addresses, saved registers and the frames of helpers."""
+"""The number of bytes of stack that the bound reserves for return addresses, saved registers and the frames
+of helpers."""
 
 EACH, EACH_SOLVING = 8, 10
 """The bytes of stack that the bound reserves for each floating-point number that a step stores: first for
@@ -70,8 +72,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # Only loops over equations call a Stumpff function often. Elsewhere, inlining all branches of the
-        # Stumpff functions would make the code longer without making it faster.
+        # Only loops that solve equations call a Stumpff function often. Elsewhere, inlining all branches of
+        # the Stumpff functions would make the code longer without making it faster.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
@@ -173,7 +175,8 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the functions that a unit with a batch calls, each in the form that its caller uses."""
+    """Return the functions that a unit with loops over lanes or sites calls, each in the variant that the
+    caller uses."""
     names: set[str] = set()
     for function in unit.functions:
         form = near if function.near else complete
@@ -184,7 +187,8 @@ def _forms(unit: Unit) -> set[str]:
 
 
 def inverted(kernel: Kernel) -> int:
-    """Return the size of the inverted matrices, 0 if they have several sizes or are large."""
+    """Return the size of the inverted matrices; 0 if there are none, if they have several sizes, or if they
+    are large."""
     sizes = {len(x.unknowns) for x in kernel.loops if x.newton is not None and not x.newton.inverted}
     # If all matrices have one small size, ``invert`` is written for this size, with unrolled rows.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
@@ -193,14 +197,14 @@ def inverted(kernel: Kernel) -> int:
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
 
-    At -O0 a compiler uses about the bound without the margin, because each name has its own slot. Tests
-    compare the bound with ``-fstack-usage`` and with a painted stack. :class:`SceneError` is raised if the
-    bound exceeds :data:`LARGEST_STACK`.
+    At -O0 a call uses about as much stack as the bound without the margin, because each name has its own
+    slot. Tests compare the bound with ``-fstack-usage`` and with a painted stack. :class:`SceneError` is
+    raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The function ``invert`` has local variables (scalars, a row, a permutation), so a step that inverts a
-    # matrix gets half a FRAMES more. If the kernel is inlined in the run, one call and its stack frame are
-    # missing, so the bound is half a FRAMES smaller.
+    # The function ``invert`` has local variables (scalars, a row, a permutation), so the bound of a step that
+    # inverts a matrix is larger by FRAMES / 2. If the kernel is inlined in the run, there is one call and one
+    # stack frame less, so the bound is smaller by FRAMES / 2.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
@@ -238,7 +242,8 @@ def prototypes(interface: Interface) -> str:
     prefix, blocks = interface.prefix, len(interface.blocks)
     real = interface.format.c_type
     time = f"{real} t, " if interface.time else ""
-    # Names have no meaning in a prototype, and names of a scene might be keywords of C.
+    # Parameters are called p0, p1, ..., because names have no effect in a prototype, and names of a scene
+    # might be keywords of C.
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
     matrices = "size_t matrices; " if interface.newton else ""
@@ -274,8 +279,8 @@ def prototypes(interface: Interface) -> str:
 
 
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
-    """Return the declaration of the run to a given end time; '' without this run. ``passed`` are the
-    parameters and inputs."""
+    """Return the declaration of the run to a given end time; '' if the module has no such run. ``passed`` is
+    the declaration of parameters and inputs."""
     if not interface.integrated:
         return ""
     prefix, real = interface.prefix, interface.format.c_type

@@ -36,7 +36,8 @@ def literal(precision: Precision, x: float) -> str:
 def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = str) -> Style:
     """Return the constants and function names of C: ``0.5f``, ``sqrtf``, helpers with the module's prefix.
 
-    ``forms`` maps the name of a function to the name of the form that a module uses.
+    ``forms`` maps the name of a function to the name of the variant that a module uses, for example a variant
+    without branches.
     """
 
     def called(name: str) -> str:
@@ -101,8 +102,8 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # The precedence of a sum is assumed for every expression of the kernel, so it gets
-                # parentheses wherever a sum would need them.
+                # Every expression of the kernel is treated like a sum: it gets parentheses wherever a sum
+                # would need them.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))

@@ -42,8 +42,8 @@ RESERVED = (
 )
 """Words that no variable may have as a name, in addition to the names of the run representation.
 
-These are the keywords of C; the keywords of C++, because C++ programs may include the emitted header; the
-macros of the headers that the module or its caller is likely to include, in any dialect of C; and the
-functions of the mathematical library. The names of helpers are not in this set: they start with the prefix of
-their module, so they cannot be equal to a variable.
+These are the keywords of C and the functions of the mathematical library. The keywords of C++ are reserved,
+because C++ programs may include the emitted header. Also reserved are the macros, in any dialect of C, of the
+headers that the module or its caller is likely to include. The names of helpers are not in this set: they
+start with the prefix of their module, so they cannot be equal to a variable.
 """

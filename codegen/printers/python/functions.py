@@ -1,8 +1,8 @@
 """Functions of the run representation in Python: lists are changed in place, and statuses are returned.
 
-A single statement reads consecutive entries of a list into names, or writes names into consecutive entries.
-Python raises an arithmetic error where C computes an infinity or a NaN. The guard of a function converts the
-error to a status or to NaNs.
+A single statement reads several consecutive entries of a list into names, or writes values to several
+consecutive entries. Python raises an arithmetic error where C computes an infinity or a NaN. The guard of a
+function converts the error to a status or to NaNs.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 
 TOGETHER = 3
-"""The least number of consecutive entries that are read or written by one statement."""
+"""Consecutive entries of a list are read or written by one statement if there are at least this many."""
 
 
 class FunctionPrinter:
@@ -97,7 +97,8 @@ class FunctionPrinter:
         return f"[{inner}] * {shape[0]}"
 
     def record(self, record: Record) -> list[str]:
-        """Return the lines of a class; its fields are zero initially and after ``clear``."""
+        """Return the lines of a record's class. All fields of an object are zero initially and after
+        ``clear``."""
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
@@ -254,7 +255,8 @@ class _Body:
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
-        # A loop of the run representation has no ``break``, but its Python form may have one.
+        # The run representation has no ``break``. Here it ends the Python text of a loop whose test is at its
+        # end.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:

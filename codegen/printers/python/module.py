@@ -26,7 +26,8 @@ from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
 
 ROOM = 1024
-"""The number of events of one call; a run with more events ends early and can be continued."""
+"""The largest number of events that one call of a run stores. A run with more events ends early and can be
+continued."""
 
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
 """The default options of an adaptive run."""

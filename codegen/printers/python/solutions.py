@@ -13,7 +13,7 @@ class LoadedModule(Protocol):
     module: ModuleType
 
     def run(self, state: list[float], h: float, steps: int, t: float) -> object:
-        """Make steps; ArithmeticError if a step fails."""
+        """Make steps; raise ArithmeticError if a step fails."""
 
 
 def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:

@@ -1,7 +1,7 @@
 """Terms in Python: names, literals, entries of lists, attributes, calls of the standard library.
 
-In single precision constants are named float32 objects of NumPy, and each object is created once. They are
-needed because the product of a float32 and a Python float may be a double.
+In single precision constants are named float32 objects of NumPy, and each object is created once. Such
+objects are needed, because the product of a float32 and a Python float may be a double.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ _PUBLIC = """
 """
 
 PUBLIC = frozenset(_PUBLIC.split())
-"""Local names of the public functions, which no parameter may have."""
+"""Local names of the public functions. The identifiers of run-time parameters must differ from them."""
 
 _INTEGRATION = """
     EVENT BAD_TIMES LEAST_STEP BAD_EVENT Arrival integrate times written event stops room event_times
@@ -32,4 +32,5 @@ _INTEGRATION = """
 """
 
 INTEGRATION = frozenset(_INTEGRATION.split())
-"""Names of a run to a given end time, and its local names; reserved in modules with this run only."""
+"""Names that a run to a given end time defines, and the local names of this run. They are reserved only in
+modules that contain such a run."""
