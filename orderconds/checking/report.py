@@ -83,7 +83,7 @@ class RegisterForm(Struct, frozen=True):
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of the form with two registers."""
         record: dict[str, object] = {"holds": self.holds, "space": self.space}
-        if self.holds is False:
+        if self.reason:
             return {**record, "reason": self.reason}
         return {**record, "A": list(self.A), "B": list(self.B)}
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Sequence
+from fractions import Fraction
 
 from orderconds.errors import TableauError
 from orderconds.exchange.claim_text import claims_from, json_table
@@ -67,7 +68,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
     width = len(data["b"]) if "b" in data else 0
     for key in MATRICES + ROWS:
         if key in data:
-            entries[key] = _filled(data[key], width) if key in MATRICES else [str(x) for x in data[key]]
+            entries[key] = _filled(data[key], width) if key in MATRICES else [_exact(x) for x in data[key]]
     if embedded := data.get("embedded"):
         entries["embedded_b"] = _filled([embedded["b"]], width)[0]
         entries["embedded_order"] = str(embedded["order"])
@@ -89,7 +90,20 @@ def data_without_names(tableau: Tableau) -> Data:
 
 
 def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
-    return [[*map(str, row), *["0"] * (width - len(row))] for row in rows]
+    return [[*map(_exact, row), *["0"] * (width - len(row))] for row in rows]
+
+
+def _exact(entry: str | int) -> str:
+    """Return the text of an entry. An exact decimal with many digits becomes a fraction, because readers take
+    such a decimal for a rounded number.
+
+    >>> _exact("0.123456789012"), _exact("0.5"), _exact("0.123456789012~")
+    ('30864197253/250000000000', '0.5', '0.123456789012~')
+    """
+    text = str(entry)
+    if re.fullmatch(r"-?\d*\.\d+", text) and len(text.lstrip("-0.").replace(".", "")) >= ROUNDED:
+        return str(Fraction(text))
+    return text
 
 
 def _products(data: Data) -> Arrays:

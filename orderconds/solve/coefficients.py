@@ -16,7 +16,14 @@ Nodes = Mapping[str, Sequence[str]]
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the coefficients after elimination of all constraints. A constraint ``--fix`` may name nodes."""
+    """Return the coefficients after elimination of all constraints. A constraint ``--fix`` may name nodes.
+
+    >>> from orderconds.solve.linear import Constraint, equality
+    >>> from orderconds.solve.spec import Spec
+    >>> elimination = eliminated(["b1", "b2"], Spec(2, fix=("b1=1/4",)), [equality("b1 + b2 = 1")])
+    >>> Cells(elimination).written("b2")
+    '3/4'
+    """
     elimination = Elimination(tuple(names))
     fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
     for constraint in fixed:
@@ -63,6 +70,11 @@ class Cells:
 def row_text(cells: Cells, names: Sequence[str], full: bool = False) -> str:
     """Return the text of a row of coefficients. Zeros at the end of the row are left out, unless ``full`` is
     true.
+
+    >>> from orderconds.solve.linear import equality
+    >>> cells = Cells(eliminated(["a", "b"], Spec(1), [equality("a = 1/2"), equality("b = 0")]))
+    >>> row_text(cells, ["a", "b"]), row_text(cells, ["a", "b"], full=True)
+    ('["1/2"]', '["1/2", "0"]')
     """
     texts = [cells.written(name) for name in names]
     while not full and texts and texts[-1] == "0":

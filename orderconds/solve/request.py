@@ -112,8 +112,7 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    # Only orders below p are checked: a symmetric method of even order p needs no conditions of order p.
-    refuse_too_many_trees(families.get(family), order - 1)
+    refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need only these conditions.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,

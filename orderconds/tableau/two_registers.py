@@ -59,9 +59,9 @@ class TwoRegisters:
 
 @dataclass(frozen=True)
 class Rewriting:
-    """The result of a recognition: ``holds`` is None if balls are too wide to decide. If ``holds`` is False,
-    ``reason`` says why the method is not a 2N scheme. Otherwise ``reason`` is empty and ``scheme`` is the 2N
-    scheme."""
+    """The result of a recognition: ``holds`` is None if balls are too wide to decide. ``scheme`` is the 2N
+    scheme. It is None if the method is not a 2N scheme, and if a rounded denominator may be zero; in these
+    cases ``reason`` says why."""
 
     holds: Verdict
     scheme: TwoRegisters | None = None
@@ -76,7 +76,7 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
     >>> print(two_registers(kutta3.method, kutta3.ring).reason)
-    stage 2: the increment is not B_2 K_2: the coefficient of k_1 is -3/2; expected -3/10
+    stage 3: the increment is not B_3 K_3: the coefficient of k_1 is 7/6; expected 1
     >>> [str(x) for x in two_registers(heun.method, heun.ring).scheme.A]
     ['0', '-1']
     """
@@ -91,19 +91,25 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     A: list[Element] = [ring.zero]
     for i in range(1, method.s):
         quotient = _quotient(rows, i, ring)
-        if isinstance(quotient, str):
-            return Rewriting(False, reason=quotient)
+        if isinstance(quotient, Rewriting):
+            return quotient
         A.append(quotient)
     scheme = TwoRegisters(tuple(A), B)
     return _compared(scheme, rows, ring)
 
 
-def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | str:
-    """Return A_i (i counts from 0), or the reason why no A_i exists: a zero denominator."""
+def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
+    """Return A_i (i counts from 0). The result is a :class:`Rewriting` if no A_i exists because a denominator
+    is zero, and if a rounded denominator may be zero."""
     above = ""
     for m in range(i, len(rows)):
         denominator = rows[m][i]
-        if ring.is_zero(denominator) is not True:
+        zero = ring.is_zero(denominator)
+        if zero is None:
+            return Rewriting(
+                None, reason=f"the coefficient of k_{i + 1} in the increment of stage {m + 1} may be zero"
+            )
+        if not zero:
             return rows[m][i - 1] / denominator
         if ring.is_zero(rows[m][i - 1]) is False and not above:
             above = (
@@ -111,7 +117,7 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | str:
                 f"the increment of stage {m + 1}, which are {ring.text(rows[m][i - 1])} and 0"
             )
     # No later stage contains F_{i-1}, so that any A_i would do.
-    return above or ring.zero
+    return Rewriting(False, reason=above) if above else ring.zero
 
 
 def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:

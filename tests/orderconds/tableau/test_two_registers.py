@@ -154,3 +154,18 @@ def test_a_false_claim_of_the_property_fails() -> None:
     text = 'name = "m"\nfamily = "rk"\nA = [[], ["1/2"]]\nb = ["0", "1"]\n[claims]\nrk = 2\nlow_storage = '
     assert check(Tableau.loads(text + "true")).verdict == "holds"
     assert check(Tableau.loads(text + "false")).verdict == "fails"
+
+
+def test_a_denominator_that_may_be_zero_leaves_the_form_undecided() -> None:
+    text = 'name = "m"\nfamily = "rk"\nA = [[], ["1/2"], ["1/2", "0.~"]]\nb = ["1/4", "1/4", "1/2"]'
+    tableau = Tableau.loads(text)
+    found = low_storage(tableau)
+    assert found is not None
+    assert found.holds is None
+    assert found.scheme is None
+    assert found.reason == "the coefficient of k_2 in the increment of stage 2 may be zero"
+    assert check(tableau).low_storage.as_json() == {
+        "holds": None,
+        "space": "vector space",
+        "reason": found.reason,
+    }
