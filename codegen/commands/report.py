@@ -58,15 +58,16 @@ def command(
     output: str,
     as_json: bool,
 ) -> int:
-    """Measure SCENEs (names of the gallery or Python files; dipole and free_rigid_body by default).
+    """Measure SCENEs (names of scenes in the gallery, or paths of Python files). The default is dipole and
+    free_rigid_body.
 
     Writes DIR/SCENE.html for each scene, and DIR/index.html with the fastest methods for every scene. The
     measurements take one to two minutes for a Hamiltonian scene, about half a minute for a field scene.
     With more than eight scenes, searches are shorter, and the growth of rounding errors is not measured. An
     interrupted report continues when the command is repeated. If a method fails, its row contains the reason.
     A browser shows the pages without a network connection. The exit status is 1 if an observed order differs
-    from the computed order, if the result of an extreme step is wrong, or if a method fails; the pages are
-    written in any case.
+    from the computed order, if a step with extremely large or small numbers gives a wrong result, or if a
+    method fails; the pages are written in any case.
 
     \b
     Examples:

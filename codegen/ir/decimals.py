@@ -33,7 +33,7 @@ def decimal(value: sympy.Float) -> Fraction:
 
 
 def exact(value: object) -> Fraction | None:
-    """Return a rational number that a scene contains as an exact fraction; None for anything else.
+    """Convert a rational number from a scene to an exact fraction. Return None if it is no rational number.
 
     Python integers, fractions, floats, numbers of NumPy, rational numbers of sympy and texts such as "1/10"
     are accepted.

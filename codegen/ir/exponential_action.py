@@ -33,8 +33,8 @@ then has one sum for each row, without a loop."""
 
 @cache
 def degrees(bits: int) -> tuple[int, ...]:
-    """Return the degrees of the Taylor polynomials. The integers m!/j! of the largest degree m are exact with
-    ``bits`` binary digits.
+    """Return the degrees of the Taylor polynomials. The largest degree is the largest m for which all
+    integers m!/j!, 0 <= j <= m, are floating-point numbers with ``bits`` binary digits.
 
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))

@@ -203,8 +203,11 @@ class _Exponential:
     def _about(self) -> str:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
-            what += f" + E e, where e^2 = 0{' for each of several e' if self.level > 1 else ''}"
-            what += "; the array a contains the matrices a and E"
+            single = " + E e, where e^2 = 0; the array a contains the matrices a and E"
+            several = (
+                f" + E, where E contains {self.level} units e with e^2 = 0; the array a contains a, then the"
+            )
+            what += single if self.level == 1 else f"{several} coefficients of E"
         return (
             f"result = {what}: Taylor polynomial, squared. All results are NaN if the bound of the relative "
             f"error exceeds 2^-{LEAST_DIGITS}."

@@ -198,11 +198,13 @@ class _CanonicalSystem:
         formulas: dict[str, tuple[Expr, ...]] = {}
         for key, (q, mu) in flows.items():
             if key not in self.summands:
-                known = ", ".join(self.summands) or "no flows, because the scene has no parts"
+                known = ", ".join(self.summands)
                 raise SceneError(
                     f"a flow of {key!r}",
                     where=self.reader.name,
-                    expected=f"a flow for one of the parts {known}",
+                    expected=f"a flow for one of the parts {known}"
+                    if known
+                    else "parts, whose flows are given",
                 )
             element = self.reader.column(q, len(self.qs), f"q of the flow of {key}", more=(TAU,))
             momentum = self.reader.column(mu, len(self.mus), f"mu of the flow of {key}", more=(TAU,))

@@ -94,7 +94,7 @@ def inverse(matrix: arb_mat) -> arb_mat:
     try:
         inverted = matrix.inv()
     except ZeroDivisionError:
-        raise NotProved("the equations are dependent at the decimals: their Jacobian is singular") from None
+        raise NotProved("the Jacobian of the equations is singular at the given decimals") from None
     return inverted.mid()
 
 
