@@ -90,7 +90,7 @@ class Semidirect(
         return tuple(chain.from_iterable(operation(*row) for row in rows))
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product as a group with a capability; None if the linear factor or the representation
+        """Return this product if it has a capability; None if the linear factor or the representation
         lacks the formulas for this capability."""
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):

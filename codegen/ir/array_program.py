@@ -70,7 +70,7 @@ class Diagonal:
 
 @dataclass(frozen=True)
 class ConstantMatrix:
-    """A matrix that does not change: ``diagonals`` of a banded matrix, or all entries of a full matrix.
+    """A matrix that does not change. It is stored by its ``diagonals`` if it is banded, else by all entries.
 
     The numbers of a full matrix are given row by row.
     """

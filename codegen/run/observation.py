@@ -138,7 +138,7 @@ class Observation:
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
         events: tuple[Statement, ...] = ()
         if self.events:
-            # The arrays are cleared, because compilers cannot prove that all entries are assigned.
+            # The arrays are cleared, because compilers that cannot prove that all entries are assigned warn.
             arrays = tuple(Array(x, zero=True) for x in (*self.memory, self.measured))
             measured = (*self.measure(now, state), Assign(self.values, self.measured), *self.signed())
             events = (Assign(self.event_count[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))

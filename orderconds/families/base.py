@@ -342,8 +342,8 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a family with fewer conditions, if these imply the conditions of this family for this
-        method, else None."""
+        """Return a family with fewer conditions, which imply the conditions of this family for the given
+        method. Return None if there is no such family."""
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:

@@ -284,7 +284,7 @@ def _numbers(entry: Format, where: str) -> dict[str, Definition]:
 
 
 def _rational(x: str | int, where: str) -> Fraction:
-    """Parse a rational number, which is a coefficient of a minimal polynomial or a printed decimal."""
+    """Parse a rational number: either a coefficient of a minimal polynomial, or a printed decimal."""
     try:
         return _fraction(_parsed(x, where))
     except (TypeError, ZeroDivisionError):

@@ -149,8 +149,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check that terms are brackets of nodes and of earlier elements; products are allowed only with
-        cay."""
+        """Check that terms are brackets of nodes and of earlier elements. Terms may be products only if the
+        map is cay."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []

@@ -38,8 +38,8 @@ def _entries(table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _headed(key: str, value: object) -> bool:
-    """Return True if a value is written below a heading ``[key]``. Every table has a heading, except a short
-    embedded row."""
+    """Return True if a value is written below a heading ``[key]``. Every table has a heading, except
+    the table ``embedded`` if it is short."""
     if _blocks(value, key):
         return True
     return isinstance(value, Mapping) and not (key == "embedded" and len(_line(key, value)) <= WIDTH)

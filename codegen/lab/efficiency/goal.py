@@ -1,4 +1,4 @@
-"""The goals of a search: an error at the end of the span, and needs that the method must satisfy."""
+"""The goals of a search: a bound for the error at the end of the span, and requirements on the method."""
 
 from __future__ import annotations
 

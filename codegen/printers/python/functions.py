@@ -255,8 +255,8 @@ class _Body:
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
-        # The run representation has no ``break``. This ``break`` is the last line of the Python text of a loop
-        # that is tested at its end.
+        # The run representation has no ``break``. This ``break`` is the last line of a Python loop that is
+        # tested at its end.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:
