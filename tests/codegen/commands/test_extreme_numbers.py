@@ -71,7 +71,7 @@ STIFF = (
         (HEAVY[0], "ambient:dop853"),
         (HEAVY[1], "ambient:dop853"),
         (HEAVY[1], "rkmk(5):fehlberg8"),
-        (STIFF, "ambient:lobatto3a4"),
+        pytest.param(STIFF, "ambient:lobatto3a4", marks=pytest.mark.slow),
         pytest.param((*STIFF, *HEAVY[0]), "ambient:lobatto3a4", marks=pytest.mark.slow),
     ],
 )

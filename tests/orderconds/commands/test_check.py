@@ -175,6 +175,7 @@ def test_output_does_not_depend_on_the_hash_seed(rk4: Path) -> None:
     assert output("1") == output("4242")
 
 
+@pytest.mark.slow  # `make gate` checks the library in every run of continuous integration
 def test_every_tableau_of_the_library_meets_its_claims() -> None:
     result = run(str(ROOT / "tableaux"))
     assert result.exit_code == 0, result.stdout + result.stderr

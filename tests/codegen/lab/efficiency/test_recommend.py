@@ -94,6 +94,7 @@ def test_the_places_are_sorted_by_time(found: Recommendation) -> None:
     assert times == sorted(times)
 
 
+@pytest.mark.slow
 def test_the_stack_of_every_place_is_within_the_limit() -> None:
     free = recommend(Request(SCENE, 1e-6, tableaux=FEW))
     stacks = sorted(place.entry.features.stack for place in free.places)
@@ -104,6 +105,7 @@ def test_the_stack_of_every_place_is_within_the_limit() -> None:
     assert max(place.entry.features.stack for place in bound.places) <= limit
 
 
+@pytest.mark.slow
 def test_a_method_that_loses_a_conserved_quantity_is_not_recommended_for_long_times(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -125,6 +127,7 @@ def test_a_method_that_loses_a_conserved_quantity_is_not_recommended_for_long_ti
     assert not nothing.places
 
 
+@pytest.mark.slow
 def test_shorter_steps_are_tried_if_a_long_run_loses_a_conserved_quantity(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
