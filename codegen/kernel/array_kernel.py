@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cache
 
@@ -62,13 +63,26 @@ def array_method(scene: Problem, method: Method) -> ArrayMethod:
 
     MethodError is raised for a method that has no kernel (:func:`array_kernel`).
     """
-    model = _model(not scene.autonomous)
+    return compiled(scene, method, _model(not scene.autonomous), array_kernel, refused)
+
+
+def compiled(
+    scene: Problem,
+    method: Method,
+    model: Problem,
+    kernel: Callable[[Program, Problem], Kernel],
+    refusal: Callable[[Problem, str, str], MethodError],
+) -> ArrayMethod:
+    """Return a method whose passes are verified on a small scene ``model`` in place of ``scene``.
+
+    ``kernel`` translates the program for ``scene``. The error of ``refusal`` is raised for implicit stages.
+    """
     lowered = lower(model, method)
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
         expected = "an explicit method for a scene with large matrices"
-        raise refused(scene, f"the implicit stages of {method.label}", expected)
+        raise refusal(scene, f"the implicit stages of {method.label}", expected)
     program, trace = optimise(lowered, model)
-    return ArrayMethod(lowered, program, trace, array_kernel(program, scene))
+    return ArrayMethod(lowered, program, trace, kernel(program, scene))
 
 
 @cache

@@ -25,10 +25,8 @@ from codegen.ir.operations import ActExp, Advance, Bracket, InverseDexp, Linear,
 from codegen.ir.program import Assign, Program
 from codegen.ir.scene_operations import Field
 from codegen.ir.values import Coefficient, Kind, Var
-from codegen.kernel.array_kernel import STATE, ArrayMethod
-from codegen.lower import lower
+from codegen.kernel.array_kernel import STATE, ArrayMethod, compiled
 from codegen.method import Method
-from codegen.passes import blocks, optimise
 from codegen.scene.linear_field import LinearField
 from codegen.scene.linear_scene import LinearScene
 from codegen.scene.problem import TIME, Problem
@@ -53,13 +51,7 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
     if method.adaptive:
         expected = "a method with constant steps"
         raise refused(scene, "step control for a large linear problem", expected)
-    model = _model(not scene.autonomous)
-    lowered = lower(model, method)
-    if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
-        expected = "an explicit method for a scene with large matrices"
-        raise refused(scene, f"the implicit stages of {method.label}", expected)
-    program, trace = optimise(lowered, model)
-    return ArrayMethod(lowered, program, trace, large_linear_kernel(program, scene))
+    return compiled(scene, method, _model(not scene.autonomous), large_linear_kernel, refused)
 
 
 @cache

@@ -130,9 +130,9 @@ class TorusCurves(Figure):
     """Curves on a torus in the chart of two angles; opposite edges are the same line of the torus.
 
     ``angles`` are two formulas, in radians, and ``axes`` their labels. ``state`` contains a formula for each
-    coordinate of the state, in the two symbols ``variables``, which stand for the angles. ``directions`` are
-    formulas for the rates of the angles, drawn as arrows, and ``levels`` is a formula that is drawn as level
-    lines. Both are evaluated at the states that ``state`` gives.
+    coordinate of the state; the symbols ``variables`` in these formulas are the two angles. ``directions``
+    are formulas for the rates of the angles, drawn as arrows, and ``levels`` is a formula that is drawn as
+    level lines. Both are evaluated at the states that ``state`` gives.
     """
 
     angles: tuple[Quantity, Quantity]
