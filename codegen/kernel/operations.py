@@ -69,7 +69,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     A kernel without outputs is one of three kinds. For a Taylor polynomial, the computation of its
     coefficients and its evaluation are counted. For a step with whole matrices, a typical number of terms of
     each exponential is assumed. For a lattice, the operations of one site are counted; a flow of pairs counts
-    as one pair for each site.
+    as one pair for each site. For a step on Fourier modes, transforms are counted.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
@@ -78,6 +78,8 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
         for sweep in kernel.sites.passes:
             total = _plus(total, operations(arrange(sweep.kernel))[STEP])
         return {STEP: total}
+    if kernel.modes is not None:
+        return {STEP: {"transform": kernel.modes.transforms}}
     expansion = kernel.expansion
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))

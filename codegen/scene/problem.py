@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from codegen.scene.figure import Figure
     from codegen.scene.matrix_field import MatrixField
     from codegen.scene.matrix_step import MatrixStep
+    from codegen.scene.semilinear import Semilinear
     from codegen.scene.sites import Sites
 
 TIME = "t"
@@ -80,7 +81,8 @@ class Problem:
     conjugate to the time (:mod:`codegen.scene.linear_extension`). ``steps`` are the steps that the scene
     states as functions of matrices (:mod:`codegen.scene.matrix_step`). If ``sites`` is given, the problem is
     the equation of one site of a lattice, and ``roots`` also contain the coordinates of neighbours
-    (:mod:`codegen.scene.sites`). ``figures`` are the figures that the file of the scene declares
+    (:mod:`codegen.scene.sites`). If ``semilinear`` is given, the problem is u' = L u + N(u) on a periodic
+    interval, and ``roots`` is empty (:mod:`codegen.scene.semilinear`). ``figures`` are the figures that the file of the scene declares
     (:mod:`codegen.scene.figure`). ``derived`` is a cache of the problems that families derive from this
     problem; the key is the kind of the family. A search uses each of them for hundreds of methods.
     """
@@ -112,6 +114,7 @@ class Problem:
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     steps: Mapping[str, MatrixStep] = field(default_factory=dict)
     sites: Sites | None = None
+    semilinear: Semilinear | None = None
     figures: tuple[Figure, ...] = field(default=(), repr=False, compare=False)
     derived: dict[str, Problem] = field(default_factory=dict, init=False, repr=False, compare=False)
 
@@ -125,6 +128,8 @@ class Problem:
         """True if the field depends neither on the time nor on signals that are read at run time."""
         if self.matrices is not None:
             return not self.matrices.reads(TIME)
+        if self.semilinear is not None:
+            return not self.semilinear.timed
         return not self.inputs and not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
 
     @property
@@ -133,6 +138,8 @@ class Problem:
         # A field that is given by formulas of whole matrices may have no formulas in coordinates.
         if self.matrices is not None:
             return self.matrices.linear
+        if self.semilinear is not None:
+            return False
         state = set(self.symbols)
         return not any(n.op == "sym" and n.payload in state for n in walk(self.roots))
 
@@ -147,6 +154,13 @@ class Problem:
 
     def require_formulas(self) -> None:
         """Raise :class:`codegen.errors.SceneError` if the field has no formulas in coordinates."""
+        if self.semilinear is not None:
+            raise SceneError(
+                "a semilinear equation, which has no formulas in coordinates",
+                where=self.name,
+                expected="a scene with formulas in coordinates",
+                hint="use emit here, and codegen.load_spectral to run the emitted module",
+            )
         if not self.roots:
             raise SceneError(
                 f"a field without formulas in coordinates, because {self.group.name} has {self.group.dim} "
