@@ -15,6 +15,7 @@ from codegen.arrival import Status
 from codegen.artifact import Artifact
 from codegen.printers.interface import Interface
 from codegen.run.status import reason
+from orderconds.errors import InputError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -136,4 +137,83 @@ class InterpretedSpectral(Spectral):
 
 
 class CompiledSpectral(Spectral):
-    """An emitted C module for a semilinear equation, in a shared object."""
+    """An emitted C module for a semilinear equation, in a shared object.
+
+    The transforms of the module are used if n is a power of two, and those of NumPy for all other n.
+    """
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:
+        from cffi import FFI
+
+        from codegen.printers.c.modes import mode_prototypes
+
+        super().__init__(interface, defaults)
+        self._ffi = FFI()
+        self._ffi.cdef(mode_prototypes(interface))
+        self._library = self._ffi.dlopen(str(path))
+        self._function("run")
+
+    def _function(self, name: str) -> Any:
+        return getattr(self._library, f"{self.interface.prefix}{name}")
+
+    def _pointer(self, array: Any) -> Any:
+        return self._ffi.cast("double *", self._ffi.from_buffer(array))
+
+    def _period(self, values: list[float]) -> float:
+        return float(self._function("period")(*values))
+
+    def _initial(self, points: Floats, values: list[float]) -> Floats:
+        import numpy as np
+
+        u = np.empty(points.size)
+        self._function("initial")(u.size, self._pointer(u), *values)
+        return u
+
+    def _call(
+        self, u: Floats, moment: tuple[float, float, int], values: list[float]
+    ) -> tuple[Floats, Status, int]:
+        (t, h, steps), n = moment, u.size
+        try:
+            tables, work, memory = (self._memory(name, n) for name in ("tables", "workspace", "fft_memory"))
+        except MemoryError:
+            raise InputError(
+                f"{n} points", expected="enough memory for the tables", hint="use fewer points"
+            ) from None
+        status = Status(self._function("prepare")(n, h, *values, self._pointer(tables)))
+        if status != Status.OK:
+            return u, status, 0
+        own = self._function("fft_prepare")(n, self._pointer(memory)) == Status.OK
+        transform = self._ffi.new(f"{self.interface.prefix}transform *")
+        callbacks = () if own else self._numpy()
+        if own:
+            transform[0] = self._function("fft")(self._pointer(memory))
+        else:
+            transform.forward, transform.backward = callbacks
+        time = [t] if self.interface.time else []
+        completed = self._ffi.new("size_t *")
+        arguments = [*values, self._pointer(tables), transform, self._pointer(work), completed]
+        status = Status(self._function("run")(n, self._pointer(u), *time, steps, *arguments))
+        return u, status, int(completed[0])
+
+    def _memory(self, name: str, n: int) -> Floats:
+        """Return an array whose length the function ``name`` of the module states."""
+        import numpy as np
+
+        return np.empty(int(self._function(name)(n)))
+
+    def _numpy(self) -> tuple[Any, Any]:
+        """Return the transforms of NumPy as functions of C."""
+        import numpy as np
+
+        def view(pointer: Any, n: int) -> Floats:
+            return np.frombuffer(self._ffi.buffer(pointer, 8 * n), dtype=np.float64)
+
+        def forward(n: int, values: Any, spectrum: Any, context: Any) -> None:
+            view(spectrum, n + 2)[:] = np.fft.rfft(view(values, n)).view(np.float64)
+
+        def backward(n: int, spectrum: Any, values: Any, context: Any) -> None:
+            view(values, n)[:] = np.fft.irfft(view(spectrum, n + 2).view(np.complex128), n)
+
+        kinds = ("size_t, const double *, double *, void *", "size_t, double *, double *, void *")
+        first, second = (f"void({kind})" for kind in kinds)
+        return self._ffi.callback(first, forward), self._ffi.callback(second, backward)
