@@ -25,9 +25,9 @@ from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.compensation import compensated as add_carries
 from codegen.kernel.large_linear_kernel import large_linear_method
-from codegen.kernel.mode_kernel import mode_method
+from codegen.kernel.mode_kernel import ModeMethod, mode_method
 from codegen.kernel.operations import STEP, step_operations
-from codegen.kernel.site_kernel import site_method
+from codegen.kernel.site_kernel import SiteMethod, site_method
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
@@ -132,10 +132,8 @@ def compile_method(
     method = method_for(scene, method, family)
     if adaptive:
         method = replace(method, adaptive=True)
-    if scene.sites is not None:
-        return _with_sites(scene, method, {"jacobian": jacobian, "a run to an end time": request.any})
-    if scene.semilinear is not None:
-        return _with_modes(scene, method, {"jacobian": jacobian, "a run to an end time": request.any})
+    if scene.sites is not None or scene.semilinear is not None:
+        return _of_fields(scene, method, {"jacobian": jacobian, "a run to an end time": request.any})
     problem = problem_for(scene, method)
     if scene.matrices is not None and not lowering(method.family).in_coordinates:
         return _with_arrays(scene, method, jacobian, request)
@@ -233,27 +231,21 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
     return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
 
 
-def _with_sites(scene: Problem, method: Method, requests: Mapping[str, bool]) -> Compiled:
-    """Return a method on a chain or lattice."""
+def _of_fields(scene: Problem, method: Method, requests: Mapping[str, bool]) -> Compiled:
+    """Return a method on a chain or lattice, or on a semilinear equation."""
     requests = {"an error estimate": method.adaptive, **requests}
     refused = [what for what, wanted in requests.items() if wanted]
     if refused:
-        what = f"{refused[0]} for a chain or lattice"
+        kind = "a chain or lattice" if scene.semilinear is None else "a semilinear equation"
+        what = f"{refused[0]} for {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
-    own = site_method(scene, method)
-    return Compiled(scene, method, own.problem, own.lowered, own.program, own.trace, own.kernel)
-
-
-def _with_modes(scene: Problem, method: Method, requests: Mapping[str, bool]) -> Compiled:
-    """Return a method on a semilinear scene."""
-    requests = {"an error estimate": method.adaptive, **requests}
-    refused = [what for what, wanted in requests.items() if wanted]
-    if refused:
-        what = f"{refused[0]} for a semilinear equation"
-        raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
-    # A given cut-off truncates dexp^{-1}; without a cut-off the closed form is used.
-    scene = scene if method.cutoff is None else replace(scene, coordinates=None)
-    own = mode_method(scene, method)
+    own: SiteMethod | ModeMethod
+    if scene.semilinear is None:
+        own = site_method(scene, method)
+    else:
+        # A given cut-off truncates dexp^{-1}; without a cut-off the closed form is used.
+        scene = scene if method.cutoff is None else replace(scene, coordinates=None)
+        own = mode_method(scene, method)
     return Compiled(scene, method, own.problem, own.lowered, own.program, own.trace, own.kernel)
 
 

@@ -52,7 +52,7 @@ class Spectral(ABC):
         import numpy as np
 
         n = _even(count(n, "n"))
-        return np.arange(n) * (self._period(self._values(parameters)) / n)
+        return np.arange(n) * self._period(self._values(parameters)) / n
 
     def start(self, n: int, **parameters: object) -> Floats:
         """Return the initial values of the scene at n points."""

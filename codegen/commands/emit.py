@@ -250,7 +250,9 @@ def explanation(compiled: Compiled) -> str:
             "# loops over sites\n" + "".join(f"  {x}\n" for x in compiled.kernel.sites.explanation())
         )
     if compiled.kernel.modes is not None:
-        parts.append("# on Fourier modes\n" + "".join(f"  {x}\n" for x in compiled.kernel.modes.explanation()))
+        parts.append(
+            "# on Fourier modes\n" + "".join(f"  {x}\n" for x in compiled.kernel.modes.explanation())
+        )
     functions = functions_of(compiled)
     if functions:
         lines = [f"  {p['name']}, {p['calls']} calls: {p['about']}\n" for p in functions]

@@ -116,7 +116,9 @@ class Multiplier:
             minus = value.text().startswith("-")
             size = -value if minus else value
             shown = factors if size.is_one and factors else f"{size.text()} {factors}".strip()
-            words.append((f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown)
+            words.append(
+                (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
+            )
         return " ".join(words) or "0"
 
 
@@ -147,7 +149,9 @@ class Table:
         """Return the text of the formula."""
         inner = self.multiplier.text()
         several = len(self.multiplier.terms) > 1
-        return inner if not self.power else f"h ({inner})" if several else "h" if inner == "1" else f"h {inner}"
+        return (
+            inner if not self.power else f"h ({inner})" if several else "h" if inner == "1" else f"h {inner}"
+        )
 
 
 @dataclass(frozen=True)
@@ -254,7 +258,9 @@ class ModeStep:
         if any(f.function == BERNOULLI for f in self.factors):
             lines.append("bernoulli(z) = z/(exp(z) - 1)")
         lines.append(f"tables for Re z < 0: {self.bound()}")
-        lines.append(f"a step: {len(self.evaluations)} evaluations of N, {self.transforms} Fourier transforms")
+        lines.append(
+            f"a step: {len(self.evaluations)} evaluations of N, {self.transforms} Fourier transforms"
+        )
         return lines
 
     def bound(self) -> str:

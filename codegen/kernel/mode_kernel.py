@@ -20,7 +20,8 @@ from typing import TypeAlias
 
 from codegen.errors import MethodError
 from codegen.groups.bernoulli import bernoulli_over_factorial, last_term
-from codegen.ir.expr import Expr, walk
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.kernel import Field as StateBlock
 from codegen.ir.kernel import Kernel
 from codegen.ir.mode_step import (
@@ -119,7 +120,9 @@ def mode_method(scene: Problem, method: Method) -> ModeMethod:
     about = "values at the points x = i length/n, i = 0, ..., n - 1"
     state = (StateBlock(block.name, block.symbols, about),)
     known = (TIME, "h", *scene.runtime)
-    return ModeMethod(problem, lowered, program, trace, Kernel(program.name, state, known, (), (), modes=step))
+    return ModeMethod(
+        problem, lowered, program, trace, Kernel(program.name, state, known, (), (), modes=step)
+    )
 
 
 def _refused(scene: Problem, what: str) -> MethodError:
@@ -175,8 +178,18 @@ class _Execution:
         )
 
     def _kernel(self, formulas: tuple[Expr, ...]) -> Kernel:
-        """Return formulas as assignments, in which common subexpressions are computed once."""
-        taken = {n.payload for n in walk(formulas) if n.op == "sym"}
+        """Return formulas as assignments, in which common subexpressions are computed once. Parameters that
+        are not arguments at run time become constants."""
+        domain = ExprDomain(formulas[0].space)
+        symbols = sorted({n.payload for n in walk(formulas) if n.op == "sym"})
+        values = {s: domain.space.sym(s) for s in symbols} | {
+            name: domain.number(number)
+            for name, number in self.scene.parameters.items()
+            if name not in self.scene.runtime
+        }
+        roots = evaluate(list(formulas), domain, values)
+        read = tuple(sorted({n.payload for n in walk(roots) if n.op == "sym"}))
+        taken = set(read)
 
         def fresh(name: str) -> str:
             while name in taken:
@@ -184,9 +197,9 @@ class _Execution:
             taken.add(name)
             return name
 
-        read = tuple(sorted(taken))
-        schedule = Assignments((), list(formulas), {}, fresh)
-        return Kernel("formulas", (), read, schedule.run(), schedule.outputs)
+        schedule = Assignments((), roots, {}, fresh)
+        body = schedule.run()
+        return Kernel("formulas", (), read, body, schedule.outputs)
 
     def _execute(self, assign: Assign) -> None:
         (target,), operation, args = assign.targets, assign.operation, assign.args
@@ -291,4 +304,3 @@ class _Execution:
             self.tables[key] = len(self.listed)
             self.listed.append(Table(multiplier, power))
         return self.tables[key]
-

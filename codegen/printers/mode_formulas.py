@@ -64,7 +64,9 @@ class ModeFormulas:
             minus, size = text.startswith("-"), text.removeprefix("-")
             unit = value.is_one or value.is_minus_one
             shown = " * ".join([*([] if unit and factors else [size]), *factors])
-            words.append((f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown)
+            words.append(
+                (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
+            )
         inner = " ".join(words)
         if not table.power:
             return inner
@@ -74,12 +76,12 @@ class ModeFormulas:
         """Return the name of the spectrum of a term."""
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
-    def time(self, number: int) -> str:
-        """Return the text of the time of an evaluation."""
+    def time(self, number: int, start: str) -> str:
+        """Return the text of the time of an evaluation in a step that begins at the time ``start``."""
         c = self.step.evaluations[number].time
         if c.is_zero:
-            return "t"
-        return "t + h" if c.is_one else f"t + {self.style.constant(c)} * h"
+            return start
+        return f"{start} + h" if c.is_one else f"{start} + {self.style.constant(c)} * h"
 
 
 def identifier(name: str, taken: Collection[str]) -> str:

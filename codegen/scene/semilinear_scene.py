@@ -71,9 +71,7 @@ def SemilinearScene(
     symbol = parser.symbol(L)
     period = parser.constant(length, "length")
     inner, terms = parser.nonlinear(N)
-    start = parser.pointwise(u0, "u0", (parser.x,))
-    if any(n.op == "sym" and n.payload == TIME for n in walk([start])):
-        raise SceneError("u0 contains t", where=name, expected="a formula in x and parameters")
+    start = parser.start(u0)
     if reader.signals:
         raise SceneError("a signal in the formulas", where=name, expected="formulas in t and parameters")
     parameters = reader.parameters()
@@ -81,7 +79,15 @@ def SemilinearScene(
     formulas = tuple(terms.values())
     timed = any(n.op == "sym" and n.payload == TIME for n in walk(formulas))
     semilinear = Semilinear(
-        *(parser.k, parser.x), symbol, period, start, inner, tuple(terms), formulas, _kept(name, dealias), timed
+        *(parser.k, parser.x),
+        symbol,
+        period,
+        start,
+        inner,
+        tuple(terms),
+        formulas,
+        _kept(name, dealias),
+        timed,
     )
     shown = reader.space.const(Number.rational(0))
     generators = [[[EIGENVALUE, 0], [0, 0]], [[0, 1], [0, 0]]]
@@ -117,7 +123,9 @@ class _Parser:
         read = [self.pointwise(part, "L", (self.k,)) for part in parts[: 1 if parts[1] == 0 else 2]]
         if any(n.op == "sym" and n.payload == TIME for n in walk(read)):
             raise SceneError(
-                "L depends on the time", where=self.name, expected="constant coefficients",
+                "L depends on the time",
+                where=self.name,
+                expected="constant coefficients",
                 hint="move this term to N",
             )
         return tuple(read)
@@ -182,6 +190,13 @@ class _Parser:
                 )
         return root
 
+    def start(self, u0: sympy.Expr) -> Expr:
+        """Return the initial state."""
+        root = self.pointwise(u0, "u0", (self.x,))
+        if any(n.op == "sym" and n.payload == TIME for n in walk([root])):
+            raise SceneError("u0 contains t", where=self.name, expected="a formula in x and parameters")
+        return root
+
     def constant(self, formula: sympy.Expr, what: str) -> Expr:
         """Return a formula in parameters."""
         return self.reader.scalar(_with_digits(self._sympified(formula, what)), what, constant=True)
@@ -241,7 +256,9 @@ def _check(
             minus = evaluate(list(symbol), domain, {**values, parser.k: -k})
         except (ArithmeticError, ValueError):
             raise SceneError(
-                f"L is not finite at k = {k:g}", where=reader.name, expected="a symbol that is finite for all k"
+                f"L is not finite at k = {k:g}",
+                where=reader.name,
+                expected="a symbol that is finite for all k",
             ) from None
         expected = [plus[0], *(-y for y in plus[1:])]
         if any(abs(a - b) > 1e-9 * (1 + abs(a)) for a, b in zip(expected, minus, strict=True)):

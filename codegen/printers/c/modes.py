@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from codegen.ir.kernel import Kernel
-from codegen.ir.mode_step import BERNOULLI, EXP, PHI, Term
+from codegen.ir.mode_step import BERNOULLI, EXP, PHI, ModeStep, Term
 from codegen.ir.precision import DOUBLE
 from codegen.printers.c.terms import literal, style
 from codegen.printers.c.text import comment
@@ -16,11 +16,47 @@ from codegen.run.status import MODE_MEANINGS, MODE_STATUSES
 from codegen.templates import environment
 
 OWN = RESERVED | frozenset(
-    """
-    n u h t now steps tables table completed status spectrum result point k z re im modes mode wave width values
-    scratch work transform length points done old sum imaginary order factor forward backward expm1 creal cimag
-    CMPLX
-    """.split()
+    [
+        "n",
+        "u",
+        "h",
+        "t",
+        "now",
+        "steps",
+        "tables",
+        "table",
+        "completed",
+        "status",
+        "spectrum",
+        "result",
+        "point",
+        "k",
+        "z",
+        "re",
+        "im",
+        "modes",
+        "mode",
+        "wave",
+        "width",
+        "values",
+        "scratch",
+        "work",
+        "transform",
+        "length",
+        "points",
+        "done",
+        "old",
+        "sum",
+        "imaginary",
+        "order",
+        "factor",
+        "forward",
+        "backward",
+        "expm1",
+        "creal",
+        "cimag",
+        "CMPLX",
+    ]
 )
 """Names that the module defines, and the names of its arguments and local variables."""
 
@@ -61,12 +97,16 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "formulas": write.lines(step.nonlinearity.formulas),
         "factors": [write.factor(f, lambda function, w: f"{calls[function]}({w})") for f in step.factors],
         "tables": [write.table(table) for table in step.tables],
+        "local": _local(step),
+        "spare": bool(inner) or len(outer) > 1,
         "functions": {factor.function for factor in step.factors},
         "inner": [(order, names[s]) for order, s in inner],
         "outer": outer,
         "kept": step.nonlinearity.kept,
         "derivatives": any(outer) or any(order for order, _ in inner),
-        "evaluations": [(_terms(write, e.point), write.time(i)) for i, e in enumerate(step.evaluations)],
+        "evaluations": [
+            (_terms(write, e.point), write.time(i, "now")) for i, e in enumerate(step.evaluations)
+        ],
         "result": _terms(write, step.result),
         "time": interface.time,
         # The spectra are the old and the new state, the point, a scratch spectrum, and the values of N.
@@ -79,6 +119,16 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         f"{interface.module}{suffix}": env.get_template(f"module/{template}").render(variables)
         for suffix, template in files.items()
     }
+
+
+def _local(step: ModeStep) -> set[str]:
+    """Return the names of the formulas that contain the wave number or x."""
+    kernels = {
+        "symbol": (step.symbol, step.wave),
+        "initial": (step.initial, step.space),
+        "formulas": (step.nonlinearity.formulas, step.space),
+    }
+    return {name for name, (kernel, symbol) in kernels.items() if symbol in kernel.scalars}
 
 
 def _terms(write: ModeFormulas, terms: tuple[Term, ...]) -> list[tuple[str, int | None]]:

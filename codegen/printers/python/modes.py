@@ -49,7 +49,9 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     given = [f"{names[p]}={_text(recipe.defaults.get(p, 0.0))}" for p in interface.parameters]
     factors = [write.factor(f, lambda function, w: f"{CALLS[function]}({w})") for f in step.factors]
     variables = {
-        "recipe": [line.replace("\\", "\\\\").replace('"""', "'''") for line in mode_header(kernel, recipe, 84)],
+        "recipe": [
+            line.replace("\\", "\\\\").replace('"""', "'''") for line in mode_header(kernel, recipe, 84)
+        ],
         "module": interface.module,
         "step": step,
         "statuses": [(name, number, MODE_MEANINGS[name]) for name, number in MODE_STATUSES.items()],
@@ -63,10 +65,9 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "formulas": write.lines(step.nonlinearity.formulas),
         "inner": [(order, names[s]) for order, s in step.nonlinearity.inner],
         "kept": step.nonlinearity.kept,
-        "evaluations": [(_sum(write, e.point), write.time(i)) for i, e in enumerate(step.evaluations)],
+        "evaluations": [(_sum(write, e.point), write.time(i, "t")) for i, e in enumerate(step.evaluations)],
         "result": _sum(write, step.result),
         "time": interface.time,
-        "constant_formulas": not step.nonlinearity.inner,
         "h": _text(recipe.h),
         "steps": recipe.steps,
         "initial": write.lines(step.initial),

@@ -11,8 +11,8 @@ from codegen.ir.precision import DOUBLE
 from codegen.kernel.operations import costs
 from codegen.printers.interface import Interface
 from codegen.printers.needs import functions_of
-from codegen.printers.python.modes import print_modes
 from codegen.printers.python.functions import FunctionPrinter, class_of
+from codegen.printers.python.modes import print_modes
 from codegen.printers.python.terms import Constants
 from codegen.printers.python.text import quoted
 from codegen.printers.python.words import INTEGRATION, PUBLIC, RESERVED
