@@ -182,10 +182,9 @@ class CompiledSpectral(Spectral):
         status = Status(self._function("prepare")(n, h, *values, self._pointer(tables)))
         if status != Status.OK:
             return u, status, 0
-        own = self._function("fft_prepare")(n, self._pointer(memory)) == Status.OK
         transform = self._ffi.new(f"{self.interface.prefix}transform *")
-        callbacks = () if own else self._numpy()
-        if own:
+        callbacks = self._numpy()  # the variable keeps the functions alive during the run
+        if self._function("fft_prepare")(n, self._pointer(memory)) == Status.OK:
             transform[0] = self._function("fft")(self._pointer(memory))
         else:
             transform.forward, transform.backward = callbacks

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 EXP, PHI, BERNOULLI, POWER = "exp", "phi1", "bernoulli", "z"
 """The functions in multipliers: exp(w), phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w itself."""
 
+WIDTH = 100
+"""Formulas with more characters are written term by term."""
+
 STATE = -1
 """The source of a term that multiplies the old state."""
 
@@ -110,7 +113,7 @@ class Multiplier:
         >>> m.scaled(half).text()
         '1/2 exp(1/2 z) phi1(1/2 z) - 1/2 phi1(1/2 z)'
         """
-        words = []
+        words: list[str] = []
         for monomial, value in self.key:
             factors = " ".join(f.text() if n == 1 else f"{f.text()}^{n}" for f, n in monomial)
             minus = value.text().startswith("-")
@@ -176,9 +179,9 @@ class Nonlinearity:
     """N(u) as a sum of derivatives of pointwise formulas.
 
     ``inner`` are the orders of the derivatives of u that the formulas read, with their symbols. Output j of
-    ``formulas`` is a function of these derivatives, of x, t and parameters. N is the sum of the derivatives of
-    the outputs with the orders ``outer``. If the fraction ``kept`` is less than one, only this fraction of the
-    n/2 + 1 modes is kept in the values of N, and all others are set to zero (against aliasing).
+    ``formulas`` is a function of these derivatives, of x, t and parameters. N is the sum of the derivatives
+    of the outputs with the orders ``outer``. If the fraction ``kept`` is less than one, only this fraction
+    of the n/2 + 1 modes is kept in the values of N, and all others are set to zero (against aliasing).
     """
 
     inner: tuple[tuple[int, str], ...]
@@ -192,8 +195,8 @@ class ModeStep:
     """One step: tables, evaluations of N, and the new state.
 
     The outputs of ``symbol`` are the real part of lambda as a function of the wave number, whose symbol is
-    ``wave``, and the imaginary part if L has one. ``length`` has one output, the period of the domain, and ``initial`` one output, the
-    initial state as a function of x, whose symbol is ``space``.
+    ``wave``, and the imaginary part if L has one. ``length`` has one output, the period of the domain, and
+    ``initial`` one output, the initial state as a function of x, whose symbol is ``space``.
     """
 
     tables: tuple[Table, ...]
@@ -252,8 +255,8 @@ class ModeStep:
         lines = []
         for number, evaluation in enumerate(self.evaluations, 1):
             time = "" if evaluation.time.is_zero else f", at t + {evaluation.time.text()} h"
-            lines.append(f"U{number} = {self._sum(evaluation.point)}{time}")
-        lines.append(f"new u = {self._sum(self.result)}")
+            lines += self._sum(f"U{number}", evaluation.point, time)
+        lines += self._sum("new u", self.result, "")
         lines.append("z is h times the eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
             lines.append("bernoulli(z) = z/(exp(z) - 1)")
@@ -272,12 +275,17 @@ class ModeStep:
             return f"some grow like {power}, which may require short steps"
         return "all are bounded"
 
-    def _sum(self, terms: tuple[Term, ...]) -> str:
+    def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:
+        """Return the formula of a linear combination, on one line if it is short, else term by term."""
         words = []
         for term in terms:
-            name = "u" if term.source == STATE else f"N{term.source + 1}"
+            source = "u" if term.source == STATE else f"N{term.source + 1}"
             factor = "" if term.table is None else self.tables[term.table].text()
             several = term.table is not None and len(self.tables[term.table].multiplier.terms) > 1
             shown = f"({factor})" if several and not factor.startswith("h (") else factor
-            words.append(f"{shown} {name}".strip())
-        return " + ".join(words) or "0"
+            words.append(f"{shown} {source}".strip())
+        line = f"{name} = {' + '.join(words) or '0'}{remark}"
+        if len(line) <= WIDTH:
+            return [line]
+        first, *rest = words
+        return [f"{name} = {first}", *(f"+ {word}" for word in rest[:-1]), f"+ {rest[-1]}{remark}"]

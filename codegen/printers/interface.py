@@ -111,7 +111,8 @@ class Interface:
         # Tuples become lists, so that the data equal the data read from a JSON file.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
         # The manifest of a module without a run to a given end time omits the fields RUN, and the manifest of
-        # a module for a single system omits the fields LATTICE. Only steps on Fourier modes have the fields MODES.
+        # a module for a single system omits the fields LATTICE. Only the manifest of a step on Fourier modes
+        # has the fields MODES.
         hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
         hidden += () if self.modes else MODES
         return {k: x for k, x in data.items() if k not in hidden}

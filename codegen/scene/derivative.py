@@ -25,14 +25,15 @@ class Dx(sympy.Function):  # type: ignore[misc]
     @classmethod
     def eval(cls, formula: sympy.Expr, order: object = 1) -> Any:
         """Return the derivative of a constant or of a derivative; None for all other formulas."""
-        if order not in range(1, MOST_DERIVATIVES + 1):
+        number = next((m for m in range(1, MOST_DERIVATIVES + 1) if m == order), 0)
+        if not number:
             raise SceneError(
                 f"Dx of order {order}", expected=f"an integer order from 1 to {MOST_DERIVATIVES}"
             )
         if formula.is_number:
             return sympy.Integer(0)
         if isinstance(formula, Dx):
-            return cls(formula.args[0], formula.order + order)
+            return cls(formula.args[0], formula.order + number)
         return None
 
     @property

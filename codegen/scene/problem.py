@@ -69,22 +69,23 @@ class Problem:
     summands of the Hamiltonian, and ``flows`` are the exact flows that a splitting composes. The scene may
     state the flow of a part itself: ``stated`` then contains the formulas of (q, mu) after the time tau.
 
-    ``runtime`` names the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value is
-    not the default. ``roots`` contain the formulas of the signals; ``open_roots`` are the same components
-    with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that emitted code
-    reads at run time. ``forced`` is True if n contains a force that is not a derivative of the Hamiltonian.
-    If emitted code reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution``
-    contains the coordinates in which a step of Taylor's method computes. ``coordinates`` is the map with
-    which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential map. ``matrices``
-    is the field if it is given by formulas of whole matrices; for large matrices ``roots`` is then empty. If
-    ``carries_momentum`` is true, the problem is linear in (q, p), and the last coordinate is the momentum
-    conjugate to the time (:mod:`codegen.scene.linear_extension`). ``steps`` are the steps that the scene
-    states as functions of matrices (:mod:`codegen.scene.matrix_step`). If ``sites`` is given, the problem is
-    the equation of one site of a lattice, and ``roots`` also contain the coordinates of neighbours
-    (:mod:`codegen.scene.sites`). If ``semilinear`` is given, the problem is u' = L u + N(u) on a periodic
-    interval, and ``roots`` is empty (:mod:`codegen.scene.semilinear`). ``figures`` are the figures that the file of the scene declares
-    (:mod:`codegen.scene.figure`). ``derived`` is a cache of the problems that families derive from this
-    problem; the key is the kind of the family. A search uses each of them for hundreds of methods.
+    ``runtime`` names the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value
+    is not the default. ``roots`` contain the formulas of the signals; ``open_roots`` are the same
+    components with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that
+    emitted code reads at run time. ``forced`` is True if n contains a force that is not a derivative of the
+    Hamiltonian. If emitted code reads and returns momenta in the body frame, ``body_group`` is the group.
+    ``evolution`` contains the coordinates in which a step of Taylor's method computes. ``coordinates`` is
+    the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential
+    map. ``matrices`` is the field if it is given by formulas of whole matrices; for large matrices
+    ``roots`` is then empty. If ``carries_momentum`` is true, the problem is linear in (q, p), and the last
+    coordinate is the momentum conjugate to the time (:mod:`codegen.scene.linear_extension`). ``steps`` are
+    the steps that the scene states as functions of matrices (:mod:`codegen.scene.matrix_step`). If
+    ``sites`` is given, the problem is the equation of one site of a lattice, and ``roots`` also contain the
+    coordinates of neighbours (:mod:`codegen.scene.sites`). If ``semilinear`` is given, the problem is u' =
+    L u + N(u) on a periodic interval, and ``roots`` is empty (:mod:`codegen.scene.semilinear`). ``figures``
+    are the figures that the file of the scene declares (:mod:`codegen.scene.figure`). ``derived`` is a
+    cache of the problems that families derive from this problem; the key is the kind of the family. A
+    search uses each of them for hundreds of methods.
     """
 
     name: str

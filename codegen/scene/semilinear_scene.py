@@ -67,11 +67,9 @@ def SemilinearScene(
     other symbols or a choice between formulas.
     """
     parser = _Parser(name, u, k, x)
-    reader = parser.reader
-    symbol = parser.symbol(L)
-    period = parser.constant(length, "length")
+    reader, symbol = parser.reader, parser.symbol(L)
+    period, start = parser.constant(length, "length"), parser.start(u0)
     inner, terms = parser.nonlinear(N)
-    start = parser.start(u0)
     if reader.signals:
         raise SceneError("a signal in the formulas", where=name, expected="formulas in t and parameters")
     parameters = reader.parameters()
@@ -79,22 +77,21 @@ def SemilinearScene(
     formulas = tuple(terms.values())
     timed = any(n.op == "sym" and n.payload == TIME for n in walk(formulas))
     semilinear = Semilinear(
-        *(parser.k, parser.x),
-        symbol,
-        period,
-        start,
-        inner,
-        tuple(terms),
-        formulas,
-        _kept(name, dealias),
-        timed,
+        *(parser.k, parser.x, symbol, period, start),
+        *(inner, tuple(terms), formulas, _kept(name, dealias), timed),
     )
     shown = reader.space.const(Number.rational(0))
-    generators = [[[EIGENVALUE, 0], [0, 0]], [[0, 1], [0, 0]]]
+    zero, one = Fraction(0), Fraction(1)
+    generators = [[[EIGENVALUE, zero], [zero, zero]], [[zero, one], [zero, zero]]]
+    group = MatrixGroup("affine maps exp(t L) u + c", generators)
     return Problem(
-        *(name, title or name, MatrixGroup("affine maps exp(t L) u + c", generators), AffineAction()),
-        *((StateField("y", Kind.POINT, (parser.u,), (shown,)),), (), None, {}, read_span(name, span)),
-        parameters,
+        *(name, title or name, group, AffineAction()),
+        state=(StateField("y", Kind.POINT, (parser.u,), (shown,)),),
+        roots=(),
+        hamiltonian=None,
+        invariants={},
+        span=read_span(name, span),
+        parameters=parameters,
         coordinates=ExactExponential(),
         semilinear=semilinear,
     )

@@ -19,8 +19,8 @@ NUMPY = {"atan": "arctan", "asin": "arcsin", "acos": "arccos", "atan2": "arctan2
 """Functions that have another name in NumPy."""
 
 _OWN = """
-    np prepare run n h t steps tables completed status spectrum result point k z re im period modes mask values
-    points transform back given
+    np prepare run n h t steps tables completed status spectrum result point k z re im period modes mask
+    values points transform back given
 """
 
 OWN = RESERVED | frozenset(_OWN.split())
