@@ -101,10 +101,7 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
     kernel = _scheduled(scene, label, ends)
     read = {str(n.payload) for n in walk(ends) if n.op == "sym"}
     around = [
-        (s, k, row)
-        for k, column in enumerate(sites.symbols)
-        for row, s in enumerate(column)
-        if s in read
+        (s, k, row) for k, column in enumerate(sites.symbols) for row, s in enumerate(column) if s in read
     ]
     outside = None
     if sites.outside:

@@ -36,8 +36,8 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
     word = lowering.read(scene, method).word
     y = Var("y", Kind.POINT)
     body, last = [], y
-    for number, (summand, duration) in enumerate(word, 1):
-        ((name, _),) = summand.flows
+    named = [(name, duration) for summand, duration in word for name, _ in summand.flows]
+    for number, (name, duration) in enumerate(named, 1):
         target = Var(f"y{number}", Kind.POINT)
         body.append(Assign((target,), SiteFlowOf(name, Coefficient(duration, 1)), (last,)))
         last = target

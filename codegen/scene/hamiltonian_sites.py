@@ -1,10 +1,10 @@
 """Hamiltonian chains and lattices: each site has a Hamiltonian, and bonds between neighbours have energies.
 
-The total energy is the sum of h(q_i, mu_i) over all sites i, and of V(q_i, q_{i+d}) over all bonds. Each bond
-has an offset d. The momenta are right-trivialised: q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i with
-xi_i = D_2 h and n_i = -(D_1 E).q_i^-1, where E is the total energy (:mod:`codegen.scene.canonical_equations`).
-A site is the first site of one bond and the second site of another bond with the same offset. So n_i contains
-the derivative of V(q_i, q_{i+d}) by its first argument, and that of V(q_{i-d}, q_i) by its second argument.
+The total energy E is the sum of h(q_i, mu_i) over all sites i, and of V(q_i, q_{i+d}) over all bonds. Each
+bond has an offset d. The momenta are right-trivialised: q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i
+with xi_i = D_2 h and n_i = -(D_1 E).q_i^-1 (:mod:`codegen.scene.canonical_equations`). A site is the first
+site of one bond and the second site of another bond with the same offset. So n_i contains the derivative of
+V(q_i, q_{i+d}) by its first argument, and that of V(q_{i-d}, q_i) by its second argument.
 """
 
 from __future__ import annotations
