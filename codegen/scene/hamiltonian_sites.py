@@ -78,16 +78,7 @@ def HamiltonianSiteScene(
     bonds. :class:`SceneError` is raised in the same cases as by :func:`codegen.scene.HamiltonianScene` and
     :func:`codegen.scene.SiteScene`, and for bonds that contain the momentum.
     """
-    check_group(name, group)
-    group.require(Coadjoint, where=name)
-    reader = Reader(name, [*q, *mu])
-    if (len(q), len(mu)) != (group.size, group.dim):
-        raise SceneError(
-            f"{len(q)} coordinates of q and {len(mu)} of mu",
-            where=name,
-            expected=f"{group.size} and {group.dim} coordinates for {group.name}",
-            hint='use group.point("q") and group.dual("mu")',
-        )
+    reader = _reader(name, group, q, mu)
     qs, mus = tuple(reader.coordinates[: len(q)]), tuple(reader.coordinates[len(q) :])
     hamiltonian = reader.scalar(H, "H")
     summands = {key: reader.scalar(part, f"part {key}") for key, part in (parts or {}).items()}
@@ -114,6 +105,22 @@ def HamiltonianSiteScene(
     check_problem(with_frozen_neighbours(problem), {})
     _check_parts(problem, hamiltonian)
     return problem
+
+
+def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
+    """Return the object that reads the formulas of a scene; raise SceneError for a wrong group or a wrong
+    number of coordinates."""
+    check_group(name, group)
+    group.require(Coadjoint, where=name)
+    reader = Reader(name, [*q, *mu])
+    if (len(q), len(mu)) != (group.size, group.dim):
+        raise SceneError(
+            f"{len(q)} coordinates of q and {len(mu)} of mu",
+            where=name,
+            expected=f"{group.size} and {group.dim} coordinates for {group.name}",
+            hint='use group.point("q") and group.dual("mu")',
+        )
+    return reader
 
 
 def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
