@@ -4,8 +4,8 @@ the compiler evaluates.
 A scene file imports its names from this package:
 ``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``. Scenes with
 large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and ``full``; chains
-and lattices use ``SiteScene``, ``neighbour``, ``left`` and ``right``. Semilinear partial differential
-equations use ``SemilinearScene`` and ``Dx``.
+and lattices use ``SiteScene`` or ``HamiltonianSiteScene``, with ``neighbour``, ``left`` and ``right``.
+Semilinear partial differential equations use ``SemilinearScene`` and ``Dx``.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from codegen.scene.derivative import Dx as Dx
     from codegen.scene.field_scene import FieldScene as FieldScene
     from codegen.scene.hamiltonian_scene import HamiltonianScene as HamiltonianScene
+    from codegen.scene.hamiltonian_sites import Bond as Bond
+    from codegen.scene.hamiltonian_sites import HamiltonianSiteScene as HamiltonianSiteScene
     from codegen.scene.large_linear_scene import LargeLinearScene as LargeLinearScene
     from codegen.scene.linear_scene import LinearScene as LinearScene
     from codegen.scene.matrix_formula import banded as banded
@@ -38,9 +40,11 @@ if TYPE_CHECKING:
     from codegen.scene.tables import table as table
 
 __all__ = [
+    "Bond",
     "Dx",
     "FieldScene",
     "HamiltonianScene",
+    "HamiltonianSiteScene",
     "LargeLinearScene",
     "LinearScene",
     "Pair",
@@ -64,6 +68,7 @@ lazy(
     derivative=("Dx",),
     field_scene=("FieldScene",),
     hamiltonian_scene=("HamiltonianScene",),
+    hamiltonian_sites=("Bond", "HamiltonianSiteScene"),
     large_linear_scene=("LargeLinearScene",),
     linear_scene=("LinearScene",),
     matrix_formula=("banded", "full", "unknown"),
