@@ -204,14 +204,14 @@ class CompiledSpectral(Spectral):
         """Return the transforms of NumPy as functions of C."""
         import numpy as np
 
-        def view(pointer: Any, n: int) -> Floats:
+        def doubles(pointer: Any, n: int) -> Floats:
             return np.frombuffer(self._ffi.buffer(pointer, 8 * n), dtype=np.float64)
 
         def forward(n: int, values: Any, spectrum: Any, context: Any) -> None:
-            view(spectrum, n + 2)[:] = np.fft.rfft(view(values, n)).view(np.float64)
+            doubles(spectrum, n + 2)[:] = np.fft.rfft(doubles(values, n)).view(np.float64)
 
         def backward(n: int, spectrum: Any, values: Any, context: Any) -> None:
-            view(values, n)[:] = np.fft.irfft(view(spectrum, n + 2).view(np.complex128), n)
+            doubles(values, n)[:] = np.fft.irfft(doubles(spectrum, n + 2).view(np.complex128), n)
 
         kinds = ("size_t, const double *, double *, void *", "size_t, double *, double *, void *")
         first, second = (f"void({kind})" for kind in kinds)

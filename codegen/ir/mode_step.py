@@ -222,8 +222,8 @@ class ModeStep:
     @property
     def factors(self) -> tuple[Factor, ...]:
         """The functions of z that the tables contain, each once, sorted."""
-        found = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
-        return tuple(sorted(found, key=lambda f: f.order))
+        factors = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
+        return tuple(sorted(factors, key=lambda f: f.order))
 
     @property
     def backwards(self) -> bool:

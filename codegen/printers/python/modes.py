@@ -20,7 +20,7 @@ NUMPY = {"atan": "arctan", "asin": "arcsin", "acos": "arccos", "atan2": "arctan2
 
 _OWN = """
     np prepare run n h t steps tables completed status spectrum result point k z re im period modes mask
-    values points transform back given
+    values points derivatives grid period initial
 """
 
 OWN = RESERVED | frozenset(_OWN.split())
@@ -64,6 +64,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "functions": _functions(step),
         "formulas": write.lines(step.nonlinearity.formulas),
         "inner": [(order, names[s]) for order, s in step.nonlinearity.inner],
+        "orders": sorted({*step.nonlinearity.outer, *(m for m, _ in step.nonlinearity.inner)} - {0}),
         "kept": step.nonlinearity.kept,
         "evaluations": [(_sum(write, e.point), write.time(i, "t")) for i, e in enumerate(step.evaluations)],
         "result": _sum(write, step.result),
