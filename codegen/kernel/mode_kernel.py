@@ -65,8 +65,6 @@ from codegen.scene.semilinear import Semilinear, model_of
 Sum: TypeAlias = dict[int, Multiplier]
 """A linear combination of the old state and of values of N, by source."""
 
-FAMILIES = "explicit methods of the families rkmk, cf and cg are possible, for example cf:cf4 or rkmk:rk4"
-
 ZERO = Number.rational(0)
 
 
@@ -126,8 +124,10 @@ def mode_method(scene: Problem, method: Method) -> ModeMethod:
 
 
 def _refused(scene: Problem, what: str) -> MethodError:
+    """Return the error for a method whose step is not a sequence of explicit affine maps."""
+    hint = "explicit methods of the families rkmk, cf and cg are possible, for example cf:cf4"
     return MethodError(
-        f"{what} on a semilinear scene", where=scene.name, expected="an explicit method", hint=FAMILIES
+        f"{what} on a semilinear scene", where=scene.name, expected="an explicit method", hint=hint
     )
 
 
