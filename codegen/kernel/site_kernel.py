@@ -2,12 +2,13 @@
 
 All operations of a step program act on one site alone, except the field, which reads the states of
 neighbours. The point at which the field is evaluated must therefore be known at all sites before the
-evaluation: it is stored by one sweep, and the next sweep evaluates the field. Sums are never stored, because
-adding stored terms again costs less than storing the sum.
+evaluation: it is stored by one sweep, and the next sweep evaluates the field. A sum is stored if one of its
+terms then need not be stored. Later sweeps compute all other sums again from stored terms.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
@@ -35,7 +36,7 @@ from codegen.scene.site_scene import with_frozen_neighbours
 from codegen.scene.sites import Sites, offset_text
 
 RECOMPUTED = (Linear, Zero, Advance)
-"""Operations whose results are computed again in each sweep that reads them."""
+"""Operations whose results are computed again in each sweep that reads them, except stored sums."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
@@ -107,6 +108,7 @@ class _Planner:
     sweep_of: dict[Var, int] = field(default_factory=dict)
     makers: dict[Var, Assign] = field(default_factory=dict)
     rows: dict[Var, tuple[Row, ...]] = field(default_factory=dict)
+    sums: set[Var] = field(default_factory=set)
 
     def step(self) -> SiteStep:
         """Return the step."""
@@ -144,6 +146,27 @@ class _Planner:
             for target in assign.targets:
                 self.sweep_of[target] = max(places, default=0)
                 self.makers[target] = assign
+        self._choose_sums()
+
+    def _choose_sums(self) -> None:
+        """Find the sums to store: those that are the only reader of a term which the same sweep computes.
+
+        Without the sum, this term would be stored. A 2N scheme then stores one element of the Lie algebra for
+        any number of stages.
+        """
+        readers = Counter(arg for assign in self.program.assigns() for arg in assign.args)
+        for assign in self.program.assigns():
+            if not isinstance(assign.operation, Linear):
+                continue
+            (target,) = assign.targets
+            if any(
+                readers[arg] == 1
+                and self.sweep_of[arg] == self.sweep_of[target]
+                and arg in self.makers
+                and not isinstance(self.makers[arg].operation, RECOMPUTED)
+                for arg in assign.args
+            ):
+                self.sums.add(target)
 
     def _require(self, number: int, need: _Needs, roots: Iterable[Var]) -> None:
         """Find the variables that a sweep needs for ``roots``."""
@@ -153,7 +176,7 @@ class _Planner:
             if var in need.computed:
                 continue
             maker = self.makers.get(var)
-            again = maker is not None and isinstance(maker.operation, RECOMPUTED)
+            again = maker is not None and isinstance(maker.operation, RECOMPUTED) and var not in self.sums
             if maker is None or (self.sweep_of[var] < number and not again):
                 need.loaded.add(var)
                 continue
