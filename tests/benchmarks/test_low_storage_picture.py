@@ -27,7 +27,7 @@ def test_each_problem_has_two_panels_with_every_method():
     labels = [f"cf:{name}" for name in (*picture.FOUND, *picture.PUBLISHED)]
     problems = {title: dict.fromkeys(labels, RUNS) for title in ("first", "second")}
     text = picture.drawn(problems)
-    assert text.count("cf5_s7: 20 evaluations, 2 µs, error 1.0e-2") == 4
+    assert text.count("<title>cf5_s7: 20 evaluations, 2 µs, error 0.01<") == 4
     assert text.count(">first<") == text.count(">second<") == 1
     kept = picture.PICTURE.read_text(encoding="utf-8")
     assert all(f">{label.partition(':')[2]}<" in kept for label in labels)
