@@ -15,10 +15,11 @@ from itertools import combinations
 from random import Random
 
 import numpy as np
-from sympy import Matrix, eye, symbols, zeros
+from sympy import Matrix, Symbol, eye, symbols, zeros
 
 from codegen.groups import SU, Columns, FactorwiseAction, Product
 from codegen.scene import SiteScene, neighbour
+from codegen.scene.figure import LatticeMeans, Run
 from codegen.scenes.wilson_flow import full, generator
 
 DIMENSION = 4
@@ -69,3 +70,14 @@ scene = SiteScene(
     y0=[*Matrix.vstack(eye(3), zeros(3, 3))] * DIMENSION,
     span=(0, 1),
 )
+figures = [
+    LatticeMeans(
+        name="energy",
+        title="Density of the action along the Wilson flow",
+        axis="t² E(t)",
+        quantities={"t² E": Symbol("t") ** 2 * energy},
+        shape=(4,) * DIMENSION,
+        start=start,
+        runs=(Run("cf:luescher3", 0.02, 100, stride=2),),
+    )
+]

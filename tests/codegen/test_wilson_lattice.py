@@ -152,6 +152,5 @@ def test_the_energy_on_a_lattice_of_256_sites_has_its_richardson_reference(metho
     order = lattice.artifact.manifest["order"]
     coarse, fine = (energies(lattice, states, n) for n in (steps // 2, steps))
     reference = fine[0] + (fine[0] - coarse[0]) / (2**order - 1)
-    print(method, fine[0], reference, fine[0] - reference, unitarity(fine[1]))
     assert np.abs(fine[0] - reference).max() < 1e-8
     assert unitarity(fine[1]) < 1e-13
