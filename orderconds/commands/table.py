@@ -68,11 +68,11 @@ def command(methods: tuple[str, ...], write: str | None, against: str | None, as
 
 def _print_methods(methods: Sequence[str], as_json: bool) -> int:
     """Print the order and the Butcher tableau of each method."""
-    found = [butcher(method) for method in methods]
+    records = [butcher(method) for method in methods]
     if as_json:
-        screen.print_json(found)
+        screen.print_json(records)
         return 0
-    for number, record in enumerate(found):
+    for number, record in enumerate(records):
         order = f"order {record['order']} ({record['certificate']})"
         click.echo(("\n" if number else "") + f"{record['method']}, {order}")
         for line in record["tableau"]:
