@@ -16,8 +16,7 @@ from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteStep, Sweep
 from codegen.run.batch import VECTORISED, called_by
 from codegen.run.language import Assign, Call, For, Function, If, Return, Statement
 from codegen.run.plan import STEP, Plan, symbols_of
-from codegen.run.sites import (
-    ADVANCE,
+from codegen.run.site_terms import (
     ARRAYS,
     BAD,
     COLUMNS,
@@ -27,11 +26,16 @@ from codegen.run.sites import (
     SITE,
     SITES,
     WHOLE,
+    shape_of,
+)
+from codegen.run.sites import (
+    ABOUT_STEP,
+    ADVANCE,
+    RETURNED,
     advance_parameters,
     checked,
     complete,
     first_site,
-    shape_of,
     split,
 )
 from codegen.run.terms import Kind, Term, count, own, select, value, whole
@@ -226,6 +230,4 @@ def _advance(plan: Plan, step: SiteStep, parts: list[_Part]) -> Function:
         else:
             given = (WHOLE, SITES, old if number == 0 else new, new, *scalars)
             body.append(Call(f"part_{flow.sweep}", given, (BAD,)))
-    about = "One step of all sites; return the number of sites whose new state is not finite."
-    parameters = advance_parameters(plan, step)
-    return Function(ADVANCE, about, parameters, (*body, Return(BAD)), Kind.COUNT)
+    return Function(ADVANCE, ABOUT_STEP, advance_parameters(plan, step), (*body, RETURNED), Kind.STATUS)
