@@ -163,9 +163,7 @@ class SiteStep:
         lines = []
         for number, sweep in enumerate(self.sweeps, 1):
             lines.append(f"loop {number}: {sweep.about}")
-            lines.append(
-                f"  reads {len(sweep.rows_read)} and stores {len(set(sweep.stores))} numbers for each site"
-            )
+            lines.append(f"  reads {len(sweep.rows_read)} and stores {_stored(sweep)} numbers for each site")
         for block in self.blocks:
             loops = f"loops {block.first + 1} to {block.last + 1} are"
             if block.first == block.last:
@@ -187,7 +185,12 @@ def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     listed = list(sweeps)
     # The pairs of one set contain each site once.
     read = sum(len(sweep.rows_read) for sweep in listed)
-    return read, sum(len({*sweep.stores, *sweep.measured}) for sweep in listed)
+    return read, sum(map(_stored, listed))
+
+
+def _stored(sweep: Sweep) -> int:
+    """Return the number of rows that a sweep changes."""
+    return len({*sweep.stores, *sweep.measured})
 
 
 def _moved(sweeps: Iterable[Sweep]) -> str:

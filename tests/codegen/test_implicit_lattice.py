@@ -125,7 +125,7 @@ def test_large_rotations_use_the_complete_functions():
 
 
 def test_other_solvers_are_refused():
-    with pytest.raises(MethodError, match="simplified Newton"):
+    with pytest.raises(MethodError, match="first order in h for a chain or lattice; expected fixed point"):
         emit(oscillators(), "rk:gauss1", target="c", solver="simplified-newton")
 
 
