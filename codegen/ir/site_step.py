@@ -147,7 +147,7 @@ class SiteStep:
                 yield from kernel.expressions()
 
     @property
-    def once(self) -> tuple[Sweep, ...]:
+    def unrepeated(self) -> tuple[Sweep, ...]:
         """The sweeps that a step executes outside of its blocks, in order."""
         repeated = {k for block in self.blocks for k in range(block.first, block.last + 1)}
         if self.flows:
@@ -173,7 +173,7 @@ class SiteStep:
         if self.flows:
             lines.append(f"a step: {len(self.flows)} passes through these loops")
         lines.append(f"workspace: {self.workspace} numbers for each site, {BYTES * self.workspace} bytes")
-        moved = f"memory traffic: {_moved(self.once)} for each site and step"
+        moved = f"memory traffic: {_moved(self.unrepeated)} for each site and step"
         for block in self.blocks:
             moved += f", and {_moved(self.repeated(block))} in each sweep of {block.label}"
         return [*lines, moved]

@@ -96,7 +96,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 
 def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
     """Return the number of each operation for one site, in a step and in one iteration of each block."""
-    parts = {STEP: step.once, **{block.label: step.repeated(block) for block in step.blocks}}
+    parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
     counted: dict[str, dict[str, int]] = {}
     for key, sweeps in parts.items():
         counted[key] = {}

@@ -168,8 +168,8 @@ class Planner:
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]
-            made = {v for need in repeated for v in need.computed}
-            for var in {v for need in repeated for v in (need.loaded | need.around)} - made:
+            defined = {v for need in repeated for v in need.computed}
+            for var in {v for need in repeated for v in (need.loaded | need.around)} - defined:
                 # The next iteration reads these values again, so their rows stay occupied until the block
                 # ends.
                 used[var] = max(used[var], block.last + 1)
