@@ -93,7 +93,7 @@ RETURNED = Return(select(BAD > 0, code(NOT_FINITE), code(OK)))
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
     """Return the functions of a method without flows, callees first."""
-    loops = [_Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
+    loops = [Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
     listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
     listed += measures(step)
     return complete(plan, step, [*listed, _advance(plan, step, loops)])
@@ -136,18 +136,19 @@ def checked(values: Sequence[Term]) -> list[Statement]:
 
 
 @dataclass(frozen=True)
-class _Loop:
-    """The functions of one sweep."""
+class Loop:
+    """The functions of one sweep. If ``tested`` is false, the new values at a site may be infinite or NaN."""
 
     plan: Plan
     step: SiteStep
     own: Sweep
     index: int
+    tested: bool = True
 
     @property
     def last(self) -> bool:
-        """True if the sweep stores the new state."""
-        return any(row.array == RESULT for row in self.own.stores)
+        """True if the sweep stores the new state and tests whether it is finite."""
+        return self.tested and any(row.array == RESULT for row in self.own.stores)
 
     @property
     def near(self) -> bool:
@@ -196,7 +197,7 @@ class _Loop:
         body, images = self._images(ends)
         tested = []
         for row, end in zip(self.own.stores, [*images, *ends[len(images) :]], strict=True):
-            if row.array == RESULT:
+            if self.last and row.array == RESULT:
                 name = own(f"new {self.plan.symbols[row.number]}")
                 body.append(Assign(name, end))
                 tested.append(name)
@@ -389,7 +390,7 @@ def _moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term |
     return there, select(there, moved, wrapped)
 
 
-def _advance(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
+def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
     """Return the function that makes one step. It does not test the shape of the lattice."""
     body: list[Statement] = []
     ends = {block.last: (number, block) for number, block in enumerate(step.blocks, 1)}
