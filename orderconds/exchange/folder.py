@@ -18,10 +18,10 @@ from orderconds.exchange.arrays import MATRICES, ROWS
 from orderconds.tableau.file import KEYS, bytes_of, meant_as_tableau
 
 SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h")))
-"""The suffixes of files that may hold a tableau."""
+"""The suffixes of files that may contain a tableau."""
 
 EXCUSES = "DECIMAL"
-"""The name of a file that lists the tableaux of its folder whose orders need no proof."""
+"""The name of a file that lists tableaux of the same folder. The orders of these tableaux need no proof."""
 
 NO_KEY = "no key of a tableau (family, A, b, ...)"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)

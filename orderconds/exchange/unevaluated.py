@@ -137,8 +137,8 @@ class UnevaluatedNumbers:
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(
-                "a coefficient that is too long without named numbers",
-                expected="format json, which keeps names",
+                "a coefficient that is too long if its named numbers are replaced by their formulas",
+                expected="format json, which keeps the names of numbers",
             )
         return text
 

@@ -52,8 +52,9 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
         if rows is not None:
             break
     else:
+        of_order = "" if order is None else f" of order {order}"
         raise TableauError(
-            f"no continuous extension of order {order}: the stages of {tableau.name} do not determine one",
+            f"the stages of {tableau.name} give no continuous extension{of_order}",
             where=where,
             expected="a lower order, or a method with more stages",
         )

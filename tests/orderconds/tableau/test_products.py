@@ -193,7 +193,7 @@ MALFORMED = {
     "an open bracket": (MAGNUS + 'exponents = [{ "[1,2" = 1 }]\n', "a missing ']'", "a bracket"),
     "no comma": (MAGNUS + 'exponents = [{ "[1 2]" = 1 }]\n', "a missing ','", "a bracket"),
     "an empty term": (MAGNUS + 'exponents = [{ "" = 1 }]\n', "an incomplete term", "a node"),
-    "an empty bracket": (MAGNUS + 'exponents = [{ "[,1]" = 1 }]\n', "',' in place of a term", "a node"),
+    "an empty bracket": (MAGNUS + 'exponents = [{ "[,1]" = 1 }]\n', "',' where a term must begin", "a node"),
     "more than a term": (MAGNUS + 'exponents = [{ "1 2" = 1 }]\n', "'2' after a complete term", "a node"),
     "another sign": (MAGNUS + 'exponents = [{ "1+2" = 1 }]\n', "'+'", "a node"),
     "brackets too deep": (
