@@ -1,12 +1,12 @@
 """The order of the error estimate of an embedded method, compared with the order of the error.
 
 The estimate is the difference between the results of the two rows of weights of a tableau: the weights of the
-method and of the embedded method. If both rows have the same leading error term, the estimate has a higher order than the local error. It is then
-called blind. RKMK methods with a small cut-off are an example: the same brackets are missing in both rows. If
-the rows have different orders, the estimate can be blind only if f does not depend on the state, because both
-rows may then give the same result. For rows of the same order, and for such an f, the orders of the estimate
-and of the local error are computed from very short steps in 100 digits. The local error is measured by the
-difference between one step of size h and two steps of size h/2.
+method and of the embedded method. If both rows have the same leading error term, the estimate has a higher
+order than the local error. It is then called blind. RKMK methods with a small cut-off are an example: the
+same brackets are missing in both rows. If the rows have different orders, the estimate can be blind only if f
+does not depend on the state, because both rows may then give the same result. For rows of the same order, and
+for such an f, the orders of the estimate and of the local error are computed from very short steps in 100
+digits. The local error is measured by the difference between one step of size h and two steps of size h/2.
 """
 
 from __future__ import annotations

@@ -149,9 +149,9 @@ class Method:
         if not self.kind.fixed_stages:
             # Symplectic and variational methods conserve their modified energy for steps of equal size only.
             raise MethodError(
-                f"no error estimate for {self.label}: its stages depend on the weights, so an embedded method "
-                "cannot use them; with steps of varying size the method would also lose what it preserves "
-                "over long times",
+                f"no error estimate for {self.label}: its stages depend on the weights, so an embedded "
+                "method cannot use them; with steps of varying size the method would also lose what it "
+                "preserves over long times",
                 expected=f"a method of {', '.join(with_estimate())}",
             )
         if self.kind.minimal_brackets and self.cutoff is None:

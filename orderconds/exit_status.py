@@ -145,8 +145,8 @@ def _reported(error: BaseException) -> tuple[int, str]:
     text = " ".join(str(error).split())
     shown = text if len(text) <= MAX_TEXT else text[:MAX_TEXT] + " ..."
     return INTERNAL, (
-        f"internal error: {type(error).__name__}{': ' * bool(shown)}{shown}; please report this error with the "
-        "command, the input, and the traceback that ORDERCONDS_TRACEBACK=1 shows"
+        f"internal error: {type(error).__name__}{': ' * bool(shown)}{shown}; please report this error with "
+        "the command, the input, and the traceback that ORDERCONDS_TRACEBACK=1 shows"
     )
 
 

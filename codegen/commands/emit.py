@@ -60,7 +60,8 @@ if TYPE_CHECKING:
 @click.option(
     "--adaptive",
     is_flag=True,
-    help="Also emit a function with step-size control; the embedded method of the tableau estimates the error.",
+    help="Also emit a function with step-size control; the embedded method of the tableau estimates the "
+    "error.",
 )
 @click.option(
     "--integrate",

@@ -79,8 +79,8 @@ WIDTH = 200
 @click.option(
     "--require-claims",
     is_flag=True,
-    help="Exit with status 1 if a tableau claims no order in the checked families. Exit with status 2 if a file "
-    "below a directory resembles a tableau but cannot be read as a tableau.",
+    help="Exit with status 1 if a tableau claims no order in the checked families. Exit with status 2 if a "
+    "file below a directory resembles a tableau but cannot be read as a tableau.",
 )
 @click.option(
     "--skip-others",

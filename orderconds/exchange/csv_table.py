@@ -97,7 +97,7 @@ def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
         raise TableauError(
             f"{len(weights)} rows of weights",
             where=where,
-            expected="one line with c_i and row i of A for each stage, then a line with the weights b, then at "
-            "most one line with embedded weights; lines of weights begin with an empty cell",
+            expected="one line with c_i and row i of A for each stage, then a line with the weights b, "
+            "then at most one line with embedded weights; lines of weights begin with an empty cell",
         )
     return butcher(stages, weights)

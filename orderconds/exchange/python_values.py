@@ -47,8 +47,8 @@ class Array:
 
 @dataclass(frozen=True)
 class Computed:
-    """A value that only execution of the module could compute. ``reason`` names the expression that the reader
-    cannot evaluate, and ``line`` is the line of the expression."""
+    """A value that only execution of the module could compute. ``reason`` names the expression that the
+    reader cannot evaluate, and ``line`` is the line of the expression."""
 
     reason: str
     line: int

@@ -52,7 +52,8 @@ class MagnusFamily(WordFamily):
     )
     formats = ("magnus",)
     symbols: ClassVar[Mapping[str, str]] = {
-        "omega": r"$\omega_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in $\Omega$, with $A_i = h A(c_i h)$",
+        "omega": r"$\omega_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in $\Omega$, with $A_i = h "
+        r"A(c_i h)$",
         "c": r"$c_i$ are the nodes",
         "b": r"$b_i$ are the coefficients of $A_i = h A(c_i h)$ in the first exponent",
         "phi": r"$\phi_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in the second exponent",

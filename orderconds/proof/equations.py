@@ -139,8 +139,8 @@ def equations(tableau: Tableau) -> Equations:
             )
         if proof.order % 2:
             raise NotProved(
-                f'reduction = "symmetric": the order of a symmetric method is even, but [proof] states order = '
-                f"{proof.order}"
+                f'reduction = "symmetric": the order of a symmetric method is even, but [proof] states '
+                f"order = {proof.order}"
             )
         own, named = families.get(tableau.family), families.get(proof.conditions)
         family = named if own.symmetric_family(tableau.method) is None else own

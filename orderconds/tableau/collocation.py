@@ -12,10 +12,11 @@ mean                the mean of two of these matrices (IIID: IIIC and IIIC*; III
 ==================  ======================================================================================
 
 Two kinds, Radau IIA and Lobatto IIIA, have an embedded method for step-size control. The embedded weights are
-those of the quadrature of order s - 1 on all nodes except one. The omitted node is the last node for Radau IIA and the (first) middle
-node for Lobatto IIIA. The update and the embedded update differ by a multiple of the divided difference of
-the stages. Radau IIA and Lobatto IIIA are collocation methods. Their stages, and therefore this error
-estimate, stay accurate for stiff equations. The stages of methods of low stage order lose accuracy.
+those of the quadrature of order s - 1 on all nodes except one. The omitted node is the last node for Radau
+IIA and the (first) middle node for Lobatto IIIA. The update and the embedded update differ by a multiple of
+the divided difference of the stages. Radau IIA and Lobatto IIIA are collocation methods. Their stages, and
+therefore this error estimate, stay accurate for stiff equations. The stages of methods of low stage order
+lose accuracy.
 
 All coefficients are computed: the nodes are algebraic numbers, and the other coefficients follow from them by
 rational arithmetic.

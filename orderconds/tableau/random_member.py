@@ -26,8 +26,8 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""The number of bits of a random number. The degree D in the bound above is far below 2^40, because the size of
-values is bounded."""
+"""The number of bits of a random number. The degree D in the bound above is far below 2^40, because the size
+of values is bounded."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """The errors that are raised if a random method cannot be evaluated, because numbers grow too large or a

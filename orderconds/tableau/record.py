@@ -344,8 +344,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that the keys define. The order of an embedded method is computed. It is the order of
-    the embedded method on vector spaces."""
+    """Return the tableau that the keys define. The order of an embedded method is computed. It is the order
+    of the embedded method on vector spaces."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:

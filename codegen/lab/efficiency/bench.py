@@ -123,10 +123,10 @@ def bench(
     """Return a bench of methods and peers on a scene.
 
     If no methods are named, the default methods for the scene are used (:func:`methods_for`). The methods in
-    ``adaptive`` run with step-size control by their embedded methods. ``forms`` selects classical forms of the
-    equations by their keys, for peers and for methods that integrate coordinates. By default all forms are
-    measured. Names and options are checked before the first measurement (InputError). If a method cannot be
-    emitted for the scene, its only row contains the reason.
+    ``adaptive`` run with step-size control by their embedded methods. ``forms`` selects classical forms of
+    the equations by their keys, for peers and for methods that integrate coordinates. By default all forms
+    are measured. Names and options are checked before the first measurement (InputError). If a method cannot
+    be emitted for the scene, its only row contains the reason.
     """
     for target in targets:
         if target not in names():

@@ -1,4 +1,5 @@
-"""Embedded methods: their stages are the method's own, their orders are computed, and equal rows are refused."""
+"""Embedded methods: their stages are the method's own, their orders are computed, and equal rows are
+refused."""
 
 from __future__ import annotations
 
