@@ -190,7 +190,7 @@ def _matrix(value: object) -> MatrixFormula:
     if isinstance(value, MatrixFormula):
         return value
     raise SceneError(
-        f"{type(value).__name__} {str(value)[:40]} in a formula of matrices",
+        f"{str(value)[:40]} of type {type(value).__name__} in a formula of matrices",
         expected="a matrix",
         hint="write constant matrices as banded(n, {...}) or full(n, m, rows)",
     )
@@ -198,7 +198,9 @@ def _matrix(value: object) -> MatrixFormula:
 
 def _scalar(value: Coefficient) -> Coefficient:
     if isinstance(value, MatrixFormula):
-        raise SceneError("a matrix * a matrix", expected="a scalar", hint="write the product as A @ B")
+        raise SceneError(
+            "a product of two matrices with *", expected="a scalar factor", hint="write the product as A @ B"
+        )
     return value
 
 

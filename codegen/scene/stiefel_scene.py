@@ -115,7 +115,7 @@ def _check(problem: Problem, field: MatrixField) -> None:
     error = _largest(_gram(start, start, field.columns), unit=True)
     if not error <= TOLERANCE:
         raise SceneError(
-            f"the columns of y0 are not orthonormal: the error of y0^T y0 = 1 is {error:.1e}",
+            f"the columns of y0 are not orthonormal: the largest entry of y0^T y0 - 1 is {error:.1e}",
             where=problem.name,
             expected="orthonormal columns",
         )
