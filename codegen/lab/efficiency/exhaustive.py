@@ -71,8 +71,6 @@ class Exhausted:
         """Return the numbers of recipes in words."""
         counts = (
             f"{self.raced} recipes measured, {self.excluded} excluded because their predicted time is above "
-        )
-        counts += (
             f"the bound, {self.refused} cannot be compiled, {self.copies} have the code of another recipe"
         )
         if math.isfinite(self.nearest):

@@ -288,7 +288,10 @@ class TestAReaderOfAScene:
             def velocity(self, d, group, x, y):
                 return (d.rational(0), d.rational(0))
 
-        with pytest.raises(SceneError, match=r"act\[0\] of rigid motion is .*, y for the identity"):
+        with pytest.raises(
+            SceneError,
+            match=r"act\[0\] of the action rigid motion is .*, because the identity must not move y",
+        ):
             scene(SE2(), Shifted(), 2)
 
     @pytest.mark.parametrize("make", [DiagonalAction, FactorwiseAction])
