@@ -137,10 +137,10 @@ def command(
     order. A file claims an order with `order = 4`, or with `rk = 4` in the table `claims`. If a limit ends
     the computation, the computed order is a lower bound.
 
-    Files below a directory that contain no tableau are skipped, and their names are printed. A file is
-    plainly other data if it contains no array of a tableau. Examples are a CSV file whose header names other
-    columns, a JSON file without a matrix, a Python module that assigns no matrix A and no list b, and a NumPy
-    archive with other names.
+    Files below a directory that contain no tableau are skipped, and their names are printed. With
+    --require-claims, such a file is skipped only if it contains no array that resembles an array of a
+    tableau. Examples are a CSV file whose header names other columns, a JSON file without a matrix, a Python
+    module that assigns no matrix A and no list b, and a NumPy archive with other names.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
