@@ -267,7 +267,7 @@ class _Change:
         )
 
     def key(self) -> str:
-        """Return the key."""
+        """Return the key of the form, such as ``quaternion`` or ``body-matrix``."""
         chosen = [leaf for leaf in self.leaves if leaf.cover is not None] or self.leaves
         short = next(leaf.noun for leaf in chosen if not leaf.group.abelian).rpartition(" ")[2]
         return short if self.covered else f"body-{short}"

@@ -33,10 +33,9 @@ MOST_ROWS = 8
 These formulas are needed by measurements, and by methods in coordinates; their length grows as n^3."""
 
 TOLERANCE = 1e-10
-"""The largest error of the orthonormality of y0.
+"""The largest permitted entry of y0^T y0 - 1.
 
-For the error of the tangency of the velocity V, the limit is TOLERANCE times n (1 + |V|) with the largest
-entry |V|."""
+The largest permitted entry of X^T V + V^T X, for the velocity V at X, is TOLERANCE n (1 + max |V_ij|)."""
 
 
 def StiefelScene(

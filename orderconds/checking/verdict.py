@@ -1,4 +1,4 @@
-"""``check``: the orders of a tableau in each family that it claims, compared with its claims."""
+"""``check``: compute the orders of a tableau and compare them with the orders that its file claims."""
 
 from __future__ import annotations
 

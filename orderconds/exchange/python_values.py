@@ -119,7 +119,7 @@ class Values:
         shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
         for name, value in self.known.items():
             if name in names or id(value) in shared:
-                self.known[name] = Computed("a value that another statement may change", line)
+                self.known[name] = Computed("another statement may change the value", line)
 
     def _value(self, node: ast.expr) -> Value:
         if isinstance(node, ast.List | ast.Tuple):
