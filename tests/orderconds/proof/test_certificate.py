@@ -90,7 +90,7 @@ REFUSED: dict[str, tuple[str, str]] = {
     ),
     "not low-storage": (
         kutta3(ZEROS, 'conditions = "rk"\norder = 3\nreduction = "low-storage"\npins = ["x"]'),
-        "no table \\[low_storage\\]",
+        "no table [low_storage]",
     ),
     "low-storage in a family without the theorem": (
         text("carpenter_kennedy4").replace('conditions = "rk"', 'conditions = "cf"'),
