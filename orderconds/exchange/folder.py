@@ -1,4 +1,4 @@
-"""Tableau files among other files: which files of a folder hold a tableau, and why the others are skipped."""
+"""Tableau files among other files: which files of a folder contain a tableau, and why other files are skipped."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class Reason:
 
 
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
-    """Return why a file holds no tableau, or an empty text if it is to be read as a tableau.
+    """Return why a file contains no tableau, or an empty text if the file must be read as a tableau.
 
     A file that is damaged is to be read, so that its error is reported. If ``strict`` is true, a file that is
     not plainly other data is to be read as well.

@@ -1,6 +1,6 @@
 """Unevaluated coefficients: the expressions of a file, with every name replaced by its definition.
 
-Tables and arrays cannot hold named numbers. Rounded decimals must keep their digits, which a computed ball
+Tables and arrays cannot contain named numbers. Rounded decimals must keep their digits, which a computed ball
 would lose. The coefficients of the method are therefore expressions: those of the file or, for low-storage
 schemes, sums and products of them. Only operations with the numbers 0 and 1 are simplified.
 """
