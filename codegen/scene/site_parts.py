@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 class Pair:
     """The interaction of the sites i and i + offset.
 
-    ``first`` are the generators of site i and ``second`` those of the other site. Both are formulas in the
-    coordinates of both sites.
+    ``first`` are the generators of site i and ``second`` the generators of the other site. All
+    generators are formulas in the coordinates of both sites.
     """
 
     offset: Sequence[int]
@@ -129,14 +129,16 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
 
 
 def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols at a sample point; the next sample point is the neighbour's state."""
+    """Return the values of all symbols at a sample point. The state of the neighbour is the next sample
+    point."""
     point = dict(orbit.points[number])
     other = orbit.points[(number + 1) % len(orbit.points)]
     return point | {s: other[own] for s, own in zip(partner, scene.symbols, strict=bool(partner))}
 
 
 def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
-    """Compare the velocity by all parts with that by f, with all neighbours and without some neighbours."""
+    """Compare the sum of the velocities of all parts with the velocity of f: with all neighbours, and without
+    some of the neighbours."""
     axes = [part.axis for part in sites.parts if part.symbols]
     offsets = {*sites.offsets}
     for axis in axes:

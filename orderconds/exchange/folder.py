@@ -1,4 +1,5 @@
-"""Tableau files among other files: which files of a folder contain a tableau, and why other files are skipped."""
+"""Tableau files among other files: which files of a folder contain a tableau, and why other files are
+skipped."""
 
 from __future__ import annotations
 

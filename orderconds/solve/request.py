@@ -112,9 +112,7 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    # The limit applies to the order p - 1, because symmetric methods of even order p need only the conditions
-    # up to order p - 1.
-    refuse_too_many_trees(families.get(family), order - 1)
+    refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need no trees of order p.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,
