@@ -189,8 +189,11 @@ MALFORMED = {
         "the name '1a'",
         "a letter",
     ),
-    "a term twice": (MAGNUS + 'exponents = [{ "[1,2]" = 1, "[1, 2]" = 2 }]\n', "'[1,2]' occurs twice", "
-    ""once"),
+    "a term twice": (
+        MAGNUS + 'exponents = [{ "[1,2]" = 1, "[1, 2]" = 2 }]\n',
+        "'[1,2]' occurs twice",
+        "once",
+    ),
     "an open bracket": (MAGNUS + 'exponents = [{ "[1,2" = 1 }]\n', "a missing ']'", "a bracket"),
     "no comma": (MAGNUS + 'exponents = [{ "[1 2]" = 1 }]\n', "a missing ','", "a bracket"),
     "an empty term": (MAGNUS + 'exponents = [{ "" = 1 }]\n', "an incomplete term", "a node"),
