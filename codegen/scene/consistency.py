@@ -145,7 +145,7 @@ def check_equal(
                 raise SceneError(
                     f"{what}[{k}] is {orbit.text(x)} {_place(orbit, point)}",
                     where=orbit.name,
-                    expected=f"{orbit.text(y)}, which follows from {source}",
+                    expected=f"{orbit.text(y)}, from {source}",
                 )
 
 
