@@ -62,7 +62,7 @@ BROKEN_CLAIM = {
 
 REFUSED = {
     "cf4_embedded_equal": "embedded: an embedded method that is equal to the method itself",
-    "coefficient_code": 'b[1]: "\'" in',
+    "coefficient_code": 'b[1]: the character "\'" in',
     "coefficient_divides_by_zero": "b[1]: division by zero",
     "coefficient_explodes": "b[1]: a power of a power without parentheses in '9^9^9^9'",
     "embedded_equal": "the error estimate would always be zero",
