@@ -50,12 +50,12 @@ MATRICES = {
 }
 NILPOTENT = {"Heisenberg": Heisenberg(1)}
 GROUPS = CLOSED | MATRICES | NILPOTENT
-QUICK = ("SO(2)", "SE(3)", "SU(2)", "Heisenberg")
 
 ANGLES = tuple(turn + away for turn in (math.pi, 2 * math.pi) for away in (-1e-9, 0.0, 1e-9))
 SIZES = (1e-300, *ANGLES)
+QUICK = {("SO(2)", 1e-300), ("SU(2)", ANGLES[0]), ("SO(2)", ANGLES[-1]), ("Heisenberg", 1e-300)}
 CASES = [
-    pytest.param(name, size, id=f"{name}-{size}", marks=() if name in QUICK else pytest.mark.slow)
+    pytest.param(name, size, id=f"{name}-{size}", marks=() if (name, size) in QUICK else pytest.mark.slow)
     for name in GROUPS
     for size in SIZES
 ]
@@ -123,7 +123,8 @@ def test_exp_is_a_one_parameter_subgroup(name, size):
     assert near(group.mul(d, *parts), whole)
     assert near(group.mul(d, whole, group.exp(d, minus(x))), e)
     assert near(inverse(group, d, whole), group.exp(d, minus(x)))
-    assert near(tuple(a for _, a in group.laws(d, whole)), tuple(a * 0 for _, a in group.laws(d, whole)))
+    # Every invertible matrix is an element of GL(n), so the list of equations is empty there.
+    assert all(near((a,), (a * 0,)) for _, a in group.laws(d, whole))
 
 
 @each_sample
@@ -179,7 +180,8 @@ def test_operations_in_doubles_have_the_values_with_60_digits(name, size):
     expected = dict(operations(group, SHARP, *map(sharp, given)))
     for operation, found in operations(group, DOUBLES, *given):
         values = expected[operation]
-        scale = max(map(abs, values))
+        # At a turn some directions are in the kernel of dexp*, so the result can be much smaller than mu.
+        scale = max(map(abs, (*values, *(given[3] if operation == "dexpt" else ()))))
         allowed = UNITS * 2.0**-52 * (1 + size) * scale
         gap = max(abs(a - b) for a, b in zip(found, values, strict=True))
         assert gap <= allowed, (operation, float(gap / (2.0**-52 * (1 + size) * scale)))
