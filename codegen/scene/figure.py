@@ -70,7 +70,7 @@ class Figure:
     """A figure: its name in commands, its title, its caption, and the runs that it shows.
 
     ``source`` names the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run with which
-    the other runs are compared; figures that compare nothing draw it as a thin line.
+    the other runs are compared. A figure without comparisons shows the reference as a thin line.
     """
 
     name: str

@@ -27,7 +27,9 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 @click.option(
     "--check", "against", metavar="FILE", help="Exit with status 1 unless FILE contains the current table."
 )
-@click.option("--json", "as_json", is_flag=True, help="Print the rows on stdout as JSON and nothing else.")
+@click.option(
+    "--json", "as_json", is_flag=True, help="Print the rows of the table as JSON on stdout and nothing else."
+)
 def command(methods: tuple[str, ...], write: str | None, against: str | None, as_json: bool) -> int:
     """Print a line for each tableau of the library: its orders and, for the family of highest order, the
     number of exponentials, the norm of the leading error and the certificate. Exits with 1 if --check finds a

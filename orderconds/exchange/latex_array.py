@@ -137,7 +137,9 @@ def _butcher(body: str, where: str) -> Arrays:
         raise TableauError(
             "horizontal lines that do not separate A from b",
             where=where,
-            expected=r"rows c & A, \hline, a row & b; at most one row of embedded weights after it",
+            expected=r"a row c_i & a_i1 & ... for each stage, \hline, a row & b_1 & ..., and at most one "
+            r"row of "
+            "embedded weights",
         )
     return butcher(parts[0], [row[1:] for row in weights])
 
