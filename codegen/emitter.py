@@ -25,9 +25,9 @@ from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.compensation import compensated as add_carries
 from codegen.kernel.large_linear_kernel import large_linear_method
-from codegen.kernel.mode_kernel import ModeMethod, mode_method
+from codegen.kernel.mode_kernel import mode_method
 from codegen.kernel.operations import STEP, step_operations
-from codegen.kernel.site_kernel import SiteMethod, site_method
+from codegen.kernel.site_kernel import site_method
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
@@ -40,6 +40,7 @@ from codegen.printers import names as target_names
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
+from codegen.run.site_choice import site_choices
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.run_options import RunOptions, RunRequest, observed_run, refuse_with_carries
 from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
@@ -133,7 +134,8 @@ def compile_method(
     if adaptive:
         method = replace(method, adaptive=True)
     if scene.sites is not None or scene.semilinear is not None:
-        return _of_fields(scene, method, {"jacobian": jacobian, "a run to an end time": request.any})
+        refused = {"a Jacobian": jacobian, "a run to an end time": request.any}
+        return _of_fields(scene, method, known_solver(solver), refused)
     problem = problem_for(scene, method)
     if scene.matrices is not None and not lowering(method.family).in_coordinates:
         return _with_arrays(scene, method, jacobian, request)
@@ -231,7 +233,7 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
     return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
 
 
-def _of_fields(scene: Problem, method: Method, requests: Mapping[str, bool]) -> Compiled:
+def _of_fields(scene: Problem, method: Method, solver: str, requests: Mapping[str, bool]) -> Compiled:
     """Return a method on a chain or lattice, or on a semilinear equation."""
     requests = {"an error estimate": method.adaptive, **requests}
     refused = [what for what, wanted in requests.items() if wanted]
@@ -239,14 +241,15 @@ def _of_fields(scene: Problem, method: Method, requests: Mapping[str, bool]) -> 
         kind = "a chain or lattice" if scene.semilinear is None else "a semilinear equation"
         what = f"{refused[0]} for {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
-    own: SiteMethod | ModeMethod
-    if scene.semilinear is None:
-        own = site_method(scene, method)
-    else:
+    if scene.semilinear is not None:
         # A given cut-off truncates dexp^{-1}; without a cut-off the closed form is used.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
-        own = mode_method(scene, method)
-    return Compiled(scene, method, own.problem, own.lowered, own.program, own.trace, own.kernel)
+        modes = mode_method(scene, method)
+        return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
+    own = site_method(scene, method)
+    choices = site_choices(own.kernel, solver, scene.name)
+    parts = (own.problem, own.lowered, own.program, own.trace, own.kernel)
+    return Compiled(scene, method, *parts, solvers=choices, asked=solver)
 
 
 def work(kernel: Kernel) -> int:

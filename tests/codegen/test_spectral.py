@@ -361,7 +361,7 @@ def test_derivatives_have_a_largest_order():
         ("cf:cf43", {"adaptive": True}, "an error estimate"),
         ("rk:rk4", {}, "whose group is"),
         ("ambient:rk4", {}, "a semilinear equation"),
-        ("cf:cf4", {"jacobian": True}, "jacobian"),
+        ("cf:cf4", {"jacobian": True}, "a Jacobian"),
     ],
 )
 def test_a_method_that_cannot_be_compiled_is_refused(method, options, message):
