@@ -5,8 +5,8 @@
 The scene is examples/spectral/kuramoto_sivashinsky.py. Emitted C and emitted Python make steps of cf4, and
 ETDRK4 (Kassam and Trefethen 2005, coefficients by means over 32 points of a circle) is written here with
 NumPy. The CPU times of a step are medians of all turns. The share of the transforms is the CPU time of as
-many transforms as a step makes, divided by the time of the step. The errors are those at t = 10 for the same step
-size, as the largest difference from a run of emitted C with steps of a sixteenth of the size.
+many transforms as a step makes, divided by the time of the step. The errors are those at t = 10 for the same
+step size, as the largest difference from a run of emitted C with steps of a sixteenth of the size.
 """
 
 from __future__ import annotations
