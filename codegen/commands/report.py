@@ -91,10 +91,12 @@ def command(
     if parameters and not scenes:
         raise click.UsageError("--parameter changes the named SCENEs; name a SCENE")
     scenes = tuple(with_values(name, parameters) for name in scenes)
-    request = Request(read_scenes(scenes, everything), methods, peers, parts, effort or "usual", adaptive)
+    request = Request(
+        read_scenes(scenes, everything), methods, peers, parts, effort or "usual", adaptive, processes
+    )
     count = len(request.names())
     with counting("report", total=count if count > 1 else None) as progress:
-        path, pages = report(request, output, progress, processes)
+        path, pages = report(request, output, progress)
     held = all(page.held for page in pages)
     if as_json:
         print_json({"page": str(path), "scenes": [page.json for page in pages]})

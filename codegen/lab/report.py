@@ -4,6 +4,7 @@ atomically. Several scenes are measured at the same time, each in its own proces
 
 from __future__ import annotations
 
+import os
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -28,7 +29,11 @@ from orderconds.processes import in_processes
 
 @dataclass(frozen=True)
 class Request:
-    """A report as the user requests it: names of scenes, methods, peers, measurements and effort."""
+    """A report as the user requests it: names of scenes, methods, peers, measurements and effort.
+
+    ``processes`` is the number of scenes that are measured at the same time, by default the number of
+    processors.
+    """
 
     scenes: tuple[str, ...] = ()
     methods: tuple[str, ...] = ()
@@ -36,14 +41,19 @@ class Request:
     parts: tuple[str, ...] = ()
     effort: str = "usual"
     adaptive: tuple[str, ...] = ()
+    processes: int | None = None
 
     def names(self) -> tuple[str, ...]:
         """Return the names of the scenes, each once."""
         return tuple(dict.fromkeys(self.scenes or REPORT_SCENES))
 
+    def together(self) -> int:
+        """Return the number of scenes that are measured at the same time."""
+        return min(len(self.names()), self.processes or os.cpu_count() or 1)
+
     def subject(self, name: str) -> Subject:
         """Return the subject of the page of one scene. An unknown name raises InputError."""
-        effort = EFFORTS[self.effort].shared(len(self.names()))
+        effort = EFFORTS[self.effort].shared(len(self.names()), self.together())
         return subject(name, scenes.load(name), self.methods, self.peers, effort, self.adaptive)
 
     def check(self) -> None:
@@ -77,13 +87,10 @@ class ScenePage:
     held: bool
 
 
-def report(
-    request: Request, directory: str | Path, progress: Progress, processes: int | None = None
-) -> tuple[Path, tuple[ScenePage, ...]]:
+def report(request: Request, directory: str | Path, progress: Progress) -> tuple[Path, tuple[ScenePage, ...]]:
     """Measure all scenes, write the pages into a folder, and return the path of the overview and the pages.
 
-    ``processes`` is the number of scenes that are measured at the same time, by default the number of
-    processors. The page of a scene is written as soon as it is complete. A hidden folder stores the results
+    The page of a scene is written as soon as it is complete. A hidden folder stores the results
     until the report is complete, so that an interrupted report can continue. ``progress`` receives each
     measurement of a single scene, or the name of each finished scene. :class:`InputError` is raised before
     the first measurement if a name is unknown, if there is no C compiler, or if the folder cannot be written
@@ -99,7 +106,7 @@ def report(
     jobs = [(request, name, str(folder)) for name in names]
     pages: list[ScenePage] = []
     work = partial(_page, progress=progress) if alone else _page
-    for name, page in zip(names, in_processes(work, jobs, processes), strict=True):
+    for name, page in zip(names, in_processes(work, jobs, request.together()), strict=True):
         if not alone:
             progress(name)
         pages.append(page)
