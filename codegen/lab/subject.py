@@ -227,7 +227,7 @@ def subject(
     chosen = tuple(method_for(scene, m) for m in methods)
     controlled = tuple(replace(method_for(scene, m), adaptive=True) for m in adaptive)
     for method in controlled:
-        method.embedded()  # This call raises MethodError if the tableau has no embedded row.
+        method.embedded()  # This call raises MethodError if the tableau has no embedded method.
     if not methods and not adaptive:
         chosen, controlled = report_methods(scene)
     others = tuple(peers) if peers else tuple(p for p in effort.peers if p in GROUPS or installed(p))

@@ -219,7 +219,7 @@ def test_a_part_that_was_not_asked_for_has_no_section(found: SceneResults) -> No
 
 def test_stiff_variants_endurance_and_wrong_results_are_shown(found: SceneResults) -> None:
     (one, *others) = part(found, StabilityTests).measured
-    spin = OrderReduction("stiff spin", 2e3, 4, ((0.1, 1e-2, ""),), 2.0, "order reduction 4 to 2.0")
+    spin = OrderReduction("stiff spin", 2e3, 4, ((0.1, 1e-2, ""),), 2.0, "order reduction from 4 to 2.0")
     ended = Endurance("forward", 10_000_000, 1e-12, None)
     answers = one.findings.answers
     bad = replace(answers[0], verdict=f"{WRONG}: a result that is not finite")
@@ -229,7 +229,7 @@ def test_stiff_variants_endurance_and_wrong_results_are_shown(found: SceneResult
     page = render(with_part(found, StabilityTests, replace(one, findings=findings), *others), "x")
     for text in (
         '<th scope="row">stiff spin</th>',
-        "order reduction 4 to 2.0",
+        "order reduction from 4 to 2.0",
         "10000000 steps",
         "no reference",
     ):
