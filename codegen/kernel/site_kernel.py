@@ -2,8 +2,8 @@
 
 All operations of a step program act on one site alone, except the field, which reads the states of
 neighbours. The point at which the field is evaluated must therefore be known at all sites before the
-evaluation: it is stored by one sweep, and the next sweep evaluates the field. Sums are never stored, because
-adding stored terms again costs less than storing the sum.
+evaluation: it is stored by one sweep, and the next sweep evaluates the field. A sum is stored if one of its
+terms then need not be stored. Later sweeps compute all other sums again from stored terms.
 """
 
 from __future__ import annotations

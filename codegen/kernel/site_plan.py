@@ -8,6 +8,7 @@ block read the unknowns in place of the images.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
@@ -22,7 +23,7 @@ from codegen.scene.problem import Problem
 from codegen.scene.sites import Sites
 
 RECOMPUTED = (Linear, Zero, Advance)
-"""Operations whose results are computed again in each sweep that reads them."""
+"""Operations whose results are computed again in each sweep that reads them, except stored sums."""
 
 MEASURED = 2
 """The number of rows with the changes and the sizes of unknowns."""
@@ -64,10 +65,12 @@ class Planner:
     blocks: list[_Block] = field(default_factory=list)
     order: list[Assign] = field(default_factory=list)
     renamed: dict[Var, Var] = field(default_factory=dict)
+    sums: set[Var] = field(default_factory=set)
 
     def step(self) -> SiteStep:
         """Return the step."""
         self._place()
+        self._choose_sums()
         outputs = tuple(self.renamed.get(var, var) for _, var in self.program.outputs)
         least = max((block.last + 1 for block in self.blocks), default=0)
         last = max([least, *(self.sweep_of[var] for var in outputs)])
@@ -146,6 +149,26 @@ class Planner:
             self.sweep_of[target] = max([least, *places])
             self.makers[target] = assign
 
+    def _choose_sums(self) -> None:
+        """Find the sums to store: those that are the only reader of a term which the same sweep computes.
+
+        Without the sum, this term would be stored. A 2N scheme then stores one element of the Lie algebra for
+        any number of stages. In programs with equations no sums are stored.
+        """
+        readers = Counter(arg for assign in self.order for arg in assign.args)
+        for assign in self.order:
+            if self.blocks or not isinstance(assign.operation, Linear):
+                continue
+            (target,) = assign.targets
+            if any(
+                readers[arg] == 1
+                and self.sweep_of[arg] == self.sweep_of[target]
+                and arg in self.makers
+                and not isinstance(self.makers[arg].operation, RECOMPUTED)
+                for arg in assign.args
+            ):
+                self.sums.add(target)
+
     def _require(self, number: int, need: _Needs, roots: Iterable[Var]) -> None:
         """Find the variables that a sweep needs for ``roots``."""
         waiting = list(roots)
@@ -154,7 +177,7 @@ class Planner:
             if var in need.computed:
                 continue
             maker = self.makers.get(var)
-            again = maker is not None and isinstance(maker.operation, RECOMPUTED)
+            again = maker is not None and isinstance(maker.operation, RECOMPUTED) and var not in self.sums
             if maker is None or (self.sweep_of[var] < number and not again):
                 need.loaded.add(var)
                 continue
