@@ -174,8 +174,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # Convergence is tested before the unknowns are updated, so that the values of the body were computed
-        # from the returned unknowns.
+        # The test comes before the update. At convergence the values in ``env`` therefore belong to the
+        # unknowns that are returned.
         done, size = domain.settled(old, new, size)
         if done:
             return

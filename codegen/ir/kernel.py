@@ -156,19 +156,21 @@ class Loop:
 
 @dataclass(frozen=True)
 class Start:
-    """Set the unknowns to ``values``, which ``body`` computes, if no solutions of earlier steps are known.
+    """Set the first values of the unknowns of an iteration.
 
-    If earlier solutions are known, the unknowns begin at the polynomial through the last solutions,
-    extrapolated by one step. With the solutions u1, u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1
-    - 3 u2 + u3 and so on. At most ``depth`` solutions are kept. The degree grows while the differences of the
-    solutions decrease. The first change of the loops is the error of the extrapolation. If this error exceeds
+    If no solutions of earlier steps are known, the unknowns are set to ``values``, which ``body`` computes.
+    Otherwise the polynomial through the last solutions is extrapolated by one step. With the solutions u1,
+    u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. At most ``depth``
+    solutions are kept. The degree grows while the differences of the solutions decrease. The change of the
+    unknowns in the first sweep is an estimate of the error of the extrapolation. If this estimate exceeds
     ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next step. The unknowns of
     all loops of the kernel are extrapolated together.
 
-    If the loops do not converge, earlier solutions are dropped, and then the step size is halved until the
-    loops converge. The solution for each step size contains the first values of the unknowns for a larger
-    step size (continuation in h), until the whole step is solved. The search fails after ``TRIES`` step
-    sizes, or if a step size that is larger only by the fraction ``SHORTEST`` does not converge either.
+    If the loops do not converge, earlier solutions are dropped. Then the step size is halved until the loops
+    converge. The solution for a small step size provides the first values of the unknowns for a larger step
+    size, until the whole step is solved (continuation in h). The search fails after ``TRIES`` step sizes. It
+    also fails if the next step size does not converge although it is larger only by the fraction
+    ``SHORTEST``.
     """
 
     unknowns: tuple[str, ...]

@@ -78,7 +78,7 @@ class Stopping:
 
     @property
     def previous(self) -> Term:
-        """The change of the sweep before; 0 in the first sweep."""
+        """The change of the unknowns in the previous sweep; 0 in the first sweep."""
         return real(f"previous_{self.number}")
 
     @property

@@ -421,8 +421,8 @@ def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     s, traceless, z = _split(d, m)
     one, half = d.rational(1), d.rational(1, 2)
     r = d.call("sqrt", d.call("fabs", z))
-    # Both alternatives of ``choose`` are evaluated. For z > 0 the logarithms are not used, so that their
-    # argument is replaced by 1.
+    # ``choose`` evaluates both alternatives. For z > 0 the logarithms are not used; their argument is then 1,
+    # because s + r or s - r may be negative.
     above, below = (d.call("log", d.call("choose", z, one, x)) for x in (s + r, s - r))
     angle = d.call("choose", z, d.call("atan2", r, s), half * (above - below))
     g = d.call("choose", r, d.call("quotient", angle, r), d.call("quotient", one, s))

@@ -26,12 +26,12 @@ def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
 
 
 def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
-    """Return a call in segments that end in commas.
+    """Return the text of a function call in pieces, one for each argument.
 
     >>> closed_call("f", ["a", "b"])
     ('f(a,', 'b)')
     """
-    # Commas belong to the segments before them, so that no line begins with a comma.
+    # A comma ends the piece before it, so that no line begins with a comma.
     segments = [f"{x}," for x in arguments[:-1]] + [f"{x})" for x in arguments[-1:]]
     return (f"{name}({segments[0]}", *segments[1:]) if segments else (f"{name}()",)
 
