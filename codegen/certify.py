@@ -85,7 +85,8 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
     order = lowering(method.family).order(method, scene)
     if not order.decided:
         raise MethodError(
-            f"the order of {method.label} is undecided beyond {order.order}",
+            f"the order of {method.label} is at least {order.order}; the coefficients have too few digits "
+            "to decide whether it is higher",
             expected="coefficients with more digits",
         )
     return _certified(method, order)

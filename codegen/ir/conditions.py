@@ -66,7 +66,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
             total = both(total, inner(part) if joins_all else negation(inner(part)))
         return total if joins_all else negation(total)
     if not isinstance(condition, sympy.core.relational.Relational):
-        raise SceneError(f"the condition {condition}", where=where, expected=EXPECTED)
+        raise SceneError(f"{condition} is not a condition", where=where, expected=EXPECTED)
     a, b = (node(x) for x in condition.args)
     above, below = positive(a - b), positive(b - a)
     match condition:

@@ -40,8 +40,8 @@ RECOMPUTED = (Linear, Zero, Advance)
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method whose step cannot be computed by sweeps over sites."""
-    hint = "explicit methods of the families rkmk, cf, cg, rk and ambient are possible, for example cf:cf4, "
-    hint += "and splittings of a scene with parts"
+    hint = "use an explicit method of the family rkmk, cf, cg, rk or ambient, for example cf:cf4, "
+    hint += "or a splitting if the scene has parts"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
@@ -72,7 +72,8 @@ def site_method(scene: Problem, method: Method) -> SiteMethod:
     implicit = any(not isinstance(statement, Assign) for statement in program.body)
     if implicit or lower_composed(frozen, method) is not None:
         what = "implicit stages" if implicit else "substeps"
-        raise refused(scene, f"the {what} of {method.label} on a lattice", "an explicit method")
+        expected = "an explicit method that is not a composition of substeps"
+        raise refused(scene, f"{method.label} has {what} and cannot be used on a lattice", expected)
     return SiteMethod(problem, lowered, program, trace, site_kernel(program, problem))
 
 
@@ -204,7 +205,7 @@ class _Planner:
             return self.problem.group.dim
         if var.kind is Kind.GROUP:
             return self.problem.group.size
-        raise refused(self.problem, f"the value {var.name} of a momentum on a lattice", "a vector field")
+        raise refused(self.problem, f"the value {var.name} of the step is a momentum", "a vector field")
 
     def _sweep(self, number: int, need: _Needs, outputs: tuple[Var, ...], later: list[_Needs]) -> Sweep:
         read = {v for other in later for v in (other.loaded | other.around)}

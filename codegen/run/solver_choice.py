@@ -145,7 +145,7 @@ def solved(
         kernel = to_kernel(program, scene, {loop.label: asked for loop in fixed.loops})
     except (NotDifferentiable, ZeroDivisionError) as error:
         raise MethodError(
-            f"{METHODS[asked]} for {program.name}: {error}",
+            f"{METHODS[asked]} is not possible for {program.name}: {error}",
             where=scene.name,
             expected="functions whose derivatives are known",
             hint=f"use --solver {FIXED_POINT}",

@@ -233,5 +233,5 @@ def test_a_manifest_of_other_types_is_said_to_be_none(tmp_path, text):
 @pytest.mark.parametrize("change", [{"interface": {"size": 3}}, {"interface": []}, {"defaults": 1}, {}])
 def test_an_entry_without_an_interface_is_bad_input(tmp_path, change):
     module("rigid", **change).write(tmp_path)
-    with pytest.raises(InputError, match="the manifest's entry for rigid was changed"):
+    with pytest.raises(InputError, match="the entry for rigid in the manifest is not valid"):
         load(tmp_path)

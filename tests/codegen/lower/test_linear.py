@@ -187,7 +187,7 @@ def test_a_generator_that_cannot_be_used_is_refused(A, message):
 @pytest.mark.parametrize("scene", ["dipole", "driven_spin", "linear_oscillator", "free_rigid_body"])
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_field_that_depends_on_the_state_is_refused_with_the_reason(family, scene):
-    expected = f"{family} on {scene}, whose field depends on the state; expected a scene y' = A(t).y"
+    expected = f"the family {family} cannot be used on {scene}, whose field depends on the state; expected a scene y' = A(t).y"
     for spelling in (f"{family}:{family}4", f"{family}4"):
         with pytest.raises(MethodError) as caught:
             compile_method(scene, spelling)
@@ -226,7 +226,8 @@ def test_a_hamiltonian_field_of_the_time_alone_is_a_linear_problem():
 def test_cayley_methods_need_a_group_with_a_cayley_map():
     scene = linear_scene("T*SO(3)")
     with pytest.raises(
-        MethodError, match=r"cayley on .* whose group is T\*SO\(3\); expected a group whose algebra"
+        MethodError,
+        match=r"cayley cannot be used on .* whose group is T\*SO\(3\); expected a group whose algebra",
     ):
         compile_method(scene, "cayley4")
 
