@@ -47,7 +47,7 @@ class Taylor(Lowering):
             return without_formulas(scene)
         return Objection(
             f", because the time derivatives of the run-time input {scene.inputs[0]} are unknown",
-            "a scene without run-time inputs",
+            "inputs that are given by formulas",
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:

@@ -31,7 +31,7 @@ class DenseOutput:
 
     def functions(self) -> tuple[Function, ...]:
         """Return the functions, callees first."""
-        about = "Move a state, which is followed by coordinates in the Lie algebra, by their exponential."
+        about = "Move a state by exp(x); the coordinates x in the Lie algebra follow the state."
         return self.extend(), filling(self.mover, MOVED, about, self.inner), self.extended()
 
     def extend(self) -> Function:

@@ -28,14 +28,14 @@ MEANINGS = {
     NOT_FINITE: "the new state would contain an infinity or a NaN",
     BAD_STEP: "h is infinite or NaN",
     LIMIT: "the end was not reached in the given number of steps",
-    TOO_FAR: "the step turns or moves too far for finite numbers; a shorter step is finite",
+    TOO_FAR: "the step is too long for a finite result; a shorter step has a finite result",
     SINGULAR: "the matrix of an implicit block is singular",
     TOO_SHORT: "the end was not reached: the step became too small to change t",
     EVENT: "the run ended at an event, or its buffer of events is full",
     BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is an infinity or a NaN",
-    BAD_SHAPE: "a lattice with too few sites, or, for pairs, an odd number of sites in a periodic dimension",
+    BAD_SHAPE: "too few sites in a dimension, or an odd number in a periodic dimension with flows of pairs",
 }
 """The comment on each status code in the header of emitted code."""
 
@@ -43,14 +43,14 @@ REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    LIMIT: "the end is not reached: too many steps",
-    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
+    LIMIT: "the end is not reached within the limit of steps",
+    TOO_FAR: "the step is too long for a finite result: take a shorter step",
     SINGULAR: "the matrix of {block} is singular",
     TOO_SHORT: "the end is not reached: the step became too small to change t",
     BAD_TIMES: "the output times are not finite, not in order, or not between t and end",
     LEAST_STEP: "the end is not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is not finite",
-    BAD_SHAPE: "a lattice with too few sites, or, for pairs, an odd number of sites in a periodic dimension",
+    BAD_SHAPE: "too few sites in a dimension, or an odd number in a periodic dimension with flows of pairs",
 }
 """The reason for each failure in error messages of both targets. It may contain the label of the implicit
 block and the step size."""

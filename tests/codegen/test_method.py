@@ -172,10 +172,8 @@ def test_a_weight_that_cancels_is_zero():
 @pytest.mark.parametrize("tableau", ["gauss2", "cg4a"])
 def test_the_fewest_brackets_need_an_explicit_tableau_of_exact_numbers(tableau):
     message = refused(scenes.load("free_rigid_body"), Method("rkmk", shipped(tableau)))
-    assert (
-        f"rkmk:{tableau} needs a cut-off, because its tableau is implicit or its coefficients are inexact; expected an explicit tableau with exact"
-        in message
-    )
+    assert f"rkmk:{tableau} needs a cut-off, because its tableau is implicit or its coefficients" in message
+    assert "inexact; expected an explicit tableau with exact" in message
 
 
 def test_vrkmk_needs_a_finite_number_of_brackets():

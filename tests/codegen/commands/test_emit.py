@@ -174,8 +174,8 @@ def test_a_list_that_cannot_be_read_is_bad_input(tmp_path):
         "\xff": "bytes that are not UTF-8",
         'name = "euler"\n': "the file is not a list of modules; its keys are: name",
         "": "the file is not a list of modules; its keys are: none",
-        "module = 3": "no list of modules",
-        'module = ["a"]': "module 1: the keys 'a'",
+        "module = 3": "not a list of modules",
+        'module = ["a"]': "module 1: the keys of the module are: 'a'",
         LIST.replace('"cf4"', "4"): "expected two strings and a list of strings",
         LIST.replace('["c", "python"]', '"c"'): "expected two strings and a list of strings",
     }

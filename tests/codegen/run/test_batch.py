@@ -184,7 +184,7 @@ def test_an_infinite_step_changes_no_system():
 
 
 def test_a_python_module_has_no_batch():
-    with pytest.raises(InputError, match="the target python has no code for batches; .*; add target c"):
+    with pytest.raises(InputError, match=r"the target python has no code for batches; .*; add target c"):
         emitted("driven_spin", "cf:cf4", target="python")
 
 
