@@ -204,8 +204,8 @@ class _Exponential:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
             single = " + E e, where e^2 = 0 (array a: the matrices a and E)"
-            several = f" + E, where E contains {self.level} units e with e^2 = 0 (array a: the matrix a, then"
-            what += single if self.level == 1 else f"{several} the coefficients of E)"
+            several = f" + E, where E contains {self.level} units e with e^2 = 0 (array a: a, then the"
+            what += single if self.level == 1 else f"{several} coefficients of E)"
         return (
             f"result = {what}, by a Taylor polynomial and repeated squaring. All results are NaN if the bound "
             f"of the relative error exceeds 2^-{LEAST_DIGITS}."

@@ -281,7 +281,7 @@ class Observation:
         parameters = (state, self.now, self.following, *plan.parameters, *plan.sampled(), EVENT_FUNCTIONS)
         parameters += (self.signs, self.values, self.low, self.high, self.reached, ahead)
         about = (
-            "Enclose the first event in a short interval from low to *high, in fractions of the step. On return, "
+            "Enclose the first event in a short interval from low to *high, in fractions of the step. Then "
             "reached is the state at *high, and ahead are the values of the event functions there."
         )
         return Function(LOCATE, about, parameters, body, Kind.STATUS)
