@@ -207,8 +207,8 @@ class _Exponential:
             several = f" + E, where E contains {self.level} units e with e^2 = 0 (array a: a, then the"
             what += single if self.level == 1 else f"{several} coefficients of E)"
         return (
-            f"result = {what}, by a Taylor polynomial and repeated squaring. All results are NaN if the bound "
-            f"of the relative error exceeds 2^-{LEAST_DIGITS}."
+            f"result = {what}, by a Taylor polynomial and repeated squaring. All results are NaN if the "
+            f"bound of the relative error exceeds 2^-{LEAST_DIGITS}."
         )
 
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
