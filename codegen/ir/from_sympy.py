@@ -103,14 +103,15 @@ class _Reader:
         if name in JUMPING:
             hint = "write a Piecewise formula, or a table, for the range that the state reaches"
             raise SceneError(
-                f"{e} contains {name}, which has infinitely many jumps",
+                f"{e} has infinitely many jumps",
                 where=self.where,
                 expected="formulas with finitely many jumps",
                 hint=hint,
             )
         calls = ", ".join([*sorted(CALLS), ANGLE, *SELECTIONS, "table"])
         allowed = f"symbols, numbers, + - * /, integer and half-integer powers, {calls}"
-        raise SceneError(f"{type(e).__name__} in {e}", where=self.where, expected=allowed)
+        what = f"{type(e).__name__} in the formula {e} is not supported"
+        raise SceneError(what, where=self.where, expected=allowed)
 
     def _float(self, e: sympy.Float) -> Expr:
         value = decimal(e)

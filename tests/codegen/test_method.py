@@ -62,7 +62,7 @@ def test_a_file_is_a_tableau(tmp_path):
 @pytest.mark.parametrize(
     ("spelling", "families", "error", "message"),
     [
-        ("", FIELD, MethodError, "the method ''"),
+        ("", FIELD, MethodError, "'' is not the name of a method"),
         (
             "vcg:midpoint",
             FIELD,

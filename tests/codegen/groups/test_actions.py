@@ -207,7 +207,12 @@ class TestAReaderOfAScene:
     @pytest.mark.parametrize(
         ("group", "action", "n", "text"),
         [
-            (SL2(), Stiefel(1), 2, "by SL.2.; expected a group of orthogonal matrices.*use Columns.1."),
+            (
+                SL2(),
+                Stiefel(1),
+                2,
+                "SL.2. does not preserve .*; expected a group of orthogonal matrices.*use Columns.1.",
+            ),
             (
                 SO3(),
                 Stiefel(4),
@@ -220,7 +225,7 @@ class TestAReaderOfAScene:
                 Product(SO3(), Rn(1)),
                 FactorwiseAction(Rotation()),
                 3,
-                "the number of actions is 1, the number of factors",
+                "the number of actions is 1, but",
             ),
             (
                 SE2(),
@@ -300,7 +305,7 @@ class TestAReaderOfAScene:
 
     @pytest.mark.parametrize("make", [DiagonalAction, FactorwiseAction])
     def test_refuses_no_parts(self, make):
-        with pytest.raises(SceneError, match="without parts; expected one action"):
+        with pytest.raises(SceneError, match=r"was given no actions; expected (at least )?one action"):
             make()
 
     @pytest.mark.parametrize("k", [0, -1, 1.5])

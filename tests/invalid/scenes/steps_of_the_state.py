@@ -1,4 +1,4 @@
-# 8: floor(y0) contains floor, which has infinitely many jumps
+# 8: floor(y0) has infinitely many jumps
 from sympy import floor
 
 from codegen.groups import LeftMultiplication, Rn
