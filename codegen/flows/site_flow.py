@@ -6,16 +6,25 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NoReturn
 
+from codegen.flows.kick import Kick
 from codegen.flows.part import Part, Summand
+from codegen.flows.recognise import recognise
 from codegen.groups.capabilities import Coadjoint
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
+from codegen.ir.expr import walk
 from codegen.scene.flow import Flow
-from codegen.scene.problem import Problem
+from codegen.scene.problem import TIME, Problem
+from codegen.scene.site_scene import with_frozen_neighbours
 
 COLOURS = ("even", "odd")
 """The names of the two sets of pairs of neighbours along an axis: the first site of each pair has an even
 index, or an odd index."""
+
+
+POTENTIAL = "potential"
+"""The name of the part of a Hamiltonian lattice that contains all energies without momenta: those of the
+bonds, and the parts of the Hamiltonian of a site that depend on q alone."""
 
 
 @dataclass(frozen=True)
@@ -47,9 +56,28 @@ def site_flows(scene: Problem) -> list[Part]:
     """Return the parts of a lattice with their exact flows, local parts first. Flows of the two sets of
     pairs along an axis do not commute, so each set is listed as a separate part."""
     assert scene.sites is not None
+    if scene.paired:
+        return _hamiltonian_flows(scene)
     listed = []
     for number, part in sorted(enumerate(scene.sites.parts), key=lambda x: bool(x[1].symbols)):
         for colour in range(2 if part.symbols else 1):
             name = f"{part.name}_{COLOURS[colour]}" if part.symbols else part.name
             listed.append(Part(name, (Summand(((name, SiteFlow(number, colour)),)),)))
     return listed
+
+
+def _hamiltonian_flows(scene: Problem) -> list[Part]:
+    """Return the parts of a Hamiltonian lattice with their exact flows. The last part is the kick by all
+    energies that do not depend on momenta."""
+    assert scene.sites is not None
+    listed, total = [], scene.sites.force
+    for part in recognise(with_frozen_neighbours(scene)):
+        kicks = [flow for summand in part.summands for _, flow in summand.flows if isinstance(flow, Kick)]
+        if not kicks:
+            listed.append(part)
+        for kick in kicks:
+            total = tuple(a + b for a, b in zip(total, kick.force, strict=True))
+    timed = any(n.op == "sym" and n.payload == TIME for n in walk(total))
+    taken = {part.name for part in listed}
+    name = POTENTIAL if POTENTIAL not in taken else f"{POTENTIAL}_of_bonds"
+    return [*listed, Part(name, (Summand(((name, Kick(total, timed)),)),))]

@@ -11,19 +11,15 @@ from codegen.ir.kernel import Kernel, Let
 from codegen.ir.number import Number
 from codegen.ir.program import Assign, Program
 from codegen.ir.scene_operations import SiteFlowOf
-from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteFlow, SiteStep, Sweep
+from codegen.ir.site_step import RESULT, STATE, Load, Row, SiteFlow, Sweep
 from codegen.ir.values import Coefficient, Kind, Var
 from codegen.kernel.assignments import Assignments
+from codegen.kernel.canonical_site_flows import canonical_kernel, kernel_of
 from codegen.kernel.shared_angles import SharedArguments
 from codegen.lower.flow_words import FlowLowering
 from codegen.method import Method
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import SitePart
-
-COPY = "the state is copied"
-"""The description of a sweep that copies the state. A step must begin with a sweep over all sites, which
-reads the old state. It must end with a sweep over all sites, which tests whether the new state is finite. A
-copy is added where a flow of pairs would be first or last."""
 
 
 def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:
@@ -40,13 +36,14 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
     word = lowering.read(scene, method).word
     y = Var("y", Kind.POINT)
     body, last = [], y
-    for number, (summand, duration) in enumerate(word, 1):
-        ((name, _),) = summand.flows
+    named = [(name, duration) for summand, duration in word for name, _ in summand.flows]
+    for number, (name, duration) in enumerate(named, 1):
         target = Var(f"y{number}", Kind.POINT)
         body.append(Assign((target,), SiteFlowOf(name, Coefficient(duration, 1)), (last,)))
         last = target
     program = Program(method.label, (y,), tuple(body), (("y", last),))
-    return program, _kernel(scene, method.label, word)
+    kernel = canonical_kernel if scene.paired else _kernel
+    return program, kernel(scene, method.label, word)
 
 
 def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]) -> Kernel:
@@ -61,25 +58,7 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
             index[flow.part] = len(sweeps)
             sweeps.append(_sweep(scene, label, scene.sites.parts[flow.part]))
         flows.append(SiteFlow(index[flow.part], flow.colour, duration))
-    ends = [k for k in (0, -1) if not flows or sweeps[flows[k].sweep].axis != OWN]
-    if ends:
-        sweeps.append(_copy(scene, label))
-        copied = SiteFlow(len(sweeps) - 1, 0, Number.rational(0))
-        flows = [*([copied] if 0 in ends else []), *flows, *([copied] if -1 in ends else [])]
-    sites, size = scene.sites, len(scene.symbols)
-    step = SiteStep(sites.dimension, sites.offsets, sites.periodic, tuple(sweeps), size, 0, tuple(flows))
-    about = "state of one site; row k of an array of states contains number k of all sites"
-    state = (StateBlock(scene.state[0].name, scene.symbols, about),)
-    return Kernel(label, state, (TIME, "h", *scene.runtime), (), (), sites=step)
-
-
-def _copy(scene: Problem, label: str) -> Sweep:
-    domain = SharedArguments()
-    outputs = tuple(map(domain.space.sym, scene.symbols))
-    loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))
-    stores = tuple(Row(RESULT, k) for k in range(len(outputs)))
-    block = StateBlock("site", scene.symbols, COPY)
-    return Sweep(COPY, Kernel(label, (block,), (), (), outputs), loads, stores)
+    return kernel_of(scene, label, sweeps, flows)
 
 
 def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:

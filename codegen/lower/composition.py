@@ -4,7 +4,7 @@ several step lengths."""
 from __future__ import annotations
 
 from codegen.ir.number import Number
-from codegen.lower.flow_words import FlowLowering, Parts, Word, adjoint_word, kicks_first, pairs, unread
+from codegen.lower.flow_words import FlowLowering, Parts, Word, adjoint_word, pairs, unread
 from codegen.method import Method
 from orderconds.tableau import AdjointComposition, Composition
 
@@ -28,6 +28,4 @@ class CompositionLowering(FlowLowering):
         # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}: a composition of Phi and Phi*
         # with beta = alpha = gamma/2.
         halves = [method.number(x) * HALF for x in tableau.gamma]
-        # Each step begins and ends with a kick, because the last kick of a step and the first kick of the
-        # next step can then be joined into one flow.
-        return pairs(kicks_first(parts.summands), [(x, x) for x in halves]), self.family
+        return pairs(parts.arranged, [(x, x) for x in halves]), self.family

@@ -48,6 +48,18 @@ class Parts:
         """The summands of all parts; the exact flows of one summand commute."""
         return [summand for part in self.parts for summand in part.summands]
 
+    @property
+    def arranged(self) -> list[Summand]:
+        """The summands in the order in which a composition applies their flows.
+
+        Kicks come first, because kicks at the ends of neighbouring steps can be joined into one flow. On a
+        lattice, steps are not joined. There a kick is last, because it reads all neighbours: then each step
+        of a composition contains one kick.
+        """
+        if self.scene.sites is None:
+            return kicks_first(self.summands)
+        return sorted(self.summands, key=is_kick)
+
 
 @dataclass(frozen=True)
 class Reading:
@@ -68,9 +80,10 @@ class FlowLowering(Lowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
         if scene.sites is not None:
-            hint = "list the parts of the field in the argument parts of SiteScene"
+            hint = "list the parts of the field in the argument parts of the scene"
+            listed = scene.parts if scene.paired else scene.sites.parts
             expected = "a field that is a sum of parts with exact flows"
-            return None if scene.sites.parts else Objection(", a lattice without parts", expected, hint)
+            return None if listed else Objection(", a lattice without parts", expected, hint)
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
         # A scene with a wrench has no Hamiltonian, and a run-time input changes during a flow, so neither
@@ -170,7 +183,7 @@ def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> t
     # Phi*_{beta_1} acts first: in each pair (beta_i, alpha_i) the flow for beta_i precedes the flow for
     # alpha_i.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
-    return pairs(kicks_first(parts.summands), both), "composition"
+    return pairs(parts.arranged, both), "composition"
 
 
 def unread(parts: Parts, method: Method) -> MethodError:

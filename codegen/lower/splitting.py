@@ -20,7 +20,6 @@ from codegen.lower.flow_words import (
     Word,
     adjoint_word,
     is_kick,
-    kicks_first,
     pairs,
     unread,
 )
@@ -52,7 +51,7 @@ class SplittingLowering(FlowLowering):
             return _in_order(parts, tableau, steps, chosen)
         # McLachlan's theorem: any A, B splitting is a composition of Phi and Phi* for more parts.
         if len(tableau.parts) == 2 and len(chosen) > 2:
-            return pairs(kicks_first(chosen), _as_pairs(steps)), self.family
+            return pairs(parts.arranged, _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]
         raise MethodError(
             f"the tableau is for {len(tableau.parts)} parts, but the scene has {len(chosen)}",

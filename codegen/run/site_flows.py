@@ -4,7 +4,8 @@ Each part has two functions. ``flow_K`` contains a loop over adjacent sites, or 
 have no site in common. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of a set. The first sites
 of the pairs of a set have even or odd indices along the axis of the part. ``whole_K`` computes the same as
 ``flow_K``, but with variants of sines and Stumpff functions that accept all arguments
-(:mod:`codegen.run.sites`).
+(:mod:`codegen.run.sites`). A kick reads neighbours and changes only momenta. Its functions are those of a
+sweep of :mod:`codegen.run.sites`, which changes the new state in place.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from codegen.ir.domain import ExprDomain
-from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteStep, Sweep
+from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteFlow, SiteStep, Sweep
 from codegen.run.batch import VECTORISED, called_by
 from codegen.run.language import Assign, Call, For, Function, If, Return, Statement
 from codegen.run.plan import STEP, Plan, symbols_of
@@ -27,6 +28,7 @@ from codegen.run.sites import (
     SITE,
     SITES,
     WHOLE,
+    Loop,
     advance_parameters,
     checked,
     complete,
@@ -43,9 +45,33 @@ _NEAR, _START, _COLOUR, _PAIR, _ROW, _OTHER = (
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
     """Return the functions of a method that composes flows, callees first."""
-    parts = [_Part(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps)]
+    parts = [_part(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps)]
     listed = [f for part in parts for f in part.functions()]
     return complete(plan, step, [*listed, _advance(plan, step, parts)])
+
+
+def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
+    """Return the object that forms the functions of a sweep."""
+    if sweep.axis == OWN and sweep.neighbours:
+        return _Kick(Loop(plan, step, sweep, index, tested=False))
+    return _Part(plan, step, sweep, index)
+
+
+@dataclass(frozen=True)
+class _Kick:
+    """The functions of a kick."""
+
+    loop: Loop
+
+    def functions(self) -> list[Function]:
+        """Return the functions."""
+        return [self.loop.sweep(), self.loop.site(), self.loop.all_sites()]
+
+    def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
+        """Return the call that applies the flow to all sites."""
+        shape = shape_of(self.loop.step)
+        scalars = tuple(duration if x is STEP else x for x in self.loop.scalars)
+        return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 
 @dataclass(frozen=True)
@@ -136,6 +162,15 @@ class _Part:
             body.append(Assign(self.entry(row, OWN if k < self.step.size else 0), new))
         return body
 
+    def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
+        """Return the call that applies the flow to all sites or to all pairs of a set."""
+        old, new = ARRAYS[STATE], ARRAYS[RESULT]
+        scalars = tuple(duration if x is STEP else x for x in self.scalars)
+        if self.paired:
+            given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
+            return Call(f"part_{flow.sweep}", given)
+        return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
+
     def single_pair(self) -> Function:
         """Return the function for one pair, which consists of the last and the first site of a row."""
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
@@ -211,21 +246,13 @@ class _Part:
         ]
 
 
-def _advance(plan: Plan, step: SiteStep, parts: list[_Part]) -> Function:
+def _advance(plan: Plan, step: SiteStep, parts: list[_Part | _Kick]) -> Function:
     """Return the function that makes one step. It does not test the shape of the lattice."""
     domain = ExprDomain()
-    old, new = ARRAYS[STATE], ARRAYS[RESULT]
     body: list[Statement] = []
     for number, flow in enumerate(step.flows):
-        part = parts[flow.sweep]
         duration = value(domain.number(flow.duration) * domain.space.sym("h"))
-        scalars = tuple(duration if x is STEP else x for x in part.scalars)
-        if part.paired:
-            given = (WHOLE, shape_of(step), whole(flow.colour), SITES, new, *scalars)
-            body.append(Call(f"part_{flow.sweep}", given))
-        else:
-            given = (WHOLE, SITES, old if number == 0 else new, new, *scalars)
-            body.append(Call(f"part_{flow.sweep}", given, (BAD,)))
+        body.append(parts[flow.sweep].called(flow, duration, number == 0))
     about = "One step of all sites; return the number of sites whose new state is not finite."
     parameters = advance_parameters(plan, step)
     return Function(ADVANCE, about, parameters, (*body, Return(BAD)), Kind.COUNT)

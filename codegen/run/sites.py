@@ -77,7 +77,7 @@ ADVANCE = "advance"
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
     """Return the functions of an explicit method, callees first."""
-    loops = [_Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
+    loops = [Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
     listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
     return complete(plan, step, [*listed, _advance(plan, step, loops)])
 
@@ -124,18 +124,19 @@ def checked(values: Sequence[Term]) -> list[Statement]:
 
 
 @dataclass(frozen=True)
-class _Loop:
-    """The functions of one sweep."""
+class Loop:
+    """The functions of one sweep. If ``tested`` is false, the new values at a site may be infinite or NaN."""
 
     plan: Plan
     step: SiteStep
     own: Sweep
     index: int
+    tested: bool = True
 
     @property
     def last(self) -> bool:
-        """True if the sweep stores the new state."""
-        return any(row.array == RESULT for row in self.own.stores)
+        """True if the sweep stores the new state and tests whether it is finite."""
+        return self.tested and any(row.array == RESULT for row in self.own.stores)
 
     @property
     def near(self) -> bool:
@@ -184,7 +185,7 @@ class _Loop:
         body: list[Statement] = []
         tested = []
         for row, end in zip(self.own.stores, ends, strict=True):
-            if row.array == RESULT:
+            if self.last and row.array == RESULT:
                 name = own(f"new {self.plan.symbols[row.number]}")
                 body.append(Assign(name, end))
                 tested.append(name)
@@ -352,7 +353,7 @@ def _moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term |
     return there, select(there, moved, wrapped)
 
 
-def _advance(plan: Plan, step: SiteStep, loops: Sequence[_Loop]) -> Function:
+def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
     """Return the function that makes one step. It does not test the shape of the lattice."""
     body: list[Statement] = []
     for loop in loops:

@@ -4,7 +4,7 @@ the compiler evaluates.
 A scene file imports its names from this package:
 ``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``. Scenes with
 large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and ``full``; chains
-and lattices use ``SiteScene``, ``neighbour``, ``left`` and ``right``.
+and lattices use ``SiteScene`` or ``HamiltonianSiteScene``, with ``neighbour``, ``left`` and ``right``.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from orderconds.lazy import lazy
 if TYPE_CHECKING:
     from codegen.scene.field_scene import FieldScene as FieldScene
     from codegen.scene.hamiltonian_scene import HamiltonianScene as HamiltonianScene
+    from codegen.scene.hamiltonian_sites import Bond as Bond
+    from codegen.scene.hamiltonian_sites import HamiltonianSiteScene as HamiltonianSiteScene
     from codegen.scene.large_linear_scene import LargeLinearScene as LargeLinearScene
     from codegen.scene.linear_scene import LinearScene as LinearScene
     from codegen.scene.matrix_formula import banded as banded
@@ -35,8 +37,10 @@ if TYPE_CHECKING:
     from codegen.scene.tables import table as table
 
 __all__ = [
+    "Bond",
     "FieldScene",
     "HamiltonianScene",
+    "HamiltonianSiteScene",
     "LargeLinearScene",
     "LinearScene",
     "Pair",
@@ -58,6 +62,7 @@ lazy(
     __name__,
     field_scene=("FieldScene",),
     hamiltonian_scene=("HamiltonianScene",),
+    hamiltonian_sites=("Bond", "HamiltonianSiteScene"),
     large_linear_scene=("LargeLinearScene",),
     linear_scene=("LinearScene",),
     matrix_formula=("banded", "full", "unknown"),

@@ -122,10 +122,13 @@ class Problem:
 
     @property
     def autonomous(self) -> bool:
-        """True if the field depends neither on the time nor on signals that are read at run time."""
+        """True if the field depends neither on the time nor on signals that are read at run time. On a
+        lattice, the states outside an open boundary belong to the field."""
         if self.matrices is not None:
             return not self.matrices.reads(TIME)
-        return not self.inputs and not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
+        ends = () if self.sites is None else [x for column in self.sites.outside for x in column]
+        timed = any(n.op == "sym" and n.payload == TIME for n in walk([*self.roots, *ends]))
+        return not self.inputs and not timed
 
     @property
     def linear(self) -> bool:

@@ -72,7 +72,7 @@ def SiteScene(
     known = tuple(s for column in symbols for s in column)
     roots = reader.column(f, group.dim, "f", more=known)
     start = reader.column(y0, len(y), "y0", constant=True)
-    ends = _outside(reader, boundary, outside, offsets)
+    ends = outside_states(reader, boundary, outside, offsets)
     sites = Sites(len(offsets[0]), offsets, symbols, ends, read_parts(reader, y, group.dim, parts))
     if reader.signals:
         raise SceneError("a signal in the field of a site", where=name, expected="formulas in t")
@@ -135,7 +135,7 @@ def _offsets(name: str, f: Sequence[sympy.Expr], coordinates: Sequence[str]) -> 
     return tuple(sorted(offsets))
 
 
-def _outside(
+def outside_states(
     reader: Reader,
     boundary: str,
     outside: Sequence[sympy.Expr] | Outside | None,

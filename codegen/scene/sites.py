@@ -104,7 +104,8 @@ class Sites:
     If the lattice is not periodic, ``outside`` contains one column of formulas for each offset: the state of
     a neighbour that does not exist. The formulas contain the coordinates of the site itself, the time and
     parameters. ``parts`` are the parts of the field whose flows splittings compose
-    (:mod:`codegen.scene.site_parts`).
+    (:mod:`codegen.scene.site_parts`). In a Hamiltonian scene, ``force`` contains the components n of the
+    force that all bonds together exert on a site (:mod:`codegen.scene.hamiltonian_sites`).
     """
 
     dimension: int
@@ -112,6 +113,7 @@ class Sites:
     symbols: tuple[tuple[str, ...], ...]
     outside: tuple[tuple[Expr, ...], ...] = ()
     parts: tuple[SitePart, ...] = ()
+    force: tuple[Expr, ...] = ()
 
     @property
     def periodic(self) -> bool:

@@ -23,7 +23,8 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
     """Return a lattice of the given shape as a field on the product of the groups of its sites.
 
     The coordinates of site 0 come first; the last index of a site changes fastest. Every site has the initial
-    state of the scene. :class:`SceneError` is raised for a scene without sites, for a shape of another
+    state of the scene. A Hamiltonian scene becomes a field on the product of the groups T*G of its sites.
+    :class:`SceneError` is raised for a scene without sites, for a shape of another
     dimension, and for too few or too many sites.
     """
     sites = scene.sites
@@ -36,6 +37,7 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
     number = prod(shape)
     if number > MOST_SITES:
         raise SceneError(f"{number} sites", where=scene.name, expected=f"at most {MOST_SITES} sites")
+    scene = scene.as_field()
     space = Space()
     domain = ExprDomain(space)
     symbols = [tuple(f"{s}_s{i}" for s in scene.symbols) for i in range(number)]

@@ -1,0 +1,153 @@
+"""From splittings of a Hamiltonian lattice to sweeps.
+
+Flows of one site that follow one another in a step form one sweep, so the state is read and written once for
+all of them. A kick reads the elements q of neighbours and changes only the momenta, so its sweep can work in
+place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import groupby
+
+from codegen.flows.kick import Kick
+from codegen.flows.part import Summand
+from codegen.groups.capabilities import Coadjoint
+from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.kernel import Field as StateBlock
+from codegen.ir.kernel import Kernel, Let
+from codegen.ir.number import Number
+from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteFlow, SiteStep, Sweep
+from codegen.kernel.assignments import Assignments
+from codegen.kernel.shared_angles import SharedArguments
+from codegen.scene.flow import Flow
+from codegen.scene.problem import TIME, Problem
+
+Timed = tuple[str, Flow, Number]
+"""A flow with its name and its duration."""
+
+COPY = "the state is copied"
+"""The description of a sweep that copies the state. A step must begin with a sweep over all sites, which
+reads the old state. It must end with a sweep over all sites, which tests whether the new state is finite. A
+copy is added where a flow of pairs or a kick would be first or last."""
+
+
+def canonical_kernel(scene: Problem, label: str, word: Sequence[tuple[Summand, Number]]) -> Kernel:
+    """Return the kernel of a splitting of a Hamiltonian lattice."""
+    listed = [(name, flow, duration) for summand, duration in word for name, flow in summand.flows]
+    sweeps: list[Sweep] = []
+    index: dict[tuple[object, ...], int] = {}
+    flows: list[SiteFlow] = []
+    for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
+        run = list(group)
+        # The durations of the flows of a sweep are multiples of the first. Runs with the same multiples use
+        # the same sweep.
+        first = run[0][2]
+        ratios = [(name, flow, duration / first) for name, flow, duration in run]
+        key = tuple((name, ratio) for name, _, ratio in ratios)
+        if key not in index:
+            index[key] = len(sweeps)
+            sweeps.append(_kick(scene, label, ratios) if kick else _local(scene, label, ratios))
+        flows.append(SiteFlow(index[key], 0, first))
+    return kernel_of(scene, label, sweeps, flows)
+
+
+def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteFlow]) -> Kernel:
+    """Return the kernel of a step that consists of these flows; copies of the state are added where the step
+    needs them."""
+    assert scene.sites is not None
+    ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
+    if ends:
+        sweeps = [*sweeps, _copy(scene, label)]
+        copied = SiteFlow(len(sweeps) - 1, 0, Number.rational(0))
+        flows = [*([copied] if 0 in ends else []), *flows, *([copied] if -1 in ends else [])]
+    sites, size = scene.sites, len(scene.symbols)
+    step = SiteStep(sites.dimension, sites.offsets, sites.periodic, tuple(sweeps), size, 0, tuple(flows))
+    about = "state of one site; row k of an array of states contains number k of all sites"
+    name = "y" if scene.paired else scene.state[0].name
+    state = (StateBlock(name, scene.symbols, about),)
+    return Kernel(label, state, (TIME, "h", *scene.runtime), (), (), sites=step)
+
+
+def _over_sites(sweep: Sweep) -> bool:
+    """Return whether a sweep reads the old state and writes all numbers of each site."""
+    return sweep.axis == OWN and not sweep.neighbours
+
+
+def _copy(scene: Problem, label: str) -> Sweep:
+    domain = SharedArguments()
+    outputs = tuple(map(domain.space.sym, scene.symbols))
+    loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))
+    stores = tuple(Row(RESULT, k) for k in range(len(outputs)))
+    block = StateBlock("site", scene.symbols, COPY)
+    return Sweep(COPY, Kernel(label, (block,), (), (), outputs), loads, stores)
+
+
+def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
+    """Return the sweep for flows of single sites; in its kernel h is the duration of the first flow."""
+    ends = _moved(scene, SharedArguments(), run)
+    loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))
+    stores = tuple(Row(RESULT, k) for k in range(len(scene.symbols)))
+    return Sweep(_text(run), _scheduled(scene, label, ends), loads, stores)
+
+
+def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
+    """Return the sweep for a kick; in its kernel h is the duration."""
+    sites = scene.sites
+    assert sites is not None
+    domain = SharedArguments()
+    q, mu = (block.symbols for block in scene.state)
+    ends = _moved(scene, domain, run)[len(q) :]
+    kernel = _scheduled(scene, label, ends)
+    read = {str(n.payload) for n in walk(ends) if n.op == "sym"}
+    around = [
+        (s, k, row) for k, column in enumerate(sites.symbols) for row, s in enumerate(column) if s in read
+    ]
+    outside = None
+    if sites.outside:
+        values = {s: domain.space.sym(s) for s in scene.symbols} | scene.scalars(domain)
+        ghosts = [evaluate([sites.outside[k][row]], domain, values)[0] for _, k, row in around]
+        outside = _scheduled(scene, label, ghosts)
+        read |= {str(n.payload) for n in walk(ghosts) if n.op == "sym"}
+    own = [Load(s, Row(RESULT, k)) for k, s in enumerate(scene.symbols) if s in read]
+    near = [Load(s, Row(RESULT, row), k) for s, k, row in around]
+    stores = tuple(Row(RESULT, len(q) + k) for k in range(len(mu)))
+    return Sweep(_text(run), kernel, (*own, *near), stores, outside)
+
+
+def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> list[Expr]:
+    """Return the coordinates of a site after the flows."""
+    assert scene.sites is not None
+    group, size = scene.group.require(Coadjoint), len(scene.state[0].symbols)
+    fixed = {s: domain.space.sym(s) for s in scene.sites.names} | scene.scalars(domain)
+    state = tuple(map(domain.space.sym, scene.symbols))
+    q, mu = state[:size], state[size:]
+    for _, flow, ratio in run:
+        tau = domain.number(ratio) * domain.space.sym("h")
+        values = fixed | dict(zip(scene.symbols, (*q, *mu), strict=True))
+        q, mu = flow.advance(domain, group, values, tau, q, mu)
+    return [*q, *mu]
+
+
+def _scheduled(scene: Problem, label: str, ends: list[Expr]) -> Kernel:
+    """Return the kernel that computes expressions from the numbers of a site and of its neighbours."""
+    assert scene.sites is not None
+    symbols = (*scene.symbols, *scene.sites.names)
+    taken = {*symbols, *scene.runtime, "h", TIME}
+
+    def fresh(base: str) -> str:
+        name = base
+        while name in taken:
+            name += "_"
+        taken.add(name)
+        return name
+
+    schedule = Assignments((), ends, {}, fresh)
+    body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
+    block = StateBlock("site", symbols, "the numbers that the sweep reads")
+    return Kernel(label, (block,), ("h", *scene.runtime), body, schedule.outputs)
+
+
+def _text(run: Sequence[Timed]) -> str:
+    names = [name for name, _, _ in run]
+    return f"flow of {names[0]}" if len(names) == 1 else f"flows of {', '.join(names)}"

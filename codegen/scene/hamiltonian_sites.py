@@ -1,0 +1,204 @@
+"""Hamiltonian chains and lattices: each site has a Hamiltonian, and bonds between neighbours have energies.
+
+The total energy E is the sum of h(q_i, mu_i) over all sites i, and of V(q_i, q_{i+d}) over all bonds. Each
+bond has an offset d. The momenta are right-trivialised: q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i
+with xi_i = D_2 h and n_i = -(D_1 E).q_i^-1 (:mod:`codegen.scene.canonical_equations`). A site is the first
+site of one bond and the second site of another bond with the same offset. So n_i contains the derivative of
+V(q_i, q_{i+d}) by its first argument, and that of V(q_{i-d}, q_i) by its second argument.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from codegen.errors import SceneError
+from codegen.groups.actions import LeftMultiplication
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import Coadjoint
+from codegen.ir.differentiate import gradient
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.values import Kind
+from codegen.scene.arguments import check_group, read_span
+from codegen.scene.canonical_equations import force
+from codegen.scene.consistency import check_problem
+from codegen.scene.formulas import Reader
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem, StateField
+from codegen.scene.site_scene import PERIODIC, outside_states, with_frozen_neighbours
+from codegen.scene.sites import Offset, Sites, neighbour
+
+if TYPE_CHECKING:
+    import sympy
+
+    Column = Sequence[sympy.Expr]
+
+
+@dataclass(frozen=True)
+class Bond:
+    """The energy of the sites i and i + offset: a formula in the coordinates of q and of ``neighbour(q,
+    offset)``, parameters and the time."""
+
+    offset: Sequence[int]
+    energy: sympy.Expr
+
+
+def HamiltonianSiteScene(
+    *,
+    group: LieGroup,
+    q: Column,
+    mu: Column,
+    H: sympy.Expr,
+    bonds: Sequence[Bond],
+    q0: Column,
+    mu0: Column,
+    span: tuple[sympy.Expr, sympy.Expr],
+    boundary: str = PERIODIC,
+    outside: Column | Mapping[Sequence[int], Column] | None = None,
+    parts: Mapping[str, sympy.Expr] | None = None,
+    name: str = "scene",
+    title: str = "",
+) -> Problem:
+    """Return the scene of a Hamiltonian chain or lattice. Emitted code accepts any number of sites.
+
+    ``q`` and ``mu`` are the coordinates of a site (``group.point``, ``group.dual``). ``H`` is its own
+    Hamiltonian, a formula in these coordinates, parameters and the time. Each element of ``bonds`` is a
+    :class:`Bond`: the program derives the forces on both of its sites. ``q0`` and ``mu0`` are the initial
+    state of every site; emitted code also accepts an array of initial states.
+
+    The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the element q of a
+    neighbour that does not exist: a column of ``group.size`` formulas in q, t and parameters, or a mapping
+    from each offset to such a column. Constants describe a clamped end, and formulas in t a driven end. For
+    a free end, write an element that exerts no force on the site. ``outside`` is needed for the offset of
+    each bond and for its negative.
+
+    ``parts`` are named summands of ``H``. Splittings compose their exact flows with the exact flow of all
+    bonds. :class:`SceneError` is raised in the same cases as by :func:`codegen.scene.HamiltonianScene` and
+    :func:`codegen.scene.SiteScene`, and for bonds that contain the momentum.
+    """
+    reader = _reader(name, group, q, mu)
+    qs, mus = tuple(reader.coordinates[: len(q)]), tuple(reader.coordinates[len(q) :])
+    hamiltonian = reader.scalar(H, "H")
+    summands = {key: reader.scalar(part, f"part {key}") for key, part in (parts or {}).items()}
+    offsets = _offsets(name, bonds)
+    pull = _of_bonds(reader, group, q, bonds)
+    slopes = gradient(hamiltonian, (*qs, *mus))
+    own = force(reader.space, group, qs, slopes[: len(qs)])
+    total = tuple(a + b for a, b in zip(own, pull, strict=True))
+    symbols = tuple(tuple(str(s.name) for s in neighbour([*q, *mu], offset)) for offset in offsets)
+    ends = outside_states(reader, boundary, _with_momenta(outside, mu), offsets)
+    state = (
+        StateField("q", Kind.GROUP, qs, reader.column(q0, len(qs), "q0", constant=True)),
+        StateField("mu", Kind.DUAL, mus, reader.column(mu0, len(mus), "mu0", constant=True)),
+    )
+    if reader.signals:
+        raise SceneError("a signal in the energy of a site", where=name, expected="formulas in t")
+    problem = Problem(
+        *(name, title or name, group, LeftMultiplication(), state, (*slopes[len(qs) :], *total)),
+        *(None, {}, read_span(name, span), reader.parameters()),
+        paired=True,
+        parts=summands,
+        sites=Sites(len(offsets[0]), offsets, symbols, ends, force=pull),
+    )
+    check_problem(with_frozen_neighbours(problem), {})
+    _check_parts(problem, hamiltonian)
+    return problem
+
+
+def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
+    """Return the object that reads the formulas of a scene; raise SceneError for a wrong group or a wrong
+    number of coordinates."""
+    check_group(name, group)
+    group.require(Coadjoint, where=name)
+    reader = Reader(name, [*q, *mu])
+    if (len(q), len(mu)) != (group.size, group.dim):
+        raise SceneError(
+            f"{len(q)} coordinates of q and {len(mu)} of mu",
+            where=name,
+            expected=f"{group.size} and {group.dim} coordinates for {group.name}",
+            hint='use group.point("q") and group.dual("mu")',
+        )
+    return reader
+
+
+def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
+    """Return the offsets of all bonds and their negatives, sorted."""
+    given = [tuple(int(x) for x in bond.offset) for bond in bonds]
+    if not given:
+        raise SceneError(
+            "a lattice without bonds",
+            where=name,
+            expected="a list with a Bond",
+            hint="use HamiltonianScene, and emit --batch for many independent systems",
+        )
+    if len({len(offset) for offset in given}) > 1:
+        raise SceneError(
+            f"bonds with the offsets {', '.join(map(str, given))}",
+            where=name,
+            expected="offsets with one entry for each dimension of the lattice",
+        )
+    return tuple(sorted({*given, *(tuple(-x for x in offset) for offset in given)}))
+
+
+def _of_bonds(
+    reader: Reader, group: LieGroup, q: Sequence[sympy.Symbol], bonds: Sequence[Bond]
+) -> tuple[Expr, ...]:
+    """Return the components of the force of all bonds on a site."""
+    space = reader.space
+    qs = tuple(reader.coordinates[: len(q)])
+    total = (space.zero,) * group.dim
+    for number, bond in enumerate(bonds):
+        there, back = (
+            tuple(str(s.name) for s in neighbour(q, offset))
+            for offset in (bond.offset, tuple(-x for x in bond.offset))
+        )
+        what = f"the energy of bond {number}"
+        V = reader.scalar(bond.energy, what, more=there)
+        read = {n.payload for n in walk([V]) if n.op == "sym"}
+        momenta = read & set(reader.coordinates[len(q) :])
+        if momenta or not read & set(qs) or not read & set(there):
+            missing = "no coordinate of one of its two sites"
+            raise SceneError(
+                f"{what} contains {', '.join(sorted(momenta)) if momenta else missing}",
+                where=reader.name,
+                expected="a formula in the coordinates of q and of neighbour(q, offset)",
+            )
+        # The site is the first site of this bond ...
+        first = gradient(V, qs)
+        # ... and the second site of the bond that begins at the site i - offset.
+        moved = {s: space.sym(s) for s in sorted(map(str, read))}
+        moved |= {s: space.sym(b) for s, b in zip(qs, back, strict=True)}
+        moved |= {s: space.sym(a) for s, a in zip(there, qs, strict=True)}
+        second = evaluate(gradient(V, there), ExprDomain(space), moved)
+        for slope in (first, second):
+            pairs = zip(total, force(space, group, qs, slope), strict=True)
+            total = tuple(a + b for a, b in pairs)
+    return total
+
+
+def _with_momenta(
+    outside: Column | Mapping[Sequence[int], Column] | None, mu: Column
+) -> Column | dict[Sequence[int], Column] | None:
+    """Return the states outside with the momentum of the site itself, which no formula reads."""
+    if outside is None:
+        return None
+    if isinstance(outside, Mapping):
+        return {offset: [*column, *mu] for offset, column in outside.items()}
+    return [*outside, *mu]
+
+
+def _check_parts(problem: Problem, hamiltonian: Expr) -> None:
+    """Raise SceneError if the parts do not add up to the Hamiltonian of a site."""
+    orbit = orbit_of(with_frozen_neighbours(problem))
+    parts = tuple(problem.parts.values())
+    for point in orbit.points if parts else ():
+        values = orbit.values((hamiltonian, *parts), point)
+        if values is not None and not orbit.sized(values[0] - sum(values[1:]), values):
+            raise SceneError(
+                f"the parts {', '.join(problem.parts)} add up to {orbit.text(sum(values[1:]))}",
+                where=problem.name,
+                expected=f"{orbit.text(values[0])}, the value of H",
+                hint="list all summands of H in parts, and no energy of a bond",
+            )
