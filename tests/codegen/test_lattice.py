@@ -261,7 +261,7 @@ def test_a_million_spins_run():
         ([[1, 2, 3], [4, 5]], "rows of different lengths"),
         (np.array([["a"] * 3] * 4), "expected real numbers"),
         (np.ones((1, 3)), r"expected another number of sites, found the shape \(1,\)"),
-        ([[1, 0, 0], [np.nan, 0, 0], [0, 0, 1]], r"found the state \[nan, 0.0, 0.0\] of site \(1,\)"),
+        ([[1, 0, 0], [np.nan, 0, 0], [0, 0, 1]], r"found the state \[nan, 0.0, 0.0\] at site \(1,\)"),
     ],
 )
 def test_states_of_another_form_are_refused(given, message):
