@@ -39,6 +39,7 @@ from codegen.printers import names as target_names
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
+from codegen.run.site_choice import site_choices
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.run_options import RunOptions, RunRequest, observed_run, refuse_with_carries
 from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
@@ -132,7 +133,8 @@ def compile_method(
     if adaptive:
         method = replace(method, adaptive=True)
     if scene.sites is not None:
-        return _with_sites(scene, method, {"jacobian": jacobian, "a run to an end time": request.any})
+        refused = {"a Jacobian": jacobian, "a run to an end time": request.any}
+        return _with_sites(scene, method, known_solver(solver), refused)
     problem = problem_for(scene, method)
     if scene.matrices is not None and not lowering(method.family).in_coordinates:
         return _with_arrays(scene, method, jacobian, request)
@@ -231,7 +233,7 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
     return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
 
 
-def _with_sites(scene: Problem, method: Method, requests: Mapping[str, bool]) -> Compiled:
+def _with_sites(scene: Problem, method: Method, solver: str, requests: Mapping[str, bool]) -> Compiled:
     """Return a method on a chain or lattice."""
     requests = {"an error estimate": method.adaptive, **requests}
     refused = [what for what, wanted in requests.items() if wanted]
@@ -239,7 +241,9 @@ def _with_sites(scene: Problem, method: Method, requests: Mapping[str, bool]) ->
         what = f"{refused[0]} is not available on a chain or lattice"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
     own = site_method(scene, method)
-    return Compiled(scene, method, own.problem, own.lowered, own.program, own.trace, own.kernel)
+    choices = site_choices(own.kernel, solver, scene.name)
+    parts = (own.problem, own.lowered, own.program, own.trace, own.kernel)
+    return Compiled(scene, method, *parts, solvers=choices, asked=solver)
 
 
 def work(kernel: Kernel) -> int:

@@ -164,8 +164,8 @@ class Method:
             )
         if lower is None:
             raise MethodError(
-                f"no error estimate for {self.label}: the tableau has no embedded row",
-                expected="a tableau with an embedded row",
+                f"no error estimate for {self.label}: the tableau has no embedded method",
+                expected="a tableau with an embedded method",
                 hint="use for example dormand_prince5 or cf43",
             )
         return replace(self, coefficients=lower, adaptive=False)
@@ -203,7 +203,7 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families for which an embedded row can estimate the error, because their stages do not
+    """Return the families for which an embedded method can estimate the error, because their stages do not
     depend on the weights."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 

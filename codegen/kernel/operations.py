@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import Kernel
+from codegen.ir.site_step import SiteStep
 from codegen.ir.vector_calls import vector_function
 from codegen.kernel.schedule import (
     Arrangement,
@@ -74,10 +75,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
     if kernel.sites is not None:
-        total: dict[str, int] = {}
-        for sweep in kernel.sites.passes:
-            total = _plus(total, operations(arrange(sweep.kernel))[STEP])
-        return {STEP: total}
+        return _site_operations(kernel.sites)
     expansion = kernel.expansion
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))
@@ -94,6 +92,17 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     for part in (expansion.enter, expansion.leave):
         total = total if part is None else _plus(total, operations(arrange(part))[STEP])
     return {STEP: total}
+
+
+def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
+    """Return the number of each operation for one site, in a step and in one iteration of each block."""
+    parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
+    counted: dict[str, dict[str, int]] = {}
+    for key, sweeps in parts.items():
+        counted[key] = {}
+        for sweep in sweeps:
+            counted[key] = _plus(counted[key], operations(arrange(sweep.kernel))[STEP])
+    return counted
 
 
 def matrix_of(label: str) -> str:

@@ -155,7 +155,7 @@ class Problem:
                 f"a field without formulas in coordinates, because {self.group.name} has {self.group.dim} "
                 "coordinates",
                 where=self.name,
-                expected="formulas in coordinates, which a scene of large matrices has up to eight rows",
+                expected="formulas in coordinates; a scene of large matrices has them for at most eight rows",
                 hint="use a smaller matrix here; emit and converge work for every number of rows",
             )
 
