@@ -300,7 +300,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
     every other argument is yielded unchanged.
 
     The names of skipped files are written to stderr, with the reason. If ``strict`` is true, only files that
-    are plainly other data are skipped.
+    do not resemble tableaux are skipped.
     """
     for argument in arguments:
         if not argument.strip():
