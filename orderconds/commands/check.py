@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""If a claim fails, the text output lists at most this many failing conditions. If no claim fails, it lists
-one. The JSON output lists all failing conditions."""
+"""If a claim fails, the text output lists at most this number of failing conditions. If no claim fails, the
+text output lists one failing condition. The JSON output lists all failing conditions."""
 
 UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
