@@ -61,8 +61,9 @@ def report(
     """Measure all scenes, write the pages into a folder, and return the path of the overview and the results.
 
     The page of a scene is written as soon as it is complete. A hidden folder stores the results until the
-    report is complete, so that an interrupted report can continue. :class:`InputError` is raised before the
-    first measurement if a name is unknown, if there is no C compiler, or if the folder cannot be written to.
+    report is complete, so that an interrupted report can continue. Before the first measurement,
+    :class:`InputError` is raised for an unknown name, a missing C compiler, and a folder that is not
+    writable.
     """
     folder = Path(directory)
     subjects = request.subjects()
