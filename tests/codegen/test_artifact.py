@@ -63,9 +63,11 @@ def test_a_file_changed_by_hand_is_refused(kernels, tmp_path):
 def test_a_choice_among_several_must_be_made(kernels, tmp_path):
     kernels.emission(kernels.rigid(), "python").write(tmp_path)
     kernels.emission(kernels.rigid(), "c").write(tmp_path)
-    with pytest.raises(InputError, match=r"2 modules match rigid.*one of rigid \(c\), rigid \(python\)"):
+    with pytest.raises(
+        InputError, match=r"2 modules match the name rigid.*one of rigid \(c\), rigid \(python\)"
+    ):
         read(tmp_path, "rigid")
-    with pytest.raises(InputError, match="0 modules match nobody"):
+    with pytest.raises(InputError, match="0 modules match the name nobody"):
         read(tmp_path, "nobody")
 
 
