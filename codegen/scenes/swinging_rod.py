@@ -1,0 +1,19 @@
+"""Geometrically exact rod that is clamped at one end and swings under gravity, a chain on T*SE(3).
+
+The rod is that of ``free_rod``. The section before the first site does not move. Section i is at the distance i
+ds from the clamp, and the last section is at the distance ds/2 from the free end, because each section carries
+the mass of the piece around it: N sections describe a rod of length (N + 1/2) ds. The half piece at the clamp
+does not move. J. C. Simo and L. Vu-Quoc (Comput. Methods Appl. Mech. Engrg. 66 (1988) 125-161) compute the
+motion of such rods.
+"""
+
+from sympy import eye
+
+from codegen.scene import param
+from codegen.scenes.free_rod import rod
+
+scene = rod(
+    ends={(-1,): [*eye(3), 0, 0, 0]},
+    gravity=param("g", 1),
+    title="Geometrically exact rod, clamped at one end under gravity, a chain on T*SE(3)",
+)
