@@ -37,7 +37,8 @@ class Request:
 
     def subjects(self) -> tuple[Subject, ...]:
         """Return the subject of each page. An unknown name raises InputError before the first measurement."""
-        chosen = [(name, scenes.load(name)) for name in dict.fromkeys(self.scenes or REPORT_SCENES)]
+        names = dict.fromkeys(self.scenes or REPORT_SCENES)
+        chosen = [(name, scenes.with_one_system(scenes.load(name))) for name in names]
         selected(self.parts)
         effort = EFFORTS[self.effort].shared(len(chosen))
         return tuple(

@@ -142,6 +142,22 @@ def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
     return load(fspath(scene))
 
 
+def with_one_system(scene: Problem) -> Problem:
+    """Return the scene; raise :class:`SceneError` for a chain or lattice, whose number of sites is not given.
+
+    >>> with_one_system(load("dipole")).name
+    'dipole'
+    """
+    if scene.sites is not None:
+        raise SceneError(
+            "a chain or lattice, whose scene does not contain the number of sites",
+            where=scene.name,
+            expected="a scene with one system",
+            hint="emit it, and run it for arrays of states with codegen.load_lattice",
+        )
+    return scene
+
+
 def with_values(name: str, parameters: Sequence[str]) -> str:
     """Return the name of a scene in which parameters have other values; each value is a text ``NAME=VALUE``.
 

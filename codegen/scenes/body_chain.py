@@ -1,11 +1,11 @@
 """Chain of rigid bodies with elastic ball joints that hangs under gravity, on T*SE(3).
 
-Body i carries the joints at x + R b and x - R b, where x is its centre of mass and R its frame. A stiff
-spring joins the point x - R b of a body to the point x' + R' b of the next body, as in the chains of M. P. Allen
-and D. J. Tildesley, Computer Simulation of Liquids (Oxford, 2017), chapter 3, where springs replace
-constraints. The first body hangs at the origin: the body outside the chain is at b, so its joint x - R b is the
-origin. At the free end, the body outside the chain has its joint where the last body has its own, so the
-spring exerts no force. The inertia of the bodies is not symmetric.
+Each body has joints at x + R b and x - R b, where x is its centre of mass and R its frame. A stiff spring
+joins the point x - R b of a body to the point x' + R' b of the next body. It replaces the constraint of a
+ball joint (R. Grossman, P. S. Krishnaprasad and J. E. Marsden 1988, see ``coupled_rigid_bodies``). The first
+body hangs at the origin: the body outside the chain is at b, so its point x - R b is the origin. At the free
+end, the body outside the chain has its joint where the last body has one, so the spring exerts no force. The
+inertia of the bodies is not symmetric.
 """
 
 from sympy import Matrix, Rational, eye

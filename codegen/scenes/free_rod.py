@@ -53,11 +53,11 @@ any matrix R, so rounding errors in R do not change the total momentum."""
 
 
 def rod(
-    ends: Mapping[tuple[int], Section] | None = None, gravity: sympy.Expr = Rational(0), title: str = ""
+    ends: Mapping[tuple[int], Section] | None = None, gravity: sympy.Expr | None = None, title: str = ""
 ) -> Problem:
     """Return a rod whose ends are free, or follow the cross sections ``ends``, with gravity in the direction
     of -e1."""
-    parts = {"kinetic": kinetic, **({"weight": MASS * gravity * x[0]} if gravity else {})}
+    parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
     return HamiltonianSiteScene(
         title=title,
         group=GROUP,
@@ -75,7 +75,8 @@ def rod(
 
 
 def straight(number: int, spacing: float) -> list[list[float]]:
-    """Return the states of the sections of a straight rod at rest along e3; the first is at ``spacing`` e3."""
+    """Return the states of the sections of a straight rod at rest along e3. The first is at ``spacing``
+    e3."""
     frame = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
     return [[*frame, 0.0, 0.0, (i + 1) * spacing, *[0.0] * 6] for i in range(number)]
 
