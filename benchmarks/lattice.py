@@ -22,6 +22,7 @@ from typing import Any
 from codegen import emit
 from codegen.build import compile_files, find_compiler
 from codegen.emitter import compile_method
+from codegen.ir.site_step import traffic
 from codegen.printers.c.module import VECTOR_FLAGS
 
 HERE = Path(__file__).parent
@@ -153,7 +154,7 @@ def main() -> int:
         emitted[name] = statistics.median(x for x, _ in rows) / STEPS
         sites = compile_method(SCENE, method).kernel.sites
         assert sites is not None
-        moved = 8 * sum(sites.traffic()) * chosen.side**2 / emitted[name] / 1e9
+        moved = 8 * sum(traffic(sites.passes)) * chosen.side**2 / emitted[name] / 1e9
         print(
             f"{method:18} {1e9 * emitted[name] / chosen.side**2:6.1f} ns a site and step, "
             f"{ratio:.2f} ({low:.2f} to {high:.2f}) of hand-written; {moved:.1f} GB/s by --explain; "

@@ -1,12 +1,12 @@
 """The order of the error estimate of an embedded method, compared with the order of the error.
 
-The estimate is the difference between the results of the main row and of the embedded row of a tableau. If
-both rows have the same leading error term, the estimate has a higher order than the local error. It is then
-called blind. RKMK methods with a small cut-off are an example: the same brackets are missing in both rows. If
-the rows have different orders, the estimate can be blind only if f does not depend on the state, because both
-rows may then give the same result. For rows of the same order, and for such an f, the orders of the estimate
-and of the local error are computed from very short steps in 100 digits. The local error is measured by the
-difference between one step of size h and two steps of size h/2.
+The estimate is the difference between the results of the two rows of weights of a tableau: the weights of the
+method and of the embedded method. If both rows have the same leading error term, the estimate has a higher
+order than the local error. It is then called blind. RKMK methods with a small cut-off are an example: the
+same brackets are missing in both rows. If the rows have different orders, the estimate can be blind only if f
+does not depend on the state, because both rows may then give the same result. For rows of the same order, and
+for such an f, the orders of the estimate and of the local error are computed from very short steps in 100
+digits. The local error is measured by the difference between one step of size h and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ State = tuple[Scalar, ...]
 def order_of_estimate(method: Method, scene: Problem) -> int:
     """Return the power of h in the error estimate of an adaptive method.
 
-    :class:`MethodError` is raised if the method has no embedded row, or if the estimate has a higher order
-    than the local error on this scene.
+    :class:`MethodError` is raised if there is no embedded method, or if the estimate has a higher order than
+    the local error on this scene.
     """
     embedded = method.embedded()
     if embedded is None:
@@ -54,7 +54,7 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
             "if f does not depend on the state",
             where=scene.name,
             expected="rows that differ on y' = A(t).y",
-            hint="use another tableau with an embedded row, for example cf:cf3 or rkmk(4):dormand_prince5",
+            hint="use another tableau with an embedded method, for example cf:cf3 or rkmk(4):dormand_prince5",
         )
     if order == lower_order and is_blind(method, embedded, scene, order):
         raise MethodError(
@@ -128,4 +128,4 @@ def _hint(method: Method, scene: Problem) -> str:
             except MethodError:
                 continue
             return f"write {longer.label}"
-    return "use another tableau with an embedded row"
+    return "use another tableau with an embedded method"

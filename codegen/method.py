@@ -149,9 +149,9 @@ class Method:
         if not self.kind.fixed_stages:
             # Symplectic and variational methods conserve their modified energy for steps of equal size only.
             raise MethodError(
-                f"no error estimate for {self.label}: its stages depend on the weights, so an embedded row "
-                "cannot use them; with steps of varying size the method would also lose what it preserves "
-                "over long times",
+                f"no error estimate for {self.label}: its stages depend on the weights, so an embedded "
+                "method cannot use them; with steps of varying size the method would also lose what it "
+                "preserves over long times",
                 expected=f"a method of {', '.join(with_estimate())}",
             )
         if self.kind.minimal_brackets and self.cutoff is None:
@@ -163,7 +163,7 @@ class Method:
         if lower is None:
             raise MethodError(
                 f"an estimate of the error for {self.label}",
-                expected="a tableau with an embedded row",
+                expected="a tableau with an embedded method",
                 hint="use for example dormand_prince5 or cf43",
             )
         return replace(self, coefficients=lower, adaptive=False)
@@ -201,7 +201,7 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families for which an embedded row can estimate the error, because their stages do not
+    """Return the families for which an embedded method can estimate the error, because their stages do not
     depend on the weights."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 

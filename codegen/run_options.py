@@ -92,7 +92,7 @@ def observed_run(method: Method, scene: Problem, degree: int, events: int, dense
     if degree and method.adaptive:
         raise MethodError(
             f"a run to a given end time for {method.label} with step control",
-            expected="an adaptive method with an embedded row, or steps of constant size",
+            expected="an adaptive method with an embedded method, or steps of constant size",
             hint="leave out --adaptive or --integrate",
         )
     return Observed(events, extension_of(method, scene) if dense else None)

@@ -32,7 +32,7 @@ COMMAND_GROUP = "orderconds.commands"
 BUILT_IN = {
     "check": (
         "orderconds.commands.check",
-        "Find the exact order of tableaux and compare it with their claims.",
+        "Compute the exact orders of tableaux and compare them with the claimed orders.",
     ),
     "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
     "completion": (
@@ -63,8 +63,8 @@ BUILT_IN = {
 """Built-in commands: name -> (module that holds ``command``, one line for --help)."""
 
 OUTPUT_OPTIONS = {
-    "quiet": "Show no progress and no successful results. The exit status states the outcome.",
-    "verbose": "Write progress, with the elapsed and the remaining time, to stderr, also without a terminal.",
+    "quiet": "Print only failures, and no progress. The exit status states the outcome.",
+    "verbose": "Write progress to stderr, with the elapsed and the remaining time, even without a terminal.",
 }
 """Options of every command: name -> help."""
 

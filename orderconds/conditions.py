@@ -1,4 +1,4 @@
-"""One order condition: a tree, a formula in the method's coefficients, and the exact flow's value.
+"""One order condition: a tree, a formula in the coefficients of the method, and the value of the exact flow.
 
 A method has order p iff ``formula = rhs`` for each condition of each order up to p.
 """

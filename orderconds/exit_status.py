@@ -31,11 +31,11 @@ INTERNAL = 70
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 SIGNALS = ("SIGTERM", "SIGHUP")
-"""The signals that the program handles like Ctrl-C: it removes temporary files and ends its worker processes
-before it exits."""
+"""The signals that the program handles like Ctrl-C. Before it exits, the program removes temporary files and
+ends its worker processes."""
 
 MAX_TEXT = 300
-"""The maximal number of characters of an internal error's text that the message contains."""
+"""The message about an internal error quotes at most this number of characters of the error's text."""
 
 
 class Terminated(KeyboardInterrupt):
@@ -145,8 +145,8 @@ def _reported(error: BaseException) -> tuple[int, str]:
     text = " ".join(str(error).split())
     shown = text if len(text) <= MAX_TEXT else text[:MAX_TEXT] + " ..."
     return INTERNAL, (
-        f"internal error: {type(error).__name__}{': ' * bool(shown)}{shown}; please report it with this "
-        "command, its input, and the traceback that ORDERCONDS_TRACEBACK=1 shows"
+        f"internal error: {type(error).__name__}{': ' * bool(shown)}{shown}; please report this error with "
+        "the command, the input, and the traceback that ORDERCONDS_TRACEBACK=1 shows"
     )
 
 

@@ -89,7 +89,7 @@ def _require_regular(status: os.stat_result, own: bool) -> None:
     if not stat.S_ISREG(status.st_mode):
         raise OSError(errno.EINVAL, "not a regular file")
     if own and hasattr(os, "geteuid") and status.st_uid != os.geteuid():
-        raise PermissionError(errno.EPERM, "a file of another user")
+        raise PermissionError(errno.EPERM, "the file belongs to another user")
 
 
 def reason(problem: OSError) -> str:

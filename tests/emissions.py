@@ -44,7 +44,7 @@ def drawn(seed: int, count: int) -> Iterator[tuple[str, str, Options]]:
             try:
                 emitted(scene, method, chosen)
             except InputError:
-                continue  # not every tableau has the family's order or an embedded row
+                continue  # not every tableau has the family's order or an embedded method
             yield scene, method, chosen
             count -= 1
             break

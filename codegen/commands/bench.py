@@ -64,7 +64,7 @@ def command(
     """Run methods on SCENE (a gallery name or a Python file) with shorter and shorter steps, and measure
     error and run time.
 
-    --adaptive accepts methods whose tableau has an embedded row for an error estimate, such as
+    --adaptive accepts methods whose tableau has an embedded method for an error estimate, such as
     ambient:dop853, rkmk(3):dormand_prince5 or ambient:radau2a3, and runs them with step-size control. Peers:
     scipy-dop853, scipy-radau, scipy-lsoda, heyoka, diffrax, c-dop853, c-rk4-projected. The groups scipy, c
     and all contain only installed peers. Peers and methods in coordinates (ambient:TABLEAU) run on all

@@ -60,12 +60,14 @@ if TYPE_CHECKING:
 @click.option(
     "--adaptive",
     is_flag=True,
-    help="Also emit a function with step-size control; the embedded row of the tableau estimates the error.",
+    help="Also emit a function with step-size control; the embedded method of the tableau estimates the "
+    "error.",
 )
 @click.option(
     "--integrate",
     is_flag=True,
-    help="Also emit a run to a given end time: output at given times, bounds on steps, resuming.",
+    help="Also emit a function that integrates to a given end time. It has output at given times and bounds "
+    "on the step size, and a run can be resumed.",
 )
 @click.option(
     "--dense",
@@ -77,7 +79,7 @@ if TYPE_CHECKING:
     type=click.IntRange(0),
     default=0,
     metavar="N",
-    help="Number of event functions whose zeros the run of --integrate finds; implies --integrate.",
+    help="Number of event functions; the function of --integrate finds their zeros. Implies --integrate.",
 )
 @click.option(
     "--compensate",
@@ -218,7 +220,7 @@ def family_note(compiled: Compiled, method: str) -> str:
         if family != compiled.method.family and formats in family_class(family).formats
     ]
     other = f"; another family is {others[0]}:{compiled.method.name}" if others else ""
-    return f"{method.strip()} names no family, and is emitted as {compiled.method.label}{other}"
+    return f"{method.strip()} names no family; the method is emitted as {compiled.method.label}{other}"
 
 
 def _warn(compiled: Compiled, scene: str, method: str) -> None:
@@ -248,6 +250,10 @@ def explanation(compiled: Compiled) -> str:
     if compiled.kernel.sites is not None:
         parts.append(
             "# loops over sites\n" + "".join(f"  {x}\n" for x in compiled.kernel.sites.explanation())
+        )
+    if compiled.kernel.modes is not None:
+        parts.append(
+            "# on Fourier modes\n" + "".join(f"  {x}\n" for x in compiled.kernel.modes.explanation())
         )
     functions = functions_of(compiled)
     if functions:

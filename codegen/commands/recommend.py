@@ -126,10 +126,10 @@ def searched(result: Recommendation) -> str:
     )
     if result.kinks:
         text += (
-            f"; the solution crosses {result.kinks} points where the field is not smooth, so methods lose "
+            f"; the solution crosses {result.kinks} points where the field is not smooth, and methods lose "
         )
-        text += "their order there; errors were measured for this span, other spans may need other steps"
-    text += "" if result.complete else "; the budget ended the search, --budget S allows more"
+        text += "their order at these points; errors were measured on this span only"
+    text += "" if result.complete else "; the time budget ended the search; --budget S sets another budget"
     if result.referred >= NOTICED:
         text += f"; the reference solution took {result.referred:.0%} of the budget"
     return text + "".join(f"; {label} loses a conserved quantity in a long run" for label in result.lost)
@@ -144,9 +144,9 @@ def unreached(result: Recommendation) -> str:
     missed = f"no method{needs} reaches the error {asked.error:g}"
     if result.best is None and not result.complete:
         missed = f"no method{needs} was measured before the time budget ended"
-        return f"{asked.scene}: {missed}; --budget S allows more time"
+        return f"{asked.scene}: {missed}; to allow more time, give --budget S"
     if result.best is None:
-        return f"{asked.scene}: {missed}; no method satisfies the needs; relax --need or --stack"
+        return f"{asked.scene}: {missed}; no method has the required properties; relax --need or --stack"
     best = result.best
     by = f"by {best.entry.recipe.label} ({control(asked, best)})"
     least = f"the smallest measured error is {best.error:.1e}, {by}"

@@ -6,7 +6,7 @@ neighbours that earlier sweeps have stored for all sites. The number of sites is
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -53,7 +53,10 @@ class Sweep:
     outside the lattice: there output k of ``outside`` is used in place of the number that load k of
     ``read_outside`` would read. ``outside`` is None if nothing has to be replaced, as in a periodic lattice.
     A sweep over pairs of neighbours has an ``axis``. Its neighbour 0 is the other site of the pair, and the
-    second half of its stores is at this neighbour.
+    second half of its stores is at this neighbour. A sweep that ends an iteration for the equations u = g(u)
+    has the symbols ``unknowns``. Its first outputs are their images g(u), which replace the unknowns. Such a
+    sweep also stores two numbers for each site, in the rows ``measured``: the largest change of an unknown,
+    and the largest absolute value of an unknown.
     """
 
     about: str
@@ -62,6 +65,8 @@ class Sweep:
     stores: tuple[Row, ...]
     outside: Kernel | None = None
     axis: int = OWN
+    unknowns: tuple[str, ...] = ()
+    measured: tuple[Row, ...] = ()
 
     @property
     def neighbours(self) -> tuple[int, ...]:
@@ -85,6 +90,18 @@ class Sweep:
 
 
 @dataclass(frozen=True)
+class SiteBlock:
+    """Equations u = g(u) for unknowns at all sites. The sweeps with the indices ``first`` to ``last`` compute
+    the images g(u) and replace the unknowns by them. They are repeated until the unknowns of all sites
+    converge. Sweeps before ``first`` store the first values of the unknowns."""
+
+    label: str
+    unknowns: tuple[str, ...]
+    first: int
+    last: int
+
+
+@dataclass(frozen=True)
 class SiteFlow:
     """One flow of a step that composes flows. ``sweep`` is the index of the sweep, and ``duration`` is in
     units of h. ``colour`` (0 or 1) is the set of pairs: the parity of the index of the first site of each
@@ -100,7 +117,8 @@ class SiteStep:
     """One step of a lattice: sweeps in order, and the number of ``rows`` in which they store values.
 
     If there are ``flows``, the step is this sequence of sweeps. The first and the last flow sweep over all
-    sites. The first flow reads the old state; all others change the new state in place.
+    sites. The first flow reads the old state; all others change the new state in place. ``blocks`` are the
+    equations of an implicit method, in order.
     """
 
     dimension: int
@@ -110,6 +128,7 @@ class SiteStep:
     size: int
     rows: int
     flows: tuple[SiteFlow, ...] = ()
+    blocks: tuple[SiteBlock, ...] = ()
 
     @property
     def workspace(self) -> int:
@@ -127,25 +146,53 @@ class SiteStep:
             for kernel in sweep.kernels:
                 yield from kernel.expressions()
 
-    def traffic(self) -> tuple[int, int]:
-        """Return the numbers of doubles that a step reads and writes for each site. A number that a sweep
-        reads at several sites is counted once, because the other reads find it in the cache."""
-        # The pairs of one set contain each site once.
-        read = sum(len(sweep.rows_read) for sweep in self.passes)
-        return read, sum(len(set(sweep.stores)) for sweep in self.passes)
+    @property
+    def unrepeated(self) -> tuple[Sweep, ...]:
+        """The sweeps that a step executes outside of its blocks, in order."""
+        repeated = {k for block in self.blocks for k in range(block.first, block.last + 1)}
+        if self.flows:
+            return self.passes
+        return tuple(sweep for k, sweep in enumerate(self.sweeps) if k not in repeated)
+
+    def repeated(self, block: SiteBlock) -> tuple[Sweep, ...]:
+        """Return the sweeps of one iteration of a block."""
+        return self.sweeps[block.first : block.last + 1]
 
     def explanation(self) -> list[str]:
         """Return lines that describe the loops, the stored values and the memory traffic."""
         lines = []
         for number, sweep in enumerate(self.sweeps, 1):
             lines.append(f"loop {number}: {sweep.about}")
-            lines.append(
-                f"  reads {len(sweep.rows_read)} and stores {len(set(sweep.stores))} numbers for each site"
-            )
+            lines.append(f"  reads {len(sweep.rows_read)} and stores {_stored(sweep)} numbers for each site")
+        for block in self.blocks:
+            loops = f"loops {block.first + 1} to {block.last + 1} are"
+            if block.first == block.last:
+                loops = f"loop {block.last + 1} is"
+            names = ", ".join(block.unknowns)
+            lines.append(f"{loops} repeated until the unknowns {names} converge at all sites")
         if self.flows:
             lines.append(f"a step: {len(self.flows)} passes through these loops")
-        read, written = self.traffic()
         lines.append(f"workspace: {self.workspace} numbers for each site, {BYTES * self.workspace} bytes")
-        moved = f"{BYTES * read} bytes read and {BYTES * written} bytes written"
-        lines.append(f"memory traffic: {moved} for each site and step")
-        return lines
+        moved = f"memory traffic: {_moved(self.unrepeated)} for each site and step"
+        for block in self.blocks:
+            moved += f", and {_moved(self.repeated(block))} in each sweep of {block.label}"
+        return [*lines, moved]
+
+
+def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
+    """Return the numbers of doubles that sweeps read and write for each site. A number that a sweep reads at
+    several sites is counted once, because the other reads find it in the cache."""
+    listed = list(sweeps)
+    # The pairs of one set contain each site once.
+    read = sum(len(sweep.rows_read) for sweep in listed)
+    return read, sum(map(_stored, listed))
+
+
+def _stored(sweep: Sweep) -> int:
+    """Return the number of rows that a sweep changes."""
+    return len({*sweep.stores, *sweep.measured})
+
+
+def _moved(sweeps: Iterable[Sweep]) -> str:
+    read, written = traffic(sweeps)
+    return f"{BYTES * read} bytes read and {BYTES * written} bytes written"

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import Kernel
+from codegen.ir.site_step import SiteStep
 from codegen.ir.vector_calls import vector_function
 from codegen.kernel.schedule import (
     Arrangement,
@@ -69,15 +70,14 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     A kernel without outputs is one of three kinds. For a Taylor polynomial, the computation of its
     coefficients and its evaluation are counted. For a step with whole matrices, a typical number of terms of
     each exponential is assumed. For a lattice, the operations of one site are counted; a flow of pairs counts
-    as one pair for each site.
+    as one pair for each site. For a step on Fourier modes, transforms are counted.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
     if kernel.sites is not None:
-        total: dict[str, int] = {}
-        for sweep in kernel.sites.passes:
-            total = _plus(total, operations(arrange(sweep.kernel))[STEP])
-        return {STEP: total}
+        return _site_operations(kernel.sites)
+    if kernel.modes is not None:
+        return {STEP: {"transform": kernel.modes.transforms}}
     expansion = kernel.expansion
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))
@@ -94,6 +94,17 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     for part in (expansion.enter, expansion.leave):
         total = total if part is None else _plus(total, operations(arrange(part))[STEP])
     return {STEP: total}
+
+
+def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
+    """Return the number of each operation for one site, in a step and in one iteration of each block."""
+    parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
+    counted: dict[str, dict[str, int]] = {}
+    for key, sweeps in parts.items():
+        counted[key] = {}
+        for sweep in sweeps:
+            counted[key] = _plus(counted[key], operations(arrange(sweep.kernel))[STEP])
+    return counted
 
 
 def matrix_of(label: str) -> str:

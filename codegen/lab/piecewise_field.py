@@ -27,8 +27,9 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""After an event, the sides of selections are determined at a time that is later by AHEAD. AHEAD is much
-longer than the error of the event time, and much shorter than every time scale.
+"""After an event, the program determines on which side of each boundary the solution is. It evaluates the
+solution at the event time plus AHEAD. AHEAD is much longer than the error of the event time, and much shorter
+than every time scale.
 """
 
 NEAR = (1e-5, 1e-6)

@@ -172,7 +172,7 @@ def _integrate(
             raise SceneError(
                 "the reference solution takes too long",
                 where=scene.name,
-                expected="a time within the time limit",
+                expected="a reference solution within the time limit",
                 hint="allow more time, or shorten the span",
             )
         left = (end - t).mid()

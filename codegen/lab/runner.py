@@ -167,7 +167,7 @@ def check_target(target: str, digits: int = DOUBLE) -> None:
     if digits > DOUBLE and target != INTERPRETER:
         raise MethodError(
             f"{digits} digits for the target {target}",
-            expected="double precision",
+            expected=f"at most {DOUBLE} digits, because emitted code uses double precision",
             hint="add --target interpreter",
         )
 

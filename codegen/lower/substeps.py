@@ -56,8 +56,8 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     # A single substep is the step itself, so nothing is repeated.
     if repetition is None or len(repetition[1]) < 2:
         return None
-    # The proof, the file and the embedded row of the whole tableau are removed, because they do not apply to
-    # the tableau of one group.
+    # The proof, the file and the embedded method of the whole tableau are removed, because they do not apply
+    # to the tableau of one group.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )

@@ -17,8 +17,7 @@ from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteFlow, SiteSt
 from codegen.run.batch import VECTORISED, called_by
 from codegen.run.language import Assign, Call, For, Function, If, Return, Statement
 from codegen.run.plan import STEP, Plan, symbols_of
-from codegen.run.sites import (
-    ADVANCE,
+from codegen.run.site_terms import (
     ARRAYS,
     BAD,
     COLUMNS,
@@ -28,12 +27,17 @@ from codegen.run.sites import (
     SITE,
     SITES,
     WHOLE,
+    shape_of,
+)
+from codegen.run.sites import (
+    ABOUT_STEP,
+    ADVANCE,
+    RETURNED,
     Loop,
     advance_parameters,
     checked,
     complete,
     first_site,
-    shape_of,
     split,
 )
 from codegen.run.terms import Kind, Term, count, own, select, value, whole
@@ -253,6 +257,4 @@ def _advance(plan: Plan, step: SiteStep, parts: list[_Part | _Kick]) -> Function
     for number, flow in enumerate(step.flows):
         duration = value(domain.number(flow.duration) * domain.space.sym("h"))
         body.append(parts[flow.sweep].called(flow, duration, number == 0))
-    about = "One step of all sites; return the number of sites whose new state is not finite."
-    parameters = advance_parameters(plan, step)
-    return Function(ADVANCE, about, parameters, (*body, Return(BAD)), Kind.COUNT)
+    return Function(ADVANCE, ABOUT_STEP, advance_parameters(plan, step), (*body, RETURNED), Kind.STATUS)

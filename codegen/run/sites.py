@@ -9,7 +9,8 @@ loop without branches, which compilers turn into vector instructions. ``site_K``
 boundary. ``pass_K`` calls them for all sites. In this loop, sines, cosines and Stumpff functions are computed
 only for arguments near zero; for other arguments they return NaN. If the new state is not finite at some
 site, the step is repeated with ``site_K`` for all sites, because ``site_K`` accepts all arguments. Where the
-loop succeeds, ``sweep_K`` and ``site_K`` have the same roundings.
+loop succeeds, ``sweep_K`` and ``site_K`` have the same roundings. The sweeps of an implicit block are
+repeated until the unknowns of all sites converge (:mod:`codegen.run.site_solver`).
 """
 
 from __future__ import annotations
@@ -35,6 +36,21 @@ from codegen.run.language import (
     reads,
 )
 from codegen.run.plan import STEP, STEPS, TIME, Plan, symbols_of
+from codegen.run.site_solver import iterated, measures
+from codegen.run.site_terms import (
+    ARRAYS,
+    BAD,
+    COLUMN,
+    COLUMNS,
+    INDEX,
+    NUMBER,
+    PLACE,
+    ROW,
+    SITE,
+    SITES,
+    WHOLE,
+    shape_of,
+)
 from codegen.run.step import exact_time
 from codegen.run.terms import (
     BAD_SHAPE,
@@ -50,6 +66,7 @@ from codegen.run.terms import (
     either,
     flag,
     given,
+    greatest,
     is_finite,
     negated,
     number,
@@ -57,28 +74,28 @@ from codegen.run.terms import (
     paired,
     real,
     select,
+    size,
+    total,
     value,
     whole,
 )
 from codegen.run.values import simple
 
-SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
-"""The number of all sites, the number of sites in one row of the lattice, the index of a site in its row, and
-the index of the first site of this row among all sites."""
-
-SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), count("i")
-BAD, _PART, _INNER, _LEAD, WHOLE = count("bad"), count("part"), count("inner"), count("lead"), flag("whole")
+_PART, _INNER, _LEAD = count("part"), count("inner"), count("lead")
 _DONE, _COMPLETED = count("done"), count("completed", 1, optional=True, cell=True)
-_STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
-ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
+_STATE, _WORK, _RESULT = ARRAYS[STATE], ARRAYS[WORK], ARRAYS[RESULT]
 
-ADVANCE = "advance"
+ADVANCE, ABOUT_STEP = "advance", "One step of all sites; return its status."
+
+RETURNED = Return(select(BAD > 0, code(NOT_FINITE), code(OK)))
+"""The end of a step. BAD is the number of sites whose new state is not finite."""
 
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
-    """Return the functions of an explicit method, callees first."""
+    """Return the functions of a method without flows, callees first."""
     loops = [Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
     listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
+    listed += measures(step)
     return complete(plan, step, [*listed, _advance(plan, step, loops)])
 
 
@@ -88,11 +105,6 @@ def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Functio
     size = Return(step.workspace * _product(shape, step.dimension))
     workspace = Function("workspace", "", (shape,), (size,), Kind.COUNT, public=True)
     return [*listed, workspace, _run(plan, step, any(f.near for f in listed))]
-
-
-def shape_of(step: SiteStep) -> Term:
-    """Return the argument for the numbers of sites in all dimensions."""
-    return count("shape", step.dimension)
 
 
 def _product(shape: Term, dimension: int) -> Term:
@@ -182,17 +194,42 @@ class Loop:
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
         """Return the statements that store the results at a site, and count the site if a new value is not
         finite."""
-        body: list[Statement] = []
+        body, images = self._images(ends)
         tested = []
-        for row, end in zip(self.own.stores, ends, strict=True):
+        for row, end in zip(self.own.stores, [*images, *ends[len(images) :]], strict=True):
             if self.last and row.array == RESULT:
                 name = own(f"new {self.plan.symbols[row.number]}")
                 body.append(Assign(name, end))
                 tested.append(name)
                 end = name
             body.append(Assign(self.entry(row, place), end))
+        body += self._measured(images, place)
         body += checked(tested) if tested else []
         return body
+
+    def _images(self, ends: Sequence[Term]) -> tuple[list[Statement], list[Term]]:
+        """Return the statements that name the images of unknowns, and the names. The images are named before
+        any unknown changes."""
+        images = [own(f"next {u}") for u in self.own.unknowns]
+        return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
+
+    def _measured(self, images: Sequence[Term], place: Term) -> list[Statement]:
+        """Return the statements that store the largest change and the largest absolute value of the
+        unknowns."""
+        if not images:
+            return []
+        unknowns = [own(u) for u in self.own.unknowns]
+        changes = [own(f"change {u}") for u in self.own.unknowns]
+        body: list[Statement] = [
+            Assign(c, size(x - u)) for c, x, u in zip(changes, images, unknowns, strict=True)
+        ]
+        # A maximum may lose a NaN. The difference of the sum and itself is zero, or NaN if a change is not
+        # finite.
+        sum_of_changes = real("total")
+        body.append(Assign(sum_of_changes, total(changes)))
+        largest = (greatest(changes) + (sum_of_changes - sum_of_changes), greatest(map(size, unknowns)))
+        rows = zip(self.own.measured, largest, strict=True)
+        return [*body, *(Assign(self.entry(row, place), x) for row, x in rows)]
 
     def function(
         self, name: str, about: str, parameters: tuple[Term, ...], body: list[Statement]
@@ -223,7 +260,7 @@ class Loop:
 
     def _read(self) -> list[Load]:
         """Return the loads of the sweep's own kernel."""
-        read = symbols_of(self.own.kernel)
+        read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 
     def site(self) -> Function:
@@ -356,11 +393,16 @@ def _moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term |
 def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
     """Return the function that makes one step. It does not test the shape of the lattice."""
     body: list[Statement] = []
-    for loop in loops:
+    ends = {block.last: (number, block) for number, block in enumerate(step.blocks, 1)}
+    calls: list[Statement] = []
+    for k, loop in enumerate(loops):
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
-        body.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
-    about = "One step of all sites; return the number of sites whose new state is not finite."
-    return Function(ADVANCE, about, advance_parameters(plan, step), (*body, Return(BAD)), Kind.COUNT)
+        calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
+        if any(block.first <= k < block.last for block in step.blocks):
+            continue
+        body += iterated(plan, *ends[k], calls) if k in ends else calls
+        calls = []
+    return Function(ADVANCE, ABOUT_STEP, advance_parameters(plan, step), (*body, RETURNED), Kind.STATUS)
 
 
 def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
@@ -389,11 +431,11 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
         every = Term("number", (), Kind.FLAG, number=int(separately))
         moment = plan.moment(later)
         return Call(
-            ADVANCE, (every, shape_of(step), SITES, old, _WORK, new, *moment, *plan.parameters), (BAD,)
+            ADVANCE, (every, shape_of(step), SITES, old, _WORK, new, *moment, *plan.parameters), (STATUS,)
         )
 
     def tried(old: Term, new: Term) -> tuple[Statement, ...]:
-        again = If(BAD > 0, (advance(old, new, True),))
+        again = If(STATUS.equals(code(NOT_FINITE)), (advance(old, new, True),))
         return (advance(old, new, False), *((again,) if twice else ()))
 
     even = (_DONE % 2).equals(whole(0))
@@ -401,7 +443,7 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
     # their roles, so no state is copied.
     body = (
         If(even, tried(_STATE, _WORK), tried(_WORK, _STATE)),
-        If(BAD > 0, (Assign(STATUS, code(NOT_FINITE)),), (Assign(_DONE, _DONE + 1),)),
+        If(STATUS.equals(code(OK)), (Assign(_DONE, _DONE + 1),)),
     )
     place = count("place")
     copied = For(place, step.size * SITES, (Assign(_STATE[place], _WORK[place]),))

@@ -35,7 +35,10 @@ def unit_of(plan: Plan) -> Unit:
         scalars = ("t", "h", *(p.text for p in plan.parameters))
         step = plan.kernel.sites
         of_sites = site_flows.functions if step.flows else sites.functions
-        return Unit(scalars, (), (), tuple(of_sites(plan, step)))
+        listed = of_sites(plan, step)
+        vectors = used(listed)
+        listed = [*matrix_functions(vectors, plan.format), *listed]
+        return Unit(scalars, (), matrix_tables(vectors, plan.format), tuple(listed))
     functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
     if plan.kernel.deferred is not None:
         functions += deferred_flows.functions(plan)

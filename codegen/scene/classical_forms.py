@@ -235,7 +235,7 @@ class _Change:
         return (*(s for leaf in self.leaves for s in leaf.own), *self.momenta)
 
     def form(self) -> ClassicalForm:
-        """Return the form."""
+        """Return the classical form that this change of coordinates defines."""
         problem, key = self.problem, self.key()
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
@@ -267,13 +267,14 @@ class _Change:
         )
 
     def key(self) -> str:
-        """Return the key."""
+        """Return the key of the form, such as ``quaternion`` or ``body-matrix``."""
         chosen = [leaf for leaf in self.leaves if leaf.cover is not None] or self.leaves
         short = next(leaf.noun for leaf in chosen if not leaf.group.abelian).rpartition(" ")[2]
         return short if self.covered else f"body-{short}"
 
     def name(self) -> str:
-        """Return the name."""
+        """Return the name of the form: the frame of its velocity or momentum, and the coordinates of the
+        group."""
         nouns = [leaf.noun for leaf in self.leaves if not leaf.group.abelian]
         frame = "body" if self.body else "space"
         what = "momentum" if self.problem.paired else "velocity"

@@ -115,16 +115,16 @@ def check_action(orbit: Orbit) -> None:
     ends = [action.actexp(d, group, tuple(e * a for a in x), y) for e in (eps, -eps)]
     slope = [(a - b) / (eps + eps) for a, b in zip(*ends, strict=True)]
     for what, left, right, expected in (
-        ("act", action.act(d, group, group.identity(d), y), y, "y for the identity"),
+        ("act", action.act(d, group, group.identity(d), y), y, "because the identity must not move y"),
         ("velocity", action.velocity(d, group, x, y), slope, "the derivative of act(exp(eps x), y)"),
     ):
         for k, (a, b) in enumerate(zip(left, right, strict=True)):
             if abs(a - b) > d.rational(1, 10**SLOPE_DIGITS) * (1 + abs(a) + abs(b)):
                 raise SceneError(
-                    f"{what}[{k}] of {action.name} is {orbit.text(a)}",
+                    f"{what}[{k}] of the action {action.name} is {orbit.text(a)}",
                     where=orbit.name,
                     expected=f"{orbit.text(b)}, {expected}",
-                    hint=f"correct {type(action).__name__}",
+                    hint=f"correct the class {type(action).__name__}",
                 )
 
 
@@ -136,6 +136,7 @@ def check_equal(
 
     ``what`` names the formulas of the scene in the message.
     """
+    source = "f.y" if derived is None else "the derivatives of H"
     for point in orbit.points:
         right = orbit.velocity(point) if derived is None else orbit.values(derived, point)
         left = orbit.values(stated, point)
@@ -144,7 +145,7 @@ def check_equal(
                 raise SceneError(
                     f"{what}[{k}] is {orbit.text(x)} {_place(orbit, point)}",
                     where=orbit.name,
-                    expected=f"{orbit.text(y)}, by {'f.y' if derived is None else 'the derivatives of H'}",
+                    expected=f"{orbit.text(y)}, from {source}",
                 )
 
 
@@ -176,9 +177,9 @@ def check_flow(
                             f"the flow of {name} {verb} {orbit.text(x)} in {orbit.symbols[k]} "
                             f"at {elapsed} = {orbit.text(there[elapsed])}",
                             where=orbit.name,
-                            expected=f"{orbit.text(y)}, by the equations of the part",
-                            hint="if summands do not commute, their flows do not compose to the flow of "
-                            "their sum: define them as separate parts",
+                            expected=f"{orbit.text(y)}, which follows from the equations of the part",
+                            hint="if the part is a sum of terms that do not commute, the composition of "
+                            "their flows is not the flow of the sum; define each term as a separate part",
                         )
 
 
@@ -200,7 +201,7 @@ def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
                     f"the invariant {name} changes at the rate {orbit.text(total)}, {_place(orbit, point)}",
                     where=orbit.name,
                     expected="a function that is constant along the solutions",
-                    hint="correct its formula, or remove it from invariants",
+                    hint=f"correct the formula of {name}, or remove {name} from invariants",
                 )
 
 

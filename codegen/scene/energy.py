@@ -38,7 +38,7 @@ class Conservative(Protocol):
 
     @property
     def action(self) -> Action:
-        """Its action."""
+        """The action of the group on the states."""
 
     @property
     def roots(self) -> tuple[Expr, ...]:

@@ -86,7 +86,7 @@ def _timed(problem: Problem) -> Expr:
         raise SceneError(
             f"the Hamiltonian of {problem.name} does not depend on time",
             expected="a Hamiltonian that depends on t",
-            hint="remove +u from the name: u would be constant",
+            hint="remove +u from the name of the scene, because u would be constant",
         )
     return problem.hamiltonian
 

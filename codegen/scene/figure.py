@@ -8,7 +8,7 @@ invariant of the scene.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -16,6 +16,7 @@ from codegen.errors import SceneError
 from orderconds.argument import described
 
 if TYPE_CHECKING:
+    import numpy
     import sympy
 
 Quantity: TypeAlias = "sympy.Expr | str"
@@ -69,7 +70,7 @@ class Figure:
     """A figure: its name in commands, its title, its caption, and the runs that it shows.
 
     ``source`` names the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run with which
-    the other runs are compared; figures that compare nothing draw it as a thin line.
+    the other runs are compared. A figure without comparisons shows the reference as a thin line.
     """
 
     name: str
@@ -158,6 +159,21 @@ class TimeSeries(Figure):
     difference: bool = False
     reference_label: str = "reference"
     window: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class LatticeMeans(Figure):
+    """Means over all sites of a lattice against time. ``quantities`` maps labels to formulas.
+
+    The formulas contain the coordinates of a site and, if the lattice is periodic, those of neighbours.
+    ``shape`` contains the number of sites in each dimension. ``start`` is the function from this shape to the
+    initial states, an array of shape (n1, ..., nd, size).
+    """
+
+    quantities: Mapping[str, Quantity] = field(default_factory=dict)
+    axis: str = ""
+    shape: tuple[int, ...]
+    start: Callable[[tuple[int, ...]], numpy.ndarray]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -74,7 +74,7 @@ class Reader:
         for inner in _free_symbols(symbol.formula):
             if inner.name != TIME and not isinstance(inner, Parameter):
                 raise SceneError(
-                    f"{what} contains {inner.name}", where=self.name, expected="t and parameters"
+                    f"{what} contains {inner.name}", where=self.name, expected="a formula in t and parameters"
                 )
         formula = self.scalar(symbol.formula, what)
         taken = symbol.name in self.coordinates or symbol.name in self.defaults
@@ -141,7 +141,9 @@ class Reader:
                 f"{what} is {formulas}", where=self.name, expected=f"a column of {n} components"
             ) from None
         if len(entries) != n:
-            raise SceneError(f"{what} has {len(entries)} components", where=self.name, expected=str(n))
+            raise SceneError(
+                f"{what} has {len(entries)} components", where=self.name, expected=f"{n} components"
+            )
         return tuple(self.scalar(e, f"{what}[{k}]", constant, more) for k, e in enumerate(entries))
 
 

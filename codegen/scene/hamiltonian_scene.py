@@ -97,18 +97,18 @@ def _check_coordinates(name: str, coordinates: str) -> None:
         raise SceneError(
             f"coordinates={coordinates!r} on T*G",
             where=name,
-            expected=f'coordinates="{EXPONENTIAL}": the other maps are known on G, not on T*G, and '
-            "variational methods are derived for the exponential map",
+            expected=f'coordinates="{EXPONENTIAL}", because the other coordinate maps are defined on G '
+            "only, and because variational methods are derived for the exponential map",
             hint="remove coordinates, or write the equations as a FieldScene",
         )
 
 
 def _refuse_parts(name: str, parts: Mapping[str, sympy.Expr]) -> NoReturn:
     raise SceneError(
-        f"a wrench beside the parts {', '.join(parts)}",
+        f"a wrench in a scene with the parts {', '.join(parts)}",
         where=name,
         expected="parts without a wrench, or a wrench without parts",
-        hint="splittings compose exact flows of the parts of H, and a wrench has no exact flow: remove parts",
+        hint="remove parts, because splittings compose exact flows and a wrench has no exact flow",
     )
 
 

@@ -94,7 +94,7 @@ def _hamiltonian(problem: Problem) -> Expr:
         raise SceneError(
             f"the Hamiltonian of {problem.name} does not depend on time",
             expected="a Hamiltonian that depends on t",
-            hint="remove +u from the name: u would be constant",
+            hint="remove +u from the name of the scene, because u would be constant",
         )
     return hamiltonian
 

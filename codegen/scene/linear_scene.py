@@ -45,7 +45,7 @@ def LinearScene(
     sign of A is changed. ``steps`` maps names to steps y1 = M y0: pairs of a formula of M
     (:mod:`codegen.scene.matrix_step`) and its order. The method ``step:NAME`` is such a step.
     :class:`SceneError` is raised for a matrix outside of the algebra, for an A that depends on the state, and
-    in the cases in which ``FieldScene`` raises it.
+    in the same cases as by ``FieldScene``.
 
     >>> from sympy import Matrix, Symbol
     >>> from codegen.groups import SL2, Linear

@@ -146,8 +146,8 @@ def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None
     ``diagonals`` maps an offset j - i to the entries a_ij: one scalar that is the value of all entries, a
     function of the row i, or the list of all entries of the diagonal. Rows and columns are counted from 0.
     Emitted code contains the numbers of a list; a scalar or a function takes one line. :class:`SceneError` is
-    raised for an offset outside the matrix. A list of a wrong length raises it only when the scene reads the
-    matrix.
+    raised for an offset outside the matrix. A list of a wrong length raises this error only when the scene
+    reads the matrix.
     """
     _size(rows, "rows")
     width = rows if columns is None else columns
@@ -190,7 +190,7 @@ def _matrix(value: object) -> MatrixFormula:
     if isinstance(value, MatrixFormula):
         return value
     raise SceneError(
-        f"{type(value).__name__} {str(value)[:40]} in a formula of matrices",
+        f"{str(value)[:40]} of type {type(value).__name__} in a formula of matrices",
         expected="a matrix",
         hint="write constant matrices as banded(n, {...}) or full(n, m, rows)",
     )
@@ -198,7 +198,9 @@ def _matrix(value: object) -> MatrixFormula:
 
 def _scalar(value: Coefficient) -> Coefficient:
     if isinstance(value, MatrixFormula):
-        raise SceneError("a matrix * a matrix", expected="a scalar", hint="write the product as A @ B")
+        raise SceneError(
+            "a product of two matrices with *", expected="a scalar factor", hint="write the product as A @ B"
+        )
     return value
 
 

@@ -95,7 +95,9 @@ def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayPr
     """
     if not isinstance(formula, MatrixFormula) or (formula.rows, formula.columns) != (x.rows, x.columns):
         size = f"{formula.rows} x {formula.columns}" if isinstance(formula, MatrixFormula) else repr(formula)
-        raise SceneError(f"the velocity {size}", where=reader.name, expected=f"{x.rows} x {x.columns}")
+        raise SceneError(
+            f"the velocity is {size}", where=reader.name, expected=f"a formula of size {x.rows} x {x.columns}"
+        )
     return _Compiler(reader, x).program(formula)
 
 
@@ -163,9 +165,9 @@ class _Compiler:
         """Return a formula as a factor; raise :class:`SceneError` for an unknown other than X."""
         if isinstance(formula, Unknown) and formula is not self.x:
             raise SceneError(
-                "the velocity contains another unknown",
+                "the velocity contains an unknown that is not the unknown x of the scene",
                 where=self.reader.name,
-                expected="the matrix x of the scene",
+                expected="a formula in x",
             )
         return _Factor(formula, transposed)
 

@@ -53,6 +53,7 @@ def with_inputs(problem: Problem, names: Sequence[str]) -> Problem:
     signal."""
     for name in names:
         if name not in problem.signals:
-            known = ", ".join(problem.signals) or "no signals, because the scene has no signal"
-            raise SceneError(f"unknown signal {name!r}", where=problem.name, expected=f"one of: {known}")
+            known = ", ".join(problem.signals)
+            expected = f"one of: {known}" if known else "no input, because the scene has no signals"
+            raise SceneError(f"unknown signal {name!r}", where=problem.name, expected=expected)
     return replace(problem, inputs=tuple(dict.fromkeys(names)))

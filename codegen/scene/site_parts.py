@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 class Pair:
     """The interaction of the sites i and i + offset.
 
-    ``first`` are the generators of site i and ``second`` those of the other site. Both are formulas in the
-    coordinates of both sites.
+    ``first`` are the generators of site i and ``second`` the generators of the other site. All
+    generators are formulas in the coordinates of both sites.
     """
 
     offset: Sequence[int]
@@ -66,7 +66,7 @@ def _read(
         raise SceneError(
             f"the offset {offset} of the {what}",
             where=reader.name,
-            expected="one entry 1 and zeros, such as (1,) or (0, 1)",
+            expected="an offset with one entry 1 and all other entries 0, such as (1,) or (0, 1)",
         )
     both = [
         *reader.column(given.first, size, f"{what}, first", more=symbols),
@@ -85,12 +85,15 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
     assert sites is not None
     for part in sites.parts:
         if any(n.op == "sym" and n.payload == TIME for n in walk(part.roots)):
-            raise SceneError(f"the part {part.name} depends on t", where=scene.name, expected="no time")
+            raise SceneError(
+                f"the part {part.name} depends on t", where=scene.name, expected="a formula without t"
+            )
         if part.axis >= sites.dimension:
             raise SceneError(
-                f"the part {part.name} has an offset of another length",
+                f"the offset of the part {part.name} has a length that differs from the dimension of the "
+                "lattice",
                 where=scene.name,
-                expected=f"{sites.dimension} entries",
+                expected=f"an offset with {sites.dimension} entries",
             )
         _check_constant(scene, orbit, part)
     if sites.parts:
@@ -120,20 +123,22 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                     f"generator {k} of the part {part.name} is not constant along the flow of the part",
                     where=scene.name,
                     expected="generators for which exp(tau f(y)).y is the exact flow",
-                    hint="split the part, or write the same velocity with other generators: J (S + S') "
-                    "in place of J S' for spins",
+                    hint="split the part, or write the same velocity with other generators; for spins, write "
+                    "J (S + S') in place of J S'",
                 )
 
 
 def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols at a sample point; the next sample point is the neighbour's state."""
+    """Return the values of all symbols at a sample point. The state of the neighbour is the next sample
+    point."""
     point = dict(orbit.points[number])
     other = orbit.points[(number + 1) % len(orbit.points)]
     return point | {s: other[own] for s, own in zip(partner, scene.symbols, strict=bool(partner))}
 
 
 def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
-    """Compare the velocity by all parts with that by f, with all neighbours and without some neighbours."""
+    """Compare the sum of the velocities of all parts with the velocity of f: with all neighbours, and without
+    some of the neighbours."""
     axes = [part.axis for part in sites.parts if part.symbols]
     offsets = {*sites.offsets}
     for axis in axes:
@@ -157,7 +162,7 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
                     raise SceneError(
                         f"the parts add up to the velocity {orbit.text(x)}{where}",
                         where=scene.name,
-                        expected=f"{orbit.text(y)}, by f",
+                        expected=f"{orbit.text(y)}, the velocity of f",
                         hint="list all terms of f in parts; a pair needs the generators of both sites",
                     )
 

@@ -161,7 +161,7 @@ def outside_states(
                 f"no state for the neighbour {offset} outside the open boundary",
                 where=reader.name,
                 expected="a column of formulas in the argument outside",
-                hint="zeros, the coordinates y themselves, constants, or formulas in t",
+                hint="write, for example, zeros, the coordinates y, constants, or formulas in t",
             )
         listed.append(reader.column(given.pop(offset), size, f"outside {offset}"))
     if given:

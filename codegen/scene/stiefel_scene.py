@@ -33,10 +33,9 @@ MOST_ROWS = 8
 These formulas are needed by measurements, and by methods in coordinates; their length grows as n^3."""
 
 TOLERANCE = 1e-10
-"""The largest error of the orthonormality of y0.
+"""The largest permitted entry of y0^T y0 - 1.
 
-For the error of the tangency of the velocity V, the limit is TOLERANCE times n (1 + |V|) with the largest
-entry |V|."""
+The largest permitted entry of X^T V + V^T X, for the velocity V at X, is TOLERANCE n (1 + max |V_ij|)."""
 
 
 def StiefelScene(
@@ -115,7 +114,7 @@ def _check(problem: Problem, field: MatrixField) -> None:
     error = _largest(_gram(start, start, field.columns), unit=True)
     if not error <= TOLERANCE:
         raise SceneError(
-            f"the columns of y0 are not orthonormal: the error of y0^T y0 = 1 is {error:.1e}",
+            f"the columns of y0 are not orthonormal: the largest entry of y0^T y0 - 1 is {error:.1e}",
             where=problem.name,
             expected="orthonormal columns",
         )

@@ -16,7 +16,8 @@ from codegen.scene.problem import TIME, Problem, StateField
 from codegen.scene.sites import Offset, Sites
 
 MOST_SITES = 64
-"""The largest number of sites of an unrolled lattice, whose formulas contain the state of every site."""
+"""The largest number of sites of an unrolled lattice. An unrolled lattice has separate formulas for each
+site."""
 
 
 def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:

@@ -25,7 +25,7 @@ CHANCE = Fraction(1, 2**9)
 most this bound."""
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
-"""Keys of a file that contain no coefficients."""
+"""The keys of a tableau file whose values contain no coefficients."""
 
 MAX_NUMBERS = 400
 MAX_SECONDS = 2.0

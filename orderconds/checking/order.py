@@ -27,7 +27,8 @@ STOPPED = "stopped"
 """The verdict on an order that was not decided because of a limit."""
 
 DOUBLE = "double"
-"""The certificate of an order that coefficients in double precision support but do not prove."""
+"""The certificate of an order if coefficients in double precision agree with the order but do not prove
+it."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
 """A pair: a tree in the encoding of its family, and a function that returns the condition of the tree."""

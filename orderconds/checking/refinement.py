@@ -59,7 +59,7 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
     if given.proof is None:
         forms = exact_forms(given)
         if forms is None:
-            raise NotProved("no decimals of which exact forms are recognised")
+            raise NotProved("no exact numbers near the coefficients give a method of the same order")
         return Refinement(forms.tableau, {}, exact=forms.texts)
     where = given.path or given.name
     refined = newton.refine(dumps(given), where, digits)

@@ -1,4 +1,4 @@
-"""The report of a check: the orders of one tableau, of its embedded row, its properties and its claims."""
+"""The report of a check: the orders of one tableau, of its embedded method, its properties and its claims."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ UNCLAIMED = "unclaimed"
 
 
 class EmbeddedOrder(Struct, frozen=True):
-    """The orders of the embedded row, which is a second row of weights that is used to estimate the error.
+    """The orders of the embedded method: second weights, or a second update, for an error estimate.
 
     ``claimed`` is the claimed order in the family ``own``, and ``orders`` are the computed orders by family.
-    ``certificates`` are the certificates of these orders, by family. ``own`` is ``rk`` if the row consists of
-    weights, and ``cf`` if the row is an update by exponentials. ``failing`` are the failing conditions of the
-    family ``own`` at the next order.
+    ``certificates`` are the certificates of these orders, by family. ``own`` is ``rk`` if the embedded method
+    consists of weights, and ``cf`` if it is an update by exponentials. ``failing`` are the failing conditions
+    of the family ``own`` at the next order.
     """
 
     claimed: int
@@ -35,7 +35,7 @@ class EmbeddedOrder(Struct, frozen=True):
     failing: tuple[Failure, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of an embedded row."""
+        """Return the JSON object of an embedded method."""
         return {"claimed": self.claimed, "orders": self.orders, "certificates": self.certificates}
 
 

@@ -1,4 +1,4 @@
-"""``check``: the orders of a tableau in each family that it claims, compared with its claims."""
+"""``check``: compute the orders of a tableau and compare them with the orders that its file claims."""
 
 from __future__ import annotations
 
@@ -146,12 +146,13 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
         return ""
     name, text = max(forms.texts.items(), key=lambda form: ("sqrt" in form[1], -len(form[1])))
     return (
-        f"exact numbers agree with the decimals, such as {name} = {text}; orderconds refine FILE writes them"
+        f"the decimals agree with exact numbers, such as {name} = {text}; to write the exact numbers, type: "
+        "orderconds refine FILE"
     )
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded row in families whose stages do not depend on the weights.
+    """Return the orders of the embedded method in families whose stages do not depend on the weights.
 
     The families are those in ``wanted`` with this property, the classical family ``rk``, and the family of
     the tableau format.
@@ -384,7 +385,7 @@ def _claimed(tableau: Tableau, label: str) -> Family:
         raise InputError(
             f"a claim in family {label}, which does not accept tableaux of format {tableau.family}",
             where=where,
-            expected=f"a family that accepts them, such as {readers}",
+            expected=f"a family that accepts this format, such as {readers}",
         )
     return family
 
@@ -392,16 +393,16 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 def _broken_claims(
     tableau: Tableau, computed: dict[str, bool | None], embedded: EmbeddedOrder | None
 ) -> Iterator[str]:
-    """Yield a message for each false claim on a property or on the embedded row."""
+    """Yield a message for each false claim on a property or on the embedded method."""
     for name, claimed in tableau.claims.properties.items():
         holds = computed.get(name)
         if holds is not claimed:
             said = "undecided" if holds is None else str(holds).lower()
-            yield f"property {name}: the result is {said}, the claim is {str(claimed).lower()}"
+            yield f"property {name}: claimed {str(claimed).lower()}, computed {said}"
     if embedded is not None and embedded.orders[embedded.own] != embedded.claimed:
         order = embedded.orders[embedded.own]
         reason = f"; {embedded.failing[0]}" if order < embedded.claimed and embedded.failing else ""
-        yield f"the embedded row has order {order} ({embedded.own}), claimed {embedded.claimed}{reason}"
+        yield f"the embedded method has order {order} ({embedded.own}), claimed {embedded.claimed}{reason}"
 
 
 def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:

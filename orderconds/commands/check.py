@@ -38,13 +38,15 @@ UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""The number of characters of a coefficient in the line about two registers."""
+"""The line about two registers shows at most this number of characters of each coefficient."""
 
 WIDTH = 200
 """The maximal length of a formula or residual in the text output. The JSON output contains the full text."""
 
 
-@click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
+@click.command(
+    name="check", short_help="Compute the exact orders of tableaux and compare them with the claimed orders."
+)
 @click.argument(
     "tableaux",
     nargs=-1,
@@ -77,13 +79,13 @@ WIDTH = 200
 @click.option(
     "--require-claims",
     is_flag=True,
-    help="Exit with status 1 if a tableau claims no order in the checked families, and with status 2 if a "
-    "file below a directory is neither a tableau nor plainly other data.",
+    help="Exit with status 1 if a tableau claims no order in the checked families. Exit with status 2 if a "
+    "file below a directory resembles a tableau but cannot be read as a tableau.",
 )
 @click.option(
     "--skip-others",
     is_flag=True,
-    help="Skip named files that contain no tableau. Such files below a directory are always skipped.",
+    help="Skip each FILE that contains no tableau. Files without a tableau below a DIR are always skipped.",
 )
 @click.option(
     "--tolerance",
@@ -135,10 +137,10 @@ def command(
     order. A file claims an order with `order = 4`, or with `rk = 4` in the table `claims`. If a limit ends
     the computation, the computed order is a lower bound.
 
-    Files below a directory that contain no tableau are skipped, and their names are printed. A file is
-    plainly other data if it contains no array of a tableau. Examples are a CSV file whose header names other
-    columns, a JSON file without a matrix, a Python module that assigns no matrix A and no list b, and a NumPy
-    archive with other names.
+    Files below a directory that contain no tableau are skipped, and their names are printed. With
+    --require-claims, such a file is skipped only if it contains no array that resembles an array of a
+    tableau. Examples are a CSV file whose header names other columns, a JSON file without a matrix, a Python
+    module that assigns no matrix A and no list b, and a NumPy archive with other names.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
@@ -350,11 +352,11 @@ def _print_report(report: Report, *, detailed: bool) -> None:
     if report.hint:
         click.echo(f"  hint: {report.hint}")
     if report.embedded is not None:
-        click.echo(f"  embedded row: order {_embedded(report.embedded)}")
+        click.echo(f"  embedded method: order {_embedded(report.embedded)}")
     if report.proof is not None:
         click.echo(f"  proof: {_proof(report.proof)}")
     if report.work:
-        click.echo(f"  a step: {_work(report.work)}")
+        click.echo(f"  cost of a step: {_work(report.work)}")
     holding = [name for name, value in report.properties.items() if value]
     click.echo(f"  properties: {', '.join(holding) or 'none'}")
     if report.low_storage is not None and report.low_storage.holds:
@@ -370,7 +372,7 @@ def _print_report(report: Report, *, detailed: bool) -> None:
 
 
 def _embedded(embedded: EmbeddedOrder) -> str:
-    """Return the orders of an embedded row, followed by their certificates. Each certificate is named
+    """Return the orders of an embedded method, followed by their certificates. Each certificate is named
     once."""
     groups: dict[str, list[str]] = {}
     for label, order in embedded.orders.items():
@@ -396,7 +398,7 @@ def _work(work: dict[str, Work]) -> str:
     for label, cost in work.items():
         if cost.exponentials is not None:
             brackets = f" and {_count(cost.brackets, 'bracket')}" if cost.brackets else ""
-            counts.append(f"{label} {_count(cost.exponentials, 'exponential')}{brackets}")
+            counts.append(f"{label}: {_count(cost.exponentials, 'exponential')}{brackets}")
     return "; ".join(counts)
 
 
@@ -406,7 +408,7 @@ def _count(n: int, what: str) -> str:
 
 def _proof(proof: Certificate) -> str:
     """Return one line that describes the proof that a solution lies near the decimals."""
-    text = f"one solution of {proof.equations} equations within {proof.radius} of the decimals"
+    text = f"{proof.equations} equations have exactly one solution within {proof.radius} of the decimals"
     if not proof.printed:
         return text
     furthest = max(proof.printed.values(), key=float)
@@ -434,7 +436,7 @@ def _print_failing(family: FamilyOrder) -> None:
         if family.stopped is None:
             click.echo(f"  {reached}, the highest order searched")
         else:
-            click.echo(f"  {reached}; stopped by a limit after {family.stopped} conditions")
+            click.echo(f"  {reached}; a limit stopped the check after {family.stopped} conditions")
         return
     if not family.decided:
         click.echo(f"  {family.family}: the coefficients have too few digits to decide order {n}")

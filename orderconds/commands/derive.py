@@ -13,6 +13,7 @@ from orderconds.commands import screen
 from orderconds.commands.names import completing, family_names
 from orderconds.commands.place import FILE, put
 from orderconds.exit_status import json_text
+from orderconds.typeset.counts import sum_of_counts
 
 if TYPE_CHECKING:
     from orderconds.derivation import Derivation
@@ -113,7 +114,7 @@ def _print(derivation: Derivation, form: str, explain: bool) -> None:
 
 def _print_text(derivation: Derivation, explain: bool) -> None:
     """Print, for each order, the number of conditions, the trees and the equations."""
-    click.echo(f"{derivation.family}: {', '.join(map(str, derivation.counts))} conditions of order 1, 2, ...")
+    click.echo(f"{derivation.family}: {sum_of_counts(derivation.counts)}")
     for order, conditions in enumerate(derivation.by_order, start=1):
         click.echo(f"\norder {order}: {len(conditions)} condition{'' if len(conditions) == 1 else 's'}")
         if explain:

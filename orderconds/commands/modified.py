@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--family",
-    help="Treat the tableau as a method of this family. Default: rk or cf, as its format determines.",
+    help="Treat the tableau as a method of this family. Default: rk or cf, depending on the format of the "
+    "tableau.",
 )
 @click.option(
     "--modifying",

@@ -32,7 +32,7 @@ class Place(click.ParamType[str]):
             self.fail(f"{value!r} is not the name of a {self.name}; {self.otherwise}", param, ctx)
         if value.startswith("--"):
             self.fail(
-                f"the name of a {self.name} is missing before {value}; for a {self.name} of this name type "
+                f"the name of a {self.name} is missing before {value}; to name a {self.name} {value}, type "
                 f"./{value}",
                 param,
                 ctx,
@@ -41,7 +41,7 @@ class Place(click.ParamType[str]):
 
 
 FOLDER = Place("folder", "type '.' for the current folder")
-FILE = Place("file", "leave the option out for stdout")
+FILE = Place("file", "omit the option to write to stdout")
 
 
 def put(path: str, content: bytes) -> None:

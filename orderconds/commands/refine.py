@@ -23,7 +23,7 @@ UNKNOWN = "no fractions and no numbers p + q sqrt(d) near the coefficients give 
     "--json",
     "as_json",
     is_flag=True,
-    help="Print the new digits, the names of the fixed decimals and the proof as JSON.",
+    help="Print, as JSON, the new digits, the names of the decimals that were kept fixed, and the proof.",
 )
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.

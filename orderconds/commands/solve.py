@@ -86,13 +86,14 @@ if TYPE_CHECKING:
 @click.option(
     "--minimise",
     type=click.Choice(["error"]),
-    help="Search from all random starts. Write the method, among all methods that were found, for which the "
-    "norm of the residuals of the next order is least.",
+    help="Search from all random starts, and write the method with the least principal error. The principal "
+    "error is the norm of the residuals of the next order.",
 )
 @click.option(
     "--starts",
     type=click.IntRange(*STARTS),
-    help="The number of random starts for each structure.  [default: 4096, or 1024 if --minimise is given]",
+    help="The number of random starts for each parametrisation of the tableau.  [default: 4096, or 1024 if "
+    "--minimise is given]",
 )
 @click.option("--seed", type=click.IntRange(*SEED), default=0, show_default=True)
 @click.option(
@@ -234,7 +235,7 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
     elif outcome.solution is None:
         click.echo(
             f"orderconds: no {order.family} method of order {order.order} with {_stages(order)} "
-            f"was found; best residual {outcome.best:.3g}",
+            f"was found; the least norm of residuals is {outcome.best:.3g}",
             err=True,
         )
         for line in outcome.tried:
@@ -244,7 +245,8 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
     else:
         error = "" if outcome.solution.error is None else f", principal error {outcome.solution.error:.6g}"
         click.echo(
-            f"{output}: {order.family} {order.order}, certificate {outcome.solution.certificate}{error}"
+            f"{output}: family {order.family}, order {order.order}, certificate: "
+            f"{outcome.solution.certificate}{error}"
         )
 
 
@@ -259,4 +261,5 @@ def _print_proof(order: Order, proof: Infeasible) -> None:
     ):
         click.echo(f"  {condition}")
         click.echo(f"    ({multiplier}) * ({equation})")
-    click.echo(f"the sum of the products above is {proof.consequence}, but {proof.reason}")
+    click.echo("the conditions imply that the products above are zero;")
+    click.echo(f"the sum of the products is {proof.consequence}, but {proof.reason}")

@@ -1,14 +1,15 @@
 """``orderconds table``: print the library as a Markdown table, write the table to a file, or compare the
-table with a file."""
+table with a file. With names, print Butcher tableaux."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypedDict
 
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.names import completing, tableau_names
 from orderconds.commands.place import put
 from orderconds.errors import InputError
 from orderconds.input_file import read_text
@@ -20,22 +21,34 @@ BEGIN, END = "<!-- begin: orderconds table -->", "<!-- end: orderconds table -->
 COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "error norm", "certificate")
 
 
-@click.command(name="table", short_help="Print the library as a Markdown table, or update it in a file.")
+@click.command(name="table", short_help="Print the library as a table, or the Butcher tableaux of methods.")
+@click.argument("methods", nargs=-1, metavar="[METHOD]...", shell_complete=completing(tableau_names))
 @click.option("--write", metavar="FILE", help="Replace the table between the markers in FILE.")
 @click.option(
     "--check", "against", metavar="FILE", help="Exit with status 1 unless FILE contains the current table."
 )
-@click.option("--json", "as_json", is_flag=True, help="Print the rows on stdout as JSON and nothing else.")
-def command(write: str | None, against: str | None, as_json: bool) -> int:
+@click.option(
+    "--json", "as_json", is_flag=True, help="Print the rows of the table as JSON on stdout and nothing else."
+)
+def command(methods: tuple[str, ...], write: str | None, against: str | None, as_json: bool) -> int:
     """Print a line for each tableau of the library: its orders and, for the family of highest order, the
     number of exponentials, the norm of the leading error and the certificate. Exits with 1 if --check finds a
     different table.
 
+    With METHODs, print the order and the Butcher tableau of each method. METHOD is the name of a tableau, or
+    FAMILY:NAME for the order in this family. A composition of midpoint rules is printed as a Runge-Kutta
+    method.
+
     \b
     Examples:
         orderconds table
+        orderconds table "vrkmk(1):kutta3" "vrkmk(2):gauss2"
         orderconds table --check docs/reference/library.md
     """
+    if methods:
+        if write is not None or against is not None:
+            raise click.UsageError("--write and --check concern the whole library; omit the names of methods")
+        return _print_methods(methods, as_json)
     texts = {path: _around(path) for path in (write, against) if path is not None}
     rows = list(computed())
     table = "\n".join([BEGIN, *markdown(rows), END])
@@ -53,6 +66,50 @@ def command(write: str | None, against: str | None, as_json: bool) -> int:
     elif write is None and against is None:
         click.echo("\n".join(table.splitlines()[1:-1]))
     return status
+
+
+def _print_methods(methods: Sequence[str], as_json: bool) -> int:
+    """Print the order and the Butcher tableau of each method."""
+    records = [butcher(method) for method in methods]
+    if as_json:
+        screen.print_json(records)
+        return 0
+    for number, record in enumerate(records):
+        order = f"order {record['order']} ({record['certificate']})"
+        click.echo(("\n" if number else "") + f"{record['method']}, {order}")
+        for line in record["tableau"]:
+            click.echo(f"  {line}")
+    return 0
+
+
+class Butcher(TypedDict):
+    """A method with its order, the certificate of the order, and the lines of its Butcher tableau."""
+
+    method: str
+    order: int | None
+    certificate: str
+    tableau: list[str]
+
+
+def butcher(method: str) -> Butcher:
+    """Return the record of a method: NAME, or FAMILY:NAME.
+
+    >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
+    (3, 2)
+    """
+    from orderconds.checking import check
+    from orderconds.tableau import Tableau, find
+    from orderconds.tableau.butcher_text import butcher_text
+
+    family, _, name = method.rpartition(":")
+    tableau = Tableau.load(find(name))
+    lines = butcher_text(tableau)
+    main = min(tableau.claims.orders, key=_first, default=None)
+    label = family or (main.label if main else None)
+    with screen.working(f"checking {method}"):
+        own = check(tableau, family=label).orders[0]
+    shown = method if family or label is None else f"{label}:{name}"
+    return {"method": shown, "order": own.order, "certificate": own.certificate, "tableau": lines}
 
 
 def computed() -> Iterator[tuple[str, ...]]:

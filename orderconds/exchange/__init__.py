@@ -58,9 +58,9 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
     same = (given.family, given.source, given.bibtex) == (back.family, back.source, back.bibtex)
     if not (same and equal_coefficients(given, back)):
         raise InputError(
-            f"a tableau that is not the same when it is read back from {to}",
+            f"format {to} cannot represent this tableau: reading the output gives a different tableau",
             where=given.name,
-            expected="a format that can represent it, such as json",
+            expected="a format that can represent the tableau, such as json",
         )
 
 

@@ -27,7 +27,7 @@ from orderconds.tableau.write import without_names
 
 Row = list[str]
 Arrays = Data
-"""Texts (name, family, ...), rows, and matrices, by name."""
+"""A map from the names of arrays to texts (name, family, ...), rows of coefficients, and matrices."""
 
 TABLES = ("numbers", "claims")
 """Tables of a tableau file that are stored as JSON text. The table ``numbers`` is stored only if coefficients
@@ -133,7 +133,9 @@ def from_arrays(entries: Arrays, where: str) -> Data:
     for name in entries:
         if name not in known:
             raise TableauError(
-                f"the array {name!r}", where=where, expected=f"one of {', '.join(sorted(known))}"
+                f"an array with the unknown name {name!r}",
+                where=where,
+                expected=f"one of {', '.join(sorted(known))}",
             )
     tables: Data = {}
     if "numbers" in entries:
@@ -182,7 +184,9 @@ def _has_depth(value: object, depth: int) -> bool:
 def _stages(entries: Arrays, where: str) -> Data:
     missing = [key for key in ("count", "start", "exponentials") if key not in entries]
     if missing:
-        raise TableauError(f"no array {missing[0]}", where=where, expected="count, start and exponentials")
+        raise TableauError(
+            f"no array {missing[0]}", where=where, expected="the arrays count, start and exponentials"
+        )
     rows, products = list(entries["exponentials"]), []
     counts, starts = ([_integer(x, where) for x in entries[key]] for key in ("count", "start"))
     pair = "embedded_order" in entries
@@ -191,7 +195,7 @@ def _stages(entries: Arrays, where: str) -> Data:
         raise TableauError(
             "the array count does not agree with the array start or exponentials",
             where=where,
-            expected="as many entries in count as in start, and sum(count) rows of exponentials",
+            expected="as many entries in count as in start, and sum(count) rows in exponentials",
         )
     for count, start in zip(counts, starts, strict=True):
         product: Data = {"exp": rows[:count]} if count else {}

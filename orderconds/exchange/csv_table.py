@@ -5,8 +5,8 @@ with an empty cell contains b; a second such line contains the embedded weights.
 zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are ignored
 (:mod:`orderconds.exchange.rows`).
 
-Lines ``claims,rk=4`` or ``order,4`` state claims, also in a plain Butcher tableau. An embedded row has a line
-``embedded_order,3``; without it the order of the row is computed.
+Lines ``claims,rk=4`` or ``order,4`` state claims, also in a plain Butcher tableau. The line
+``embedded_order,3`` states the order of an embedded method. Without this line the order is computed.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
         raise TableauError(
             f"{len(weights)} rows of weights",
             where=where,
-            expected="lines with c_i and a row of A, then a line with b, and at most one line with "
-            "embedded b; the lines of b and embedded b begin with an empty cell",
+            expected="one line with c_i and row i of A for each stage, then a line with the weights b, "
+            "then at most one line with embedded weights; lines of weights begin with an empty cell",
         )
     return butcher(stages, weights)

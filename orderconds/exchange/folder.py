@@ -1,4 +1,5 @@
-"""Tableau files among other files: which files of a folder hold a tableau, and why the others are skipped."""
+"""Tableau files among other files: which files of a folder contain a tableau, and why other files are
+skipped."""
 
 from __future__ import annotations
 
@@ -18,10 +19,10 @@ from orderconds.exchange.arrays import MATRICES, ROWS
 from orderconds.tableau.file import KEYS, bytes_of, meant_as_tableau
 
 SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h")))
-"""The suffixes of files that may hold a tableau."""
+"""The suffixes of files that may contain a tableau."""
 
 EXCUSES = "DECIMAL"
-"""The name of a file that lists the tableaux of its folder whose orders need no proof."""
+"""The name of a file that lists tableaux of the same folder. The orders of these tableaux need no proof."""
 
 NO_KEY = "no key of a tableau (family, A, b, ...)"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)
@@ -85,7 +86,7 @@ class Reason:
 
 
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
-    """Return why a file holds no tableau, or an empty text if it is to be read as a tableau.
+    """Return why a file contains no tableau, or an empty text if the file must be read as a tableau.
 
     A file that is damaged is to be read, so that its error is reported. If ``strict`` is true, a file that is
     not plainly other data is to be read as well.

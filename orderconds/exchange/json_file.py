@@ -54,6 +54,6 @@ def _unique(pairs: list[tuple[str, object]]) -> Data:
     members: Data = {}
     for name, value in pairs:
         if name in members:
-            raise ValueError(f"{name!r} twice in one object")
+            raise ValueError(f"the key {name!r} occurs twice in one object")
         members[name] = value
     return members

@@ -22,13 +22,11 @@ from orderconds.exchange.arrays import (
 )
 from orderconds.exchange.comments import escaped, unescaped
 from orderconds.exchange.notation import from_latex
-from orderconds.ring import Ball, Balls, Element
-from orderconds.tableau import Tableau
+from orderconds.tableau.butcher_text import entry
 from orderconds.tableau.coefficient_latex import to_latex
 from orderconds.tableau.file_format import Data
 from orderconds.tableau.record import from_data
 
-SHORT = Balls(64)
 _TEXT = re.compile(r"% (\w{1,64}): (.*)")
 _COMMENT = re.compile(r"(?<!\\)%.*")
 _ENVIRONMENT = re.compile(r"\\(begin|end)\{(array|[bp]matrix)\}")
@@ -53,7 +51,7 @@ def write(data: Data) -> bytes:
     lines = [f"% {name}: {escaped(entries[name])}" for name in TEXTS if name in entries]
     if "A" in entries and "A_hat" not in entries:
         tableau = from_data(data)
-        nodes = [_node(tableau, x) for x in tableau.abelian().c]
+        nodes = [entry(tableau, x) for x in tableau.abelian().c]
         lines.append(rf"\begin{{array}}{{c|{'c' * len(entries['b'])}}}")
         lines += [
             " & ".join([to_latex(c), *map(to_latex, row)]) + r" \\"
@@ -69,11 +67,6 @@ def write(data: Data) -> bytes:
             body = " \\\\\n".join(" & ".join(map(to_latex, row)) for row in rows)
             lines += [rf"{name} = \begin{{pmatrix}}", body, r"\end{pmatrix}"]
     return ("\n".join(lines) + "\n").encode()
-
-
-def _node(tableau: Tableau, x: Element) -> str:
-    """Return an abscissa as text. A ball is written with few digits, because the reader ignores abscissae."""
-    return SHORT.text(SHORT.enclose(x.value) + 0) if isinstance(x, Ball) else tableau.ring.text(x)
 
 
 def read(content: bytes, where: str) -> Data:
@@ -144,7 +137,9 @@ def _butcher(body: str, where: str) -> Arrays:
         raise TableauError(
             "horizontal lines that do not separate A from b",
             where=where,
-            expected=r"rows c & A, \hline, a row & b; at most one row of embedded weights after it",
+            expected=r"a row c_i & a_i1 & ... for each stage, \hline, a row & b_1 & ..., and at most one "
+            r"row of "
+            "embedded weights",
         )
     return butcher(parts[0], [row[1:] for row in weights])
 

@@ -148,10 +148,10 @@ def read(content: bytes, where: str) -> Data:
         entries[name] = exact.tolist()
         if not np.array_equal(np.array(floats(entries[name], str(members.get("numbers", "{}")))), value):
             raise TableauError(
-                f"the numbers {name} differ from their exact texts {name}{EXACT}",
+                f"the numbers in the array {name} differ from the exact texts in the array {name}{EXACT}",
                 where=where,
                 expected="equal numbers in both arrays",
-                hint="correct one of the two arrays, or remove it",
+                hint="correct or remove one of the two arrays",
             )
     return from_arrays(entries, where)
 
@@ -182,7 +182,7 @@ def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> 
             f"the array {name} of floats with {8 * size} bits",
             where=where,
             expected=EXPECTED,
-            hint="convert the original coefficients to float64; digits that are lost do not come back",
+            hint="store the original coefficients as float64; a conversion of float32 restores no digits",
         )
     if kind not in "fiu":
         raise TableauError(f"the array {name} of type {kind!r}", where=where, expected=EXPECTED)

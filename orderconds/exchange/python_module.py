@@ -25,7 +25,7 @@ def execute(path: str | Path) -> Data:
 
     >>> execute("/no/such/file.py")  # doctest: +ELLIPSIS
     Traceback (most recent call last):
-    orderconds.errors.TableauError: /no/such/file.py: FileNotFoundError: ...; expected a module that runs
+    orderconds.errors.TableauError: /no/such/file.py: FileNotFoundError: ...; expected a module that runs ...
     """
     where = str(path)
     try:
@@ -33,7 +33,9 @@ def execute(path: str | Path) -> Data:
             assigned = runpy.run_path(where, run_name="<tableau>")
     except (Exception, SystemExit) as problem:
         raise TableauError(
-            f"{type(problem).__name__}: {str(problem)[:200]}", where=where, expected="a module that runs"
+            f"{type(problem).__name__}: {str(problem)[:200]}",
+            where=where,
+            expected="a module that runs without an error",
         ) from None
     return from_arrays(_arrays(assigned, where), where)
 

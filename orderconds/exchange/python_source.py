@@ -29,7 +29,7 @@ COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha"
 HINT = "write the numbers as literals, or run the file with orderconds check --execute"
 HARMLESS = ("print",)
 MODULES = ("fractions", "decimal", "math", "numpy", "sympy")
-"""Modules whose functions are understood."""
+"""Modules with functions that the reader can evaluate without execution of the file."""
 _TEXT = re.compile(r"# (\w{1,64}): (.*)")
 
 
@@ -172,7 +172,7 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
         if root in MODULES:
             values.functions[alias.asname or alias.name] = alias.name
         elif alias.name != "*" and root != "__future__":
-            unknown = Computed(f"a name of the module {statement.module}", statement.lineno)
+            unknown = Computed(f"a name imported from the module {statement.module}", statement.lineno)
             values.assign(alias.asname or alias.name, unknown)
 
 
@@ -230,7 +230,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
             entries[name] = _row(cells) if name in ROWS else cells
         elif isinstance(value, Computed) and name != "c":  # the abscissae follow from A
             raise TableauError(
-                f"{value.reason}, which is not executed",
+                f"not a literal value: {value.reason}",
                 where=f"{where}: {name}: line {value.line}",
                 expected="rows of numbers",
                 hint=HINT,

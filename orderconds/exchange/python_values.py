@@ -34,7 +34,7 @@ ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
 MAX_OPERATIONS = 5_000
-"""The maximal length of one coefficient, in numbers and operations."""
+"""The largest number of consecutive operations of one kind in a coefficient."""
 
 
 @dataclass
@@ -47,8 +47,8 @@ class Array:
 
 @dataclass(frozen=True)
 class Computed:
-    """A value that only execution of the module could compute: the expression that is not understood, and its
-    line."""
+    """A value that only execution of the module could compute. ``reason`` names the expression that the
+    reader cannot evaluate, and ``line`` is the line of the expression."""
 
     reason: str
     line: int
@@ -59,7 +59,7 @@ Value = Expression | Array | Computed | str
 
 
 class _NotLiteral(Exception):
-    """An expression that is not understood."""
+    """An expression that the reader cannot evaluate without execution of the module."""
 
     def __init__(self, node: ast.AST, reason: str) -> None:
         super().__init__(reason)
@@ -119,7 +119,7 @@ class Values:
         shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
         for name, value in self.known.items():
             if name in names or id(value) in shared:
-                self.known[name] = Computed("a value that code may change", line)
+                self.known[name] = Computed("another statement may change the value", line)
 
     def _value(self, node: ast.expr) -> Value:
         if isinstance(node, ast.List | ast.Tuple):
@@ -191,7 +191,7 @@ class Values:
         if not signs:
             raise _NotLiteral(node, f"the operation {type(node.op).__name__}")
         if len(operands) > MAX_OPERATIONS:
-            raise _NotLiteral(node, "a number that is too long")
+            raise _NotLiteral(node, f"an expression with more than {MAX_OPERATIONS} operations")
         values = [self._number(x) for x in (first, *operands[::-1])]
         return Chain(tuple(signs[::-1]), tuple(values))
 
@@ -257,7 +257,7 @@ def _zeros(shape: Value, node: ast.Call) -> Array:
     sizes = shape.items if isinstance(shape, Array) else [shape]
     lengths = [x.value for x in sizes if isinstance(x, Constant) and x.value.denominator == 1]
     if len(lengths) != len(sizes) or len(sizes) not in (1, 2) or not all(1 <= n <= 200 for n in lengths):
-        raise _NotLiteral(node, "an array of zeros of this shape")
+        raise _NotLiteral(node, "an array of zeros whose shape is not one or two integers from 1 to 200")
     if len(lengths) == 1:
         return Array([ZERO] * int(lengths[0]))
     return Array([Array([ZERO] * int(lengths[1])) for _ in range(int(lengths[0]))])
@@ -297,7 +297,7 @@ def texts(value: Value, where: str) -> Cells:
         return [texts(x, where) for x in value.items]
     if isinstance(value, Computed):
         raise TableauError(
-            f"{value.reason}, which is not executed",
+            f"not a literal value: {value.reason}",
             where=f"{where}: line {value.line}",
             expected="a number",
             hint="write the numbers as literals, or run the file with orderconds check --execute",

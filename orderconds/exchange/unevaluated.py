@@ -1,6 +1,6 @@
 """Unevaluated coefficients: the expressions of a file, with every name replaced by its definition.
 
-Tables and arrays cannot hold named numbers. Rounded decimals must keep their digits, which a computed ball
+Tables and arrays cannot contain named numbers. Rounded decimals must keep their digits, which a computed ball
 would lose. The coefficients of the method are therefore expressions: those of the file or, for low-storage
 schemes, sums and products of them. Only operations with the numbers 0 and 1 are simplified.
 """
@@ -137,8 +137,8 @@ class UnevaluatedNumbers:
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(
-                "a coefficient that is too long without named numbers",
-                expected="format json, which keeps names",
+                "a coefficient that is too long if its named numbers are replaced by their formulas",
+                expected="format json, which keeps the names of numbers",
             )
         return text
 

@@ -46,7 +46,7 @@ class CrouchGrossmanFamily(OrderedForestFamily):
     illustrates = ("ordered", "forests", "lyndon")
     implies: ClassVar[Mapping[str, str]] = {
         "rk": "a vector space is a Lie group under addition",
-        "cf": "a commutator-free method with one k_j in each exponential",
+        "cf": "every Crouch-Grossman method is a commutator-free method with one k_j in each exponential",
     }
     unknowns = "rk"
 

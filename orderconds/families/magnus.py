@@ -52,12 +52,11 @@ class MagnusFamily(WordFamily):
     )
     formats = ("magnus",)
     symbols: ClassVar[Mapping[str, str]] = {
-        "omega": r"$\omega_{i\dots j}$ is the coefficient in $\Omega$ of the product of values of $A$ in "
-        r"which $A_i = h A(c_i h)$ acts first",
+        "omega": r"$\omega_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in $\Omega$, with $A_i = h "
+        r"A(c_i h)$",
         "c": r"$c_i$ are the nodes",
         "b": r"$b_i$ are the coefficients of $A_i = h A(c_i h)$ in the first exponent",
-        "phi": r"$\phi_{i\dots j}$ is the coefficient in the second exponent of the product in which "
-        r"$A_i$ acts first",
+        "phi": r"$\phi_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in the second exponent",
         "beta": r"$\beta_{Ii}$ is the coefficient of $A_i = h A(c_i h)$ in exponential $I$",
     }
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(

@@ -62,7 +62,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         sizes are a palindrome."""
         expected = 'base = "symmetric-2", and step sizes that form a palindrome'
         if not isinstance(method, Composition):
-            raise InputError("base adjoint-pair", where=f"family {self.name}", expected=expected)
+            raise InputError('base = "adjoint-pair"', where=f"family {self.name}", expected=expected)
         for i, (x, y) in enumerate(zip(method.gamma, method.gamma[::-1], strict=True)):
             if x is not y and ring.is_zero(x - y) is False:
                 raise InputError(

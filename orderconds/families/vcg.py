@@ -48,7 +48,7 @@ class VariationalCrouchGrossman(ActionFamily):
     implies: ClassVar[Mapping[str, str]] = {
         "cg": "if the Hamiltonian is linear in the momentum, q follows the flow of a vector field on G",
         "sprk": "a vector space is a Lie group under addition",
-        "vcf": "a commutator-free method with one velocity in each exponential",
+        "vcf": "every VCG method is a VCF method with one velocity in each exponential",
     }
     abelian = "sprk"
     unknowns = "rk"

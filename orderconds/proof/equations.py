@@ -134,20 +134,23 @@ def equations(tableau: Tableau) -> Equations:
         return Equations(tableau, proof, (("rk", _reached(proof, order)),))
     if proof.reduction == "symmetric":
         if properties(tableau).get("symmetric") is not True:
-            raise NotProved("reduction: the method is not symmetric for all values of its decimals")
+            raise NotProved(
+                'reduction = "symmetric": the method is not symmetric for all values of its decimals'
+            )
         if proof.order % 2:
             raise NotProved(
-                f"reduction: the order of a symmetric method is even, but [proof] has order = {proof.order}"
+                f'reduction = "symmetric": the order of a symmetric method is even, but [proof] states '
+                f"order = {proof.order}"
             )
         own, named = families.get(tableau.family), families.get(proof.conditions)
         family = named if own.symmetric_family(tableau.method) is None else own
         return Equations(tableau, proof, family.symmetric_facts(proof.order), _letters(tableau, proof))
     if proof.reduction == "low-storage":
         if not any(place.startswith("low_storage.") for place in proof.symbolic.expressions):
-            raise NotProved("reduction: the file has no table low_storage")
+            raise NotProved('reduction = "low-storage": the file has no table [low_storage]')
         implied = families.get(proof.conditions).low_storage
         if not implied:
-            raise NotProved('reduction: low-storage requires conditions = "rk"')
+            raise NotProved('reduction = "low-storage" requires conditions = "rk"')
         facts = tuple((label, proof.order) for label in implied)
         return Equations(tableau, proof, facts, kept=_two_registers(proof))
     fact = (families.get(proof.conditions).label(), proof.order)
@@ -219,7 +222,8 @@ def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
 def _reached(proof: Proof, order: int) -> int:
     if proof.order > order:
         raise NotProved(
-            f"reduction: the assumptions imply order {order}, but [proof] has order = {proof.order}"
+            f'reduction = "simplifying": the assumptions imply order {order}, but [proof] states order = '
+            f"{proof.order}"
         )
     return proof.order
 

@@ -55,7 +55,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """
     tableau = Tableau.loads(text, where)
     if tableau.proof is None:
-        raise NotProved("the file has no [proof] that names the equations")
+        raise NotProved("the file names no equations; add a table [proof]")
     proof = tableau.proof
     with precision(64 + 4 * digits):
         start = [arb(_rational(u.constant.value)) for u in proof.unknowns]
@@ -100,7 +100,7 @@ def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
         if size < 1e-8:
             raise NotProved(
                 f"only {len(jacobian) - len(rows)} of the {len(jacobian)} conditions are independent near "
-                'these decimals; write the coefficients in closed form, as "1/4 - sqrt(3)/6"'
+                'these decimals; write the coefficients in closed form, such as "1/4 - sqrt(3)/6"'
             )
         pivot = rows.pop(i)
         chosen.append(j)
@@ -119,14 +119,14 @@ def _newton(
         try:
             step = jacobian.solve(arb_mat(len(kept), 1, [values[i].value.mid() for i in kept]))
         except ZeroDivisionError:
-            raise NotProved("Newton's method failed: its Jacobian is singular") from None
+            raise NotProved("Newton's method failed: the Jacobian is singular") from None
         for place, j in enumerate(free):
             point[j] = (point[j] - step[place, 0]).mid()
             if not abs(point[j] - start[j]) < arb(TOLERANCE):
-                raise NotProved("Newton's method moves away from the decimals: they are not near a solution")
+                raise NotProved("Newton's method left the neighbourhood of the decimals without a solution")
         if all(abs(step[place, 0]).upper() < arb(10) ** -(digits + 5) for place in range(len(free))):
             return [decimal_places(point[j], digits) for j in free]
-    raise NotProved("Newton's method does not converge from the decimals")
+    raise NotProved("Newton's method, started at the decimals, does not converge")
 
 
 def decimal_places(x: arb, digits: int) -> str:

@@ -111,7 +111,11 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
-    raise InputError("a cycle among the free entries", where=WHERE, expected="a tree")
+    raise InputError(
+        "the free entries of A contain a cycle in the graph of rows and columns",
+        where=WHERE,
+        expected="free entries that form a tree",
+    )
 
 
 def symmetric_transport(

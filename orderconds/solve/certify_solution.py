@@ -123,7 +123,7 @@ def _rounded_free(
         )
         if good and _regular(problem, tried, solved):
             return tried, values, solved
-    raise NotProved("no solution nearby with short free coefficients")
+    raise NotProved("rounding the free coefficients gives no nearby solution")
 
 
 def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
@@ -196,7 +196,7 @@ def _newton(
     _, slopes = problem.tape.jacobians(point[None])
     rows = determined(slopes[0][:, list(solved)].T) if solved else []
     if len(rows) < len(solved):
-        raise NotProved("Newton's method failed: its Jacobian is singular")
+        raise NotProved("Newton's method failed: the Jacobian is singular")
     with precision(BITS):
         values = {j: arb(float(point[j])) for j in solved}
         previous: float | None = None
@@ -216,7 +216,7 @@ def _newton(
             try:
                 step = jacobian.solve(arb_mat(len(rows), 1, [f.value.mid() for f in at]))
             except ZeroDivisionError:
-                raise NotProved("Newton's method failed: its Jacobian is singular") from None
+                raise NotProved("Newton's method failed: the Jacobian is singular") from None
             for k, j in enumerate(solved):
                 values[j] = (values[j] - step[k, 0]).mid()
             size = max(float(abs(step[k, 0]).mid()) for k in range(len(rows)))

@@ -46,7 +46,7 @@ def _results(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -
             except (OSError, CancelledError, TimeoutError, KilledWorker) as problem:
                 killed = isinstance(problem, KilledWorker)
                 raise InputError(
-                    "workers of the cluster died" if killed else "the scheduler no longer answers",
+                    "worker processes of the cluster died" if killed else "the scheduler no longer answers",
                     where=f"--dask {address}",
                     expected="a cluster that runs until the search ends",
                     hint="restart the cluster and repeat the command; a checkpoint file saves the finished "
@@ -72,9 +72,9 @@ def _client(address: str) -> Any:
     except (OSError, ValueError, TimeoutError, TypeError) as problem:
         # dask raises TypeError for a tls address without a certificate.
         raise InputError(
-            f"no cluster answers ({_words(problem)})",
+            f"no scheduler answers at this address ({_words(problem)})",
             where=f"--dask {address}",
-            expected="tcp://host:port of a scheduler",
+            expected="the address tcp://host:port of a scheduler",
         ) from None
 
 

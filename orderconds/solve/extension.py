@@ -2,11 +2,12 @@
 
 The weights of the extension are b_i(theta) = sum_p beta_{p,i} theta^p. Let sum_i b_i Phi_i(t) be the
 elementary weight of the tree t. The extension has order q if, for each p and for all trees of at most q
-nodes, sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) if |t| = p, and 0 otherwise. For each p this is a linear
-system, whose solution of least norm is taken. If the first stage value is f(y_0), it is also taken as the
-derivative at theta = 0, by the choice of beta_1. The coefficients of the last powers are then changed such
-that b_i(1) = b_i. If, in addition, the last stage value is f(y_1) and q > 1, they are also changed such that
-the derivative at theta = 1 is this value. All changes belong to the kernel of the linear system.
+nodes, sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) if |t| = p, and 0 otherwise. For each p these equations are a
+linear system, and the program computes the solution of least norm. If the first stage value is f(y_0), the
+program chooses beta_1 such that the derivative at theta = 0 is f(y_0). It then changes the coefficients of
+the last powers such that b_i(1) = b_i. If, in addition, the last stage value is f(y_1) and q > 1, it changes
+these coefficients such that the derivative at theta = 1 is f(y_1). All changes belong to the kernel of the
+linear system.
 """
 
 from __future__ import annotations
@@ -52,8 +53,9 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
         if rows is not None:
             break
     else:
+        of_order = "" if order is None else f" of order {order}"
         raise TableauError(
-            f"no continuous extension of order {order}: the stages of {tableau.name} do not determine one",
+            f"the stages of {tableau.name} give no continuous extension{of_order}",
             where=where,
             expected="a lower order, or a method with more stages",
         )

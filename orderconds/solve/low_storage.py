@@ -28,14 +28,14 @@ def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     """
     solved = solved_family(family)
     refuse(
-        f"{family.label()} in low storage",
+        f"{family.label()} with --low-storage",
         spec,
         ("dirk", "symmetric", "fsal", "rkn", "exponentials", "inner"),
     )
     stages = range(1, spec.stages + 1)
     A, B = ([named(letter, i) for i in stages] for letter in "AB")
     names = [*B, *A]
-    elimination = eliminated(names, spec, [zero(A[0], "--low-storage: the register K is empty at first")])
+    elimination = eliminated(names, spec, [zero(A[0], "the register K is zero at the start of a step")])
     cells = Cells(elimination)
     numbers = {x: text for x, text in cells.numbers(names).items() if text != x}
     tail = (
@@ -74,7 +74,7 @@ def solved_family(family: Family) -> Family:
             return families.get(name)
     claimable = sorted({label for implied in known.values() for label in implied})
     raise InputError(
-        f"--low-storage in family {family.label()}",
+        f"the option --low-storage with family {family.label()}",
         where="solve",
         expected=f"one of the families {', '.join(claimable)}, or no --low-storage",
     )

@@ -440,7 +440,7 @@ def _layout(family: Family, spec: Spec) -> Layout:
     if family.unknowns not in LAYOUTS:
         searched = [n for n in families.names() if families.family_class(n).unknowns in LAYOUTS]
         raise InputError(
-            f"no search in family {family.label()!r}",
+            f"methods of family {family.label()!r} cannot be searched",
             where="solve",
             expected=f"one of {', '.join(searched)}",
         )

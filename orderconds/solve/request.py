@@ -71,7 +71,7 @@ class SearchResult:
             return f"<found {self.tableau!r}, certificate {self.certificate}>"
         if self.impossible is not None:
             return f"<no method exists: {self.impossible.reason}>"
-        return f"<nothing found; best residual {self.best_residual:.3g}>"
+        return f"<nothing found; least norm of residuals {self.best_residual:.3g}>"
 
     def _repr_html_(self) -> str | None:
         from orderconds.tableau.butcher import tableau_html
@@ -112,7 +112,7 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need only these conditions.
+    refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need no trees of order p.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,

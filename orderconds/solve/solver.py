@@ -19,8 +19,8 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""The default numbers of random starts for each structure. A search that minimises the principal error uses
-the second number, every other search the first number."""
+"""The default numbers of random starts for each structure (parametrisation of the tableau). A search that
+minimises the principal error uses the second number, every other search the first number."""
 
 
 @dataclass
@@ -138,9 +138,9 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         seen.append(batch)
         outcome.best = min(outcome.best, batch.best)
         least = min((s for b in seen for s, _ in b.solutions), default=None)
-        shown = f", best score {least:.4g}" if least is not None else ""
-        done = f"{structure}: {len(seen) * BATCH} of {count * BATCH} random starts"
-        report(f"{done}, best residual {outcome.best:.1e}{shown}")
+        shown = f", least score {least:.4g}" if least is not None else ""
+        done = f"structure {structure}: {len(seen) * BATCH} of {count * BATCH} random starts"
+        report(f"{done}, least norm of residuals {outcome.best:.1e}{shown}")
         if order.minimised:
             continue
         outcome.solution, refused = _finished(problem, [batch], order, source, refused)

@@ -184,7 +184,7 @@ def _tokens(text: str, where: str) -> Iterator[str]:
     while text[place:].strip():
         match = _TOKEN.match(text, place)
         if match is None:
-            raise _error(f"{text[place:].strip()[:1]!r} in {text[:80]!r}", where)
+            raise _error(f"the character {text[place:].strip()[:1]!r} in {text[:80]!r}", where)
         yield match[0].strip()
         place = match.end()
 
@@ -213,7 +213,7 @@ def _factor(tokens: list[str], place: int, text: str, where: str, depth: int) ->
     if token.isdigit():
         return int(token) - 1, place + 1
     if token in ",]*":
-        raise _error(f"{token!r} in place of a term in {text[:80]!r}", where)
+        raise _error(f"{token!r} where a term must begin in {text[:80]!r}", where)
     return token, place + 1
 
 

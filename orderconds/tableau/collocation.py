@@ -11,11 +11,12 @@ first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher
 mean                the mean of two of these matrices (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
 ==================  ======================================================================================
 
-Two kinds, Radau IIA and Lobatto IIIA, have an embedded row for step-size control. The row is the quadrature
-of order s - 1 on all nodes except one. The omitted node is the last node for Radau IIA and the (first) middle
-node for Lobatto IIIA. The update and the embedded update differ by a multiple of the divided difference of
-the stages. Radau IIA and Lobatto IIIA are collocation methods. Their stages, and therefore this error
-estimate, stay accurate for stiff equations. The stages of methods of low stage order lose accuracy.
+Two kinds, Radau IIA and Lobatto IIIA, have an embedded method for step-size control. The embedded weights are
+those of the quadrature of order s - 1 on all nodes except one. The omitted node is the last node for Radau
+IIA and the (first) middle node for Lobatto IIIA. The update and the embedded update differ by a multiple of
+the divided difference of the stages. Radau IIA and Lobatto IIIA are collocation methods. Their stages, and
+therefore this error estimate, stay accurate for stiff equations. The stages of methods of low stage order
+lose accuracy.
 
 All coefficients are computed: the nodes are algebraic numbers, and the other coefficients follow from them by
 rational arithmetic.
@@ -169,7 +170,7 @@ class Kind:
     the rule for A, and ``called`` is the name.
 
     The order is 2s - ``left`` - ``right``. The function ``left_out`` maps the number of stages to the index
-    of the node that the embedded row leaves out.
+    of the node that the embedded method leaves out.
     """
 
     left: bool
@@ -202,7 +203,7 @@ KINDS = {
 """The kinds of methods that can be constructed."""
 
 LEAST_WITH_ROW = 3
-"""The least number of stages with an embedded row."""
+"""The least number of stages with an embedded method."""
 
 
 def construct(kind: str, stages: int) -> Tableau:

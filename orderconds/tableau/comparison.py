@@ -32,7 +32,7 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
 
 
 def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
-    """Return enclosures of all coefficients. The coefficients of the embedded row come last."""
+    """Return enclosures of all coefficients. The coefficients of the embedded method come last."""
     enclosures: list[tuple[fmpq, fmpq]] = []
     ring = cast("Rationals | NumberField | Balls", tableau.ring)
 

@@ -326,7 +326,7 @@ def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
     for name in given.pins:
         if name not in decimals:
             raise TableauError(
-                f"the pin {name!r}", where=f"{place}.pins", expected=f"one of {', '.join(decimals)}"
+                f"the unknown name {name!r}", where=f"{place}.pins", expected=f"one of {', '.join(decimals)}"
             )
     if (given.reduction == "simplifying") is not bool(given.assumptions):
         raise TableauError(

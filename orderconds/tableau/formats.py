@@ -241,7 +241,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
                 raise TableauError(
                     "the file contains low_storage, and also stage or update",
                     where=where,
-                    expected="only one of these two forms",
+                    expected="either low_storage, or stage and update",
                 )
             s = counted(len(self.low_storage.B), f"{where}: low_storage.B")
             if len(self.low_storage.A) != s:
@@ -318,7 +318,7 @@ def _product(entry: StageEntry, place: str, values: Mapping[str, Element], s: in
 
 def _identically_zero(where: str, expected: str) -> TableauError:
     return TableauError(
-        "an embedded row that is equal to the main row: the error estimate would be identically zero",
+        "an embedded method that is equal to the method itself: the error estimate would always be zero",
         where=where,
         expected=expected,
     )

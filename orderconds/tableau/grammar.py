@@ -182,7 +182,7 @@ class _Parser:
         while position < end:
             match = _TOKEN.match(self.text, position)
             if match is None:
-                raise self.error(f"{self.text[position:].lstrip()[:1]!r} in {self.shown()}")
+                raise self.error(f"the character {self.text[position:].lstrip()[:1]!r} in {self.shown()}")
             kind = match.lastgroup or ""
             tokens.append((kind, match.group(kind), match.start(kind)))
             position = match.end()

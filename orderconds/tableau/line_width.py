@@ -9,7 +9,8 @@ import re
 from collections.abc import Iterator, Sequence
 
 COLUMN = 210.0
-"""The width of a line. A column of the class ``article`` is 229 points wide, and a paragraph is indented."""
+"""The available width of a line in points: the column width of the LaTeX class ``article`` (229 points),
+minus the indentation of a paragraph."""
 
 INDENT = r"\quad "
 

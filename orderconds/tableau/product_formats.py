@@ -161,7 +161,9 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 self._verify_term(term, key, s, known, f"{where}: {place}")
                 if term in terms:
                     raise TableauError(
-                        f"the term {spell_term(term)!r} twice", where=f"{where}: {place}", expected="it once"
+                        f"the term {spell_term(term)!r} occurs twice",
+                        where=f"{where}: {place}",
+                        expected="each term at most once",
                     )
                 terms.append(term)
             if place.startswith("elements."):
@@ -177,7 +179,9 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     def _verify_term(self, term: Term, key: str, s: int, known: list[str], where: str) -> None:
         for leaf in leaves(term):
             if isinstance(leaf, int) and not 0 <= leaf < s:
-                raise TableauError(f"the node {leaf + 1} in {key!r}", where=where, expected=f"1 to {s}")
+                raise TableauError(
+                    f"the node {leaf + 1} in {key!r}", where=where, expected=f"a node from 1 to {s}"
+                )
             if isinstance(leaf, str) and leaf not in known:
                 names = ", ".join(known) or "none"
                 raise TableauError(

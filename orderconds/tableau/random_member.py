@@ -26,12 +26,12 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""The number of bits of a random number. The degrees D are far below 2^40, because the size of values is
-bounded."""
+"""The number of bits of a random number. The degree D in the bound above is far below 2^40, because the size
+of values is bounded."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
-"""The errors that are raised if a random method cannot be evaluated: its numbers grow too large, or a divisor
-is zero."""
+"""The errors that are raised if a random method cannot be evaluated, because numbers grow too large or a
+divisor is zero."""
 
 
 class RandomMember(Rationals):

@@ -177,7 +177,7 @@ defined under numbers (none)
     @property
     def bhat(self) -> tuple[Value, ...] | None:
         """The embedded weights, of the same types as the entries of :attr:`A`; None if the tableau has no
-        embedded row."""
+        embedded method."""
         lower = self.lower()
         return None if lower is None else lower.b
 
@@ -240,8 +240,8 @@ defined under numbers (none)
         )
 
     def lower(self) -> Tableau | None:
-        """Return the method with the same stages and with the embedded row as its update. Return None if
-        there is no embedded row.
+        """Return the method with the same stages and with the embedded method as its update. Return None if
+        there is no embedded method.
 
         >>> from orderconds.tableau import find
         >>> [str(x) for x in Tableau.load(find("cg3")).lower().method.b]
@@ -344,8 +344,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that the keys define. The order of an embedded row is computed. It is the order of
-    the embedded row on vector spaces."""
+    """Return the tableau that the keys define. The order of an embedded method is computed. It is the order
+    of the embedded method on vector spaces."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:

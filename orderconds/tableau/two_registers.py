@@ -113,8 +113,8 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
             return rows[m][i - 1] / denominator
         if ring.is_zero(rows[m][i - 1]) is False and not above:
             above = (
-                f"zero denominator: A_{i + 1} is the coefficient of k_{i} divided by that of k_{i + 1} in "
-                f"the increment of stage {m + 1}, which are {ring.text(rows[m][i - 1])} and 0"
+                f"the denominator of A_{i + 1} is zero: in the increment of stage {m + 1}, the coefficient "
+                f"of k_{i + 1} is 0, but the coefficient of k_{i} is {ring.text(rows[m][i - 1])}"
             )
     # No later stage contains F_{i-1}, so that any A_i would do.
     return Rewriting(False, reason=above) if above else ring.zero
@@ -128,8 +128,8 @@ def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
             equal = True if x is y else ring.is_zero(x - y)
             if equal is False:
                 reason = (
-                    f"stage {i + 1}: the increment is not B_{i + 1} K_{i + 1}: the coefficient of k_{j + 1} "
-                    f"is {ring.text(x)}; expected {ring.text(y)}"
+                    f"the increment of stage {i + 1} is not B_{i + 1} K_{i + 1}: the coefficient of "
+                    f"k_{j + 1} is {ring.text(x)}, but two registers require {ring.text(y)}"
                 )
                 return Rewriting(False, reason=reason)
             holds = None if equal is None else holds

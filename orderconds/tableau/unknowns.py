@@ -33,7 +33,7 @@ from orderconds.tableau.methods import LowerOrder
 from orderconds.tableau.products import Method
 
 Built = tuple[Method, LowerOrder | None]
-"""A method and its embedded row."""
+"""A method and its embedded method."""
 
 
 class RootedRing(Ring, Protocol):

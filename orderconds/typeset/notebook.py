@@ -13,6 +13,7 @@ from orderconds.explain import kinds
 from orderconds.explain.svg import sheet
 from orderconds.formula.equations import broken
 from orderconds.formula.notation import latex_fraction
+from orderconds.typeset.counts import sum_of_counts
 from orderconds.typeset.legend import legend
 
 MOST = 300
@@ -52,8 +53,8 @@ def table(family: str, by_order: Sequence[Sequence[OrderCondition]]) -> str:
     2
     """
     flat = [condition for conditions in by_order for condition in conditions]
-    counts = ", ".join(str(len(conditions)) for conditions in by_order)
-    caption = f"<caption>{escape(family)}: {counts} conditions of order 1, 2, ...</caption>"
+    counts = sum_of_counts([len(conditions) for conditions in by_order])
+    caption = f"<caption>{escape(family)}: {counts}</caption>"
     names = ("order", "tree", "condition")
     head = "<tr>" + "".join(f'<th style="text-align:left">{name}</th>' for name in names) + "</tr>"
     rows = "".join(_rows(family, flat[:MOST]))

@@ -4,7 +4,8 @@ from functools import cache
 
 from sympy import Matrix, Rational, Symbol, sin, symbols, zeros
 
-from codegen.groups import SO3, Rotation
+from codegen.groups import GL, SO3, SU, Rotation
+from codegen.ir.domain import FloatDomain
 from codegen.scene import SiteScene, left, neighbour, param, right
 
 S = Matrix(symbols("S0:3", real=True))
@@ -66,3 +67,26 @@ def oscillators():
         outside={(-1,): [0, 0], (1,): y},
         name="oscillators",
     )
+
+
+def links(group, name):
+    """Return a chain of matrices whose field is a multiple of differences between neighbours."""
+    from codegen.groups import LeftMultiplication
+
+    y = group.point("y")
+    n = group.dim
+    change = [(a - b) / 2 for a, b in zip(left(y)[:n], right(y)[:n], strict=True)]
+    one = [Rational(int(float(x))) for x in group.identity(FloatDomain(0.0))]
+    return SiteScene(group=group, action=LeftMultiplication(), y=y, f=change, y0=one, span=(0, 1), name=name)
+
+
+@cache
+def special_unitary_chain():
+    """Return a chain of matrices in SU(3)."""
+    return links(SU(3), "special_unitary_chain")
+
+
+@cache
+def linear_group_chain():
+    """Return a chain of matrices in GL(2)."""
+    return links(GL(2), "linear_group_chain")

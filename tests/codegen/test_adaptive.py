@@ -234,7 +234,7 @@ def test_without_a_request_there_is_no_estimate():
 @pytest.mark.parametrize(
     ("scene", "method", "message"),
     [
-        ("free_rigid_body", "cf:cf4", "expected a tableau with an embedded row"),
+        ("free_rigid_body", "cf:cf4", "expected a tableau with an embedded method"),
         ("free_rigid_body", "rkmk:dormand_prince5", r"write rkmk\(3\):dormand_prince5"),
         ("dipole", "vcg:heun_euler", "expected a method of rk, ambient, cf, cg, rkmk"),
     ],

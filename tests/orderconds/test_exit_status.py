@@ -61,7 +61,7 @@ class TestInternalErrors:
         result = run("check")
         assert (result.exit_code, result.stdout) == (70, "")
         assert result.stderr.startswith(
-            "orderconds: internal error: ZeroDivisionError: division by a ball; please report it"
+            "orderconds: internal error: ZeroDivisionError: division by a ball; please report this error"
         )
         assert result.stderr.count("\n") == 1
 

@@ -52,7 +52,7 @@ def test_an_own_file_is_no_link_and_belongs_to_the_user(
         content_of(tmp_path / "link", own=True)
     user = os.geteuid()
     monkeypatch.setattr(os, "geteuid", lambda: user + 1)
-    with pytest.raises(PermissionError, match="a file of another user"):
+    with pytest.raises(PermissionError, match="the file belongs to another user"):
         content_of(tmp_path / "file", own=True)
 
 

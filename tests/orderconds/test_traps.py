@@ -50,22 +50,22 @@ WRONG_ORDER = {
 """File: family, the order it has, the first condition that fails, the first digits of its residual."""
 
 BROKEN_CLAIM = {
-    "cf43_embedded_exchanged": "the embedded row has order 2 (cf), claimed 3; [.] .: ",
+    "cf43_embedded_exchanged": "the embedded method has order 2 (cf), claimed 3; [.] .: ",
     "cg4a_proof_digit": "no proof: Krawczyk's operator does not map the box into itself",
-    "dormand_prince_fsal": "property fsal: the result is false, the claim is true",
-    "fehlberg_embedded": "the embedded row has order 4 (rk), claimed 5; [[[[.]]]]: ",
-    "lobatto3a_l_stable": "property l_stable: the result is false, the claim is true",
-    "rk4_symplectic": "property symplectic: the result is false, the claim is true",
-    "sdirk3_stable": "property a_stable: the result is false, the claim is true",
-    "strang_not_symmetric": "property symmetric: the result is false, the claim is true",
+    "dormand_prince_fsal": "property fsal: claimed true, computed false",
+    "fehlberg_embedded": "the embedded method has order 4 (rk), claimed 5; [[[[.]]]]: ",
+    "lobatto3a_l_stable": "property l_stable: claimed true, computed false",
+    "rk4_symplectic": "property symplectic: claimed true, computed false",
+    "sdirk3_stable": "property a_stable: claimed true, computed false",
+    "strang_not_symmetric": "property symmetric: claimed true, computed false",
 }
 
 REFUSED = {
-    "cf4_embedded_equal": "embedded: an embedded row that is equal to the main row",
-    "coefficient_code": 'b[1]: "\'" in',
+    "cf4_embedded_equal": "embedded: an embedded method that is equal to the method itself",
+    "coefficient_code": 'b[1]: the character "\'" in',
     "coefficient_divides_by_zero": "b[1]: division by zero",
     "coefficient_explodes": "b[1]: a power of a power without parentheses in '9^9^9^9'",
-    "embedded_equal": "the error estimate would be identically zero",
+    "embedded_equal": "the error estimate would always be zero",
     "name_twice": "Cannot overwrite a value",
     "row_sums": "c_3 = 17/25, but the sum of row 3 of A is 17/24",
     "unknown_family": "unknown_family.toml: claims.rkkm: unknown family 'rkkm'",

@@ -129,7 +129,7 @@ def _interval(span: object) -> tuple[Fraction, Fraction]:
         ) from None
     if first >= last:
         raise InputError(
-            f"{first}, {last}", where="span", expected="an end later than the beginning of the span"
+            f"({first}, {last})", where="span", expected="two times, the first less than the second"
         )
     return first, last
 

@@ -123,10 +123,10 @@ def bench(
     """Return a bench of methods and peers on a scene.
 
     If no methods are named, the default methods for the scene are used (:func:`methods_for`). The methods in
-    ``adaptive`` run with step-size control by their embedded rows. ``forms`` selects classical forms of the
-    equations by their keys, for peers and for methods that integrate coordinates. By default all forms are
-    measured. Names and options are checked before the first measurement (InputError). If a method cannot be
-    emitted for the scene, its only row contains the reason.
+    ``adaptive`` run with step-size control by their embedded methods. ``forms`` selects classical forms of
+    the equations by their keys, for peers and for methods that integrate coordinates. By default all forms
+    are measured. Names and options are checked before the first measurement (InputError). If a method cannot
+    be emitted for the scene, its only row contains the reason.
     """
     for target in targets:
         if target not in names():
@@ -135,7 +135,7 @@ def bench(
     fixed = () if adaptive and not methods else methods_for(problem, methods)
     controlled = methods_for(problem, adaptive) if adaptive else ()
     for method in controlled:
-        # This call raises MethodError if the tableau has no embedded row.
+        # This call raises MethodError if the tableau has no embedded method.
         replace(method, adaptive=True).embedded()
     others = find(peers)
     equations = all_equations(problem, forms)

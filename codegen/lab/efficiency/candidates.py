@@ -19,7 +19,7 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The largest order for which a recipe without a cut-off is tried, too.
+"""For orders up to this number, recipes without a cut-off are also tried.
 
 A recipe with a cut-off, for example ``rkmk(2)``, truncates dexp^{-1} after 2 brackets. A recipe without a
 cut-off uses the fewest brackets that give the order of the method. For higher orders the search for these

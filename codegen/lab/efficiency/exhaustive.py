@@ -69,11 +69,15 @@ class Exhausted:
 
     def text(self) -> str:
         """Return the numbers of recipes in words."""
-        counts = f"{self.raced} raced, {self.excluded} above the bound, {self.refused} refused"
-        counts += f", {self.copies} with the same code"
+        counts = (
+            f"{self.raced} recipes measured, {self.excluded} excluded because their predicted time is above "
+            f"the bound, {self.refused} cannot be compiled, {self.copies} have the code of another recipe"
+        )
         if math.isfinite(self.nearest):
-            counts += f"; fastest of {SAMPLE} above the bound: {self.nearest:.1f} times the best"
-        return counts if self.complete else f"{counts}; ended by the time limit"
+            counts += (
+                f"; the fastest of {SAMPLE} excluded recipes takes {self.nearest:.1f} times the best time"
+            )
+        return counts if self.complete else f"{counts}; the time limit ended the search"
 
 
 def exhaust(

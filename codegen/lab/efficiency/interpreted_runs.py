@@ -23,7 +23,8 @@ from codegen.run.step_control import FIRST, LEAST, MOST, SAFETY
 from codegen.scene.problem import TIME, Problem
 
 MOST_SWEEPS, MOST_NEWTON = 40, 15
-"""The largest number of sweeps over an implicit block, for fixed-point iteration and for Newton's method."""
+"""The largest number of sweeps (iterations) for a system of implicit equations, first for fixed-point
+iteration, then for Newton's method."""
 
 SETTLED = 1e-9
 """The iteration of an interpreted implicit block ends when the relative change is at most SETTLED. The error

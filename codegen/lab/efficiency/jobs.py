@@ -22,8 +22,8 @@ that is predicted for any recipe.
 """
 
 FRESH = 8
-"""A bar depends on all predictions. It is computed again when the number of predictions has grown by the
-factor 1 + 1/FRESH.
+"""The bars (limits on the error and on the time of a recipe) depend on all predictions. The bars are computed
+again when the number of predictions has grown by the factor 1 + 1/FRESH.
 """
 
 

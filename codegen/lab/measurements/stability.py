@@ -184,6 +184,6 @@ def endurance_text(run: Endurance) -> str:
     if run.failure:
         return run.failure
     parts = [f"{run.steps} steps"]
-    parts += [] if run.defect is None else [f"{scientific(run.defect)} off the manifold"]
-    parts += [] if run.returned is None else [f"{scientific(run.returned)} from the start"]
-    return ", ".join(parts) + ("" if run.held else ": more than rounding errors explain")
+    parts += [] if run.defect is None else [f"distance {scientific(run.defect)} from the manifold"]
+    parts += [] if run.returned is None else [f"distance {scientific(run.returned)} from the start"]
+    return ", ".join(parts) + ("" if run.held else "; rounding errors do not explain this distance")

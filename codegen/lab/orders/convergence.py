@@ -230,11 +230,11 @@ def _rung(
             state = form.scene_state(runner.domain, state)
         error = distance(scene, state, exact.state)
     except RunFailed as failure:
-        return Run(steps, h, math.inf, f"no run: {failure}")
+        return Run(steps, h, math.inf, f"the run failed: {failure}")
     if not math.isfinite(error):
         return Run(steps, h, math.inf, "the final state is not finite")
     if error <= CLEAR * rounding(steps, runner.epsilon, size):
         return Run(steps, h, error, ROUNDING)
     if error <= CLEAR * exact.uncertainty:
-        return Run(steps, h, error, "below the accuracy of the reference")
+        return Run(steps, h, error, "the error is below the accuracy of the reference solution")
     return Run(steps, h, error)

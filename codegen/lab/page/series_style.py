@@ -122,7 +122,8 @@ def _fixed() -> Mapping[str, Place]:
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
     """Return a place whose colour and marker occur least often in ``used``, if possible not in ``taken``.
 
-    ``first`` is the index at which the search begins; it decides between places that occur equally often.
+    The search begins at the index ``first``. If several places occur equally often, the first of them is
+    returned.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

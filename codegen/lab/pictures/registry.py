@@ -26,6 +26,7 @@ BUILT_IN: dict[type[Figure], str] = {
     kinds.SpaceCurves: "codegen.lab.pictures.space:draw",
     kinds.TorusCurves: "codegen.lab.pictures.torus:draw",
     kinds.TimeSeries: "codegen.lab.pictures.time_series:draw",
+    kinds.LatticeMeans: "codegen.lab.pictures.lattice_means:draw",
     kinds.Deviation: "codegen.lab.pictures.deviation:draw",
     kinds.Scan: "codegen.lab.pictures.scan:draw",
     kinds.Orders: "codegen.lab.pictures.orders:draw",

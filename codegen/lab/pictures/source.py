@@ -132,7 +132,8 @@ class Source:
             raise SceneError(
                 f"the reference {reference.name} has other output times than {run.name}",
                 where=self.problem.name,
-                expected="equal products of step size and stride, and at least as many outputs",
+                expected="a reference run with the same product of step size and stride, and with at least "
+                "as many outputs",
             )
         row: numpy.ndarray = self.values(reference, [quantity])[0][:count]
         return row

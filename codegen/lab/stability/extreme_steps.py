@@ -73,7 +73,7 @@ method is used.
 """
 
 ACCURATE, WRONG = "accurate", "WRONG"
-SILENT = f"undetermined: rounding leaves fewer than {LEAST} digits"
+SILENT = f"undetermined: rounding leaves fewer than {LEAST} correct digits"
 UNSOLVED = f"{WRONG}: the equations of this step have no solution near the result"
 
 ANGLES = (1e-300, 1e-8, math.pi - 1e-9, math.pi, 2 * math.pi, 100.0, 1e3, 1e4, 1e5, 1e6, 1e8, 1e300)

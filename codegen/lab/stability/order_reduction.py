@@ -105,11 +105,14 @@ def _verdict(
     close = [h for h, e, _ in runs if e is not None and e < CLOSE * size]
     if not close:
         failed = [why for _, e, why in runs if e is None]
-        return f"no usable step down to h = {runs[-1][0]:.1e}" + (f" ({failed[-1]})" if failed else "")
+        reason = f" ({failed[-1]})" if failed else ""
+        return f"no step size down to h = {runs[-1][0]:.1e} is usable{reason}"
     if observed is None:
         limit = "stability or accuracy requires steps that resolve the fast motion"
         relative = f"{max(close) * variant.rate:.2g}/(rate of the fast motion)"
         return f"usable up to h = {max(close):.1e} ({relative}): {limit}"
     if observed < stated - 0.5:
-        return f"order reduction {stated} to {max(observed, 0.0):.1f} for h > 1/(rate of the fast motion)"
+        return (
+            f"order reduction from {stated} to {max(observed, 0.0):.1f} for h > 1/(rate of the fast motion)"
+        )
     return f"order {stated} is preserved (observed {observed:.1f}) for h > 1/(rate of the fast motion)"

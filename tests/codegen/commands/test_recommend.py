@@ -100,7 +100,7 @@ def test_an_error_that_nothing_reaches_exits_1_with_the_best_error() -> None:
 def test_needs_that_nothing_meets_exit_1() -> None:
     result = run("free_rigid_body", "--error", "1e-3", "--need", "symplectic", "--tableau", "rk4")
     assert result.exit_code == 1
-    assert "no method satisfies the needs" in result.stdout
+    assert "no method has the required properties" in result.stdout
 
 
 def test_a_span_replaces_that_of_the_scene() -> None:
@@ -134,6 +134,6 @@ def test_bad_input_is_one_message(words: tuple[str, ...], said: str) -> None:
 def test_a_budget_without_time_for_a_measurement_is_no_statement_about_methods():
     ended = Recommendation(Request("circle", 1e-6), (), None, 3, 0, 1.0, complete=False)
     assert unreached(ended) == (
-        "circle: no method was measured before the time budget ended; --budget S allows more time"
+        "circle: no method was measured before the time budget ended; to allow more time, give --budget S"
     )
     assert "no method reaches the error 1e-06" in unreached(replace(ended, complete=True))

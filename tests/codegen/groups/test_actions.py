@@ -275,7 +275,10 @@ class TestAReaderOfAScene:
             def velocity(self, d, group, x, y):
                 return tuple(-a for a in super().velocity(d, group, x, y))
 
-        with pytest.raises(SceneError, match=r"velocity\[0\] of rigid motion is .*eps x.*correct Reversed"):
+        with pytest.raises(
+            SceneError,
+            match=r"velocity\[0\] of the action rigid motion is .*eps x.*correct the class Reversed",
+        ):
             scene(SE2(), Reversed(), 2)
 
     def test_refuses_an_action_whose_identity_moves_points(self):
@@ -288,7 +291,10 @@ class TestAReaderOfAScene:
             def velocity(self, d, group, x, y):
                 return (d.rational(0), d.rational(0))
 
-        with pytest.raises(SceneError, match=r"act\[0\] of rigid motion is .*, y for the identity"):
+        with pytest.raises(
+            SceneError,
+            match=r"act\[0\] of the action rigid motion is .*, because the identity must not move y",
+        ):
             scene(SE2(), Shifted(), 2)
 
     @pytest.mark.parametrize("make", [DiagonalAction, FactorwiseAction])

@@ -78,16 +78,16 @@ class TestHandWrittenFields:
     @pytest.mark.parametrize("k", range(3))
     def test_with_a_small_error_in_a_component_are_refused(self, k):
         off = Matrix([SMALL * int(i == k) * y[(i + 1) % 3] for i in range(3)])
-        with pytest.raises(SceneError, match=rf"velocity\[{k}\] is .*by f.y"):
+        with pytest.raises(SceneError, match=rf"velocity\[{k}\] is .*from f.y"):
             sphere(velocity=y.cross(I.inv() * y) + off)
 
     def test_a_momentum_equation_without_the_coadjoint_term_is_refused(self):
         torque = (g * Matrix([0, 1, 0])).cross(Matrix([0, 0, -1]))
-        with pytest.raises(SceneError, match=r"n\[0\] is .*by the derivatives of H"):
+        with pytest.raises(SceneError, match=r"n\[0\] is .*from the derivatives of H"):
             top(n=torque)
 
     def test_have_as_many_components_as_the_state(self):
-        with pytest.raises(SceneError, match="velocity has 2 components; expected 3"):
+        with pytest.raises(SceneError, match="velocity has 2 components; expected 3 components"):
             sphere(velocity=[1, 2])
 
 

@@ -174,6 +174,16 @@ def test_emitted_steps_keep_the_casimir_function(name, label):
     assert max(abs(a - b) for a, b in zip(after, module.initial, strict=True)) > 0.1
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("label", ["rkmk:rk4", "cf:cf4"])
+def test_a_hundred_thousand_steps_keep_the_casimir_function_on_the_dual_of_se2(label):
+    module = load_module(emit(scene("planar_body_in_fluid"), label, "c"))
+    _, *start = module.initial
+    _, *end = module.run(module.initial, 0.01, 100_000)
+    assert abs(np.dot(end, end) - np.dot(start, start)) < 1e-12
+    assert np.abs(np.subtract(end, start)).max() > 0.1
+
+
 def test_emitted_steps_keep_the_coordinates_in_the_frame():
     module = load_module(emit(scene("frame_and_trajectory"), "cf:cf4", "c"))
 
@@ -227,3 +237,18 @@ class TestExponentialEuler:
         with mpmath.workdps(50):
             gaps = [abs(mpmath.mpf(a) - b) for a, b in zip(after, self.formula(y, 0.125), strict=True)]
         assert max(gaps) < 1e-37
+
+    @pytest.mark.slow
+    @pytest.mark.parametrize("label", ["rkmk:rk4", "cf:cf4"])
+    def test_methods_of_order_four_converge_while_the_norm_of_h_times_l_is_below_one(self, label):
+        made = compile_method(scene("semilinear"), label)
+        stated = certified_order(made.method, made.scene)
+        steps = tuple(2**k for k in range(3, 8))
+        result = converge(Emitted(made, "c", stated), stated, reference(made.scene), steps=steps)
+        runs = result.refinement.clean
+        # The eigenvalue of L with the largest absolute value is -4 - 2 sqrt(2).
+        assert [run.h for run in runs] == [1 / n for n in steps]
+        assert runs[0].h * (4 + 8**0.5) < 1
+        assert stated.order == 4
+        assert result.verdict == "holds", result.sentence()
+        assert all(abs(slope - 4) < 0.1 for slope in result.refinement.slopes)

@@ -1,4 +1,4 @@
-# 10: n[0] is 1.0 where g00 = 1.0, g01 = 0.0, g02 = 0.0, t = 0.0; expected -1.0, by the derivatives of H
+# 10: n[0] is 1.0 where g00 = 1.0, g01 = 0.0, g02 = 0.0, t = 0.0; expected -1.0, from the derivatives of H
 from sympy import Matrix, eye
 
 from codegen.groups import SO3

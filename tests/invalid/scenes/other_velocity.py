@@ -1,4 +1,4 @@
-# 9: velocity[1] is 1.0 where y0 = 1.0, y1 = 0.0, y2 = 0.0, t = 0.0; expected -1.0, by f.y
+# 9: velocity[1] is 1.0 where y0 = 1.0, y1 = 0.0, y2 = 0.0, t = 0.0; expected -1.0, from f.y
 from sympy import Matrix, symbols
 
 from codegen.groups import SO3, Rotation

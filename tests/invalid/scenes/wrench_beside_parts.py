@@ -1,4 +1,4 @@
-# 10: a wrench beside the parts T
+# 10: a wrench in a scene with the parts T
 from sympy import eye
 
 from codegen.groups import SO3

@@ -1,4 +1,4 @@
-# 8: f has 2 components; expected 3
+# 8: f has 2 components; expected 3 components
 from sympy import Matrix, symbols
 
 from codegen.groups import SO3, Rotation

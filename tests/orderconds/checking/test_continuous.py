@@ -139,7 +139,7 @@ def test_the_command_extend_writes_an_extension_that_check_proves(order: int | N
 
 def test_extend_names_what_is_impossible() -> None:
     for words, message in (
-        (["ralston3", "--order", "3"], "no continuous extension of order 3"),
+        (["ralston3", "--order", "3"], "give no continuous extension of order 3"),
         (["cf4"], "a tableau of format cf"),
     ):
         done = CliRunner().invoke(program, ["extend", *words])

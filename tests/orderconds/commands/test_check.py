@@ -229,7 +229,7 @@ def test_files_of_other_formats_are_checked_as_they_are(tmp_path: Path) -> None:
 
 def test_one_exponential_and_one_bracket_are_told_in_the_singular() -> None:
     told = run("magnus4").stdout
-    assert "a step: 2 evaluations; magnus 1 exponential and 1 bracket\n" in told
+    assert "cost of a step: 2 evaluations; magnus: 1 exponential and 1 bracket\n" in told
 
 
 def test_a_file_without_end_is_refused() -> None:

@@ -87,3 +87,59 @@ def test_json_has_a_record_a_tableau_also_beside_a_file(tmp_path: Path) -> None:
     file.write_text(f"{table.BEGIN}\n{table.END}\n", encoding="utf-8")
     result = run("--check", str(file), "--json")
     assert (result.exit_code, json.loads(result.stdout)) == (1, rows)
+
+
+def test_the_butcher_tableaux_of_methods_are_printed() -> None:
+    lines = run("vrkmk(1):kutta3", "vcg:midpoint").output.splitlines()
+    assert lines == [
+        "vrkmk(1):kutta3, order 3 (exact)",
+        "  0   | 0    0    0",
+        "  1/2 | 1/2  0    0",
+        "  1   | -1   2    0",
+        "  ----+--------------",
+        "      | 1/6  2/3  1/6",
+        "",
+        "vcg:midpoint, order 2 (exact)",
+        "  1/2 | 1/2",
+        "  ----+----",
+        "      | 1",
+    ]
+
+
+def test_a_composition_of_midpoint_rules_is_a_runge_kutta_method() -> None:
+    (record,) = json.loads(run("vcg:triple_jump", "--json").output)
+    assert (record["order"], record["certificate"]) == (4, "exact")
+    g, middle = 1 / (2 - 2 ** (1 / 3)), 1 - 2 / (2 - 2 ** (1 / 3))
+    rows = [line.split("|")[1].split("  ") for line in record["tableau"] if "+-" not in line]
+    values = [[_value(cell) for cell in row if cell.strip()] for row in rows]
+    expected = [[g / 2, 0, 0], [g, middle / 2, 0], [g, middle, g / 2], [g, middle, g]]
+    assert values == [pytest.approx(row, rel=1e-14) for row in expected]
+
+
+def _value(text: str) -> float:
+    number: float = eval(text.replace("^", "**"))
+    return number
+
+
+def test_the_numbers_of_table_three_two_c() -> None:
+    (record,) = json.loads(run("vcg:yoshida6", "--json").output)
+    assert record["order"] == 6
+    printed = [0.78451361047755726381949763, 0.23557321335935813368479318, -1.17767998417887100694641568]
+    printed += [1.31518632068391121888424973]
+    weights = [float(x.rstrip("~")) for x in record["tableau"][-1].split("|")[1].split()]
+    assert weights == pytest.approx([*printed, *printed[2::-1]], rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("strang",), "a tableau of format splitting is not a Runge-Kutta method"),
+        (("foo:rk4",), "unknown family 'foo'"),
+        (("rk5000",), "no tableau 'rk5000'"),
+        (("rk4", "--write", "x.md"), "--write and --check concern the whole library"),
+    ],
+)
+def test_methods_without_a_butcher_tableau_are_refused(arguments: tuple[str, ...], message: str) -> None:
+    answer = run(*arguments)
+    assert answer.exit_code == 2
+    assert message in answer.output

@@ -51,7 +51,7 @@ def test_the_family_follows_from_the_names_of_the_arrays(entries: dict[str, obje
     ("entries", "message"),
     [
         ({"name": "t"}, "no array of coefficients"),
-        ({"A": [["0"]], "weights": ["1"]}, "the array 'weights'"),
+        ({"A": [["0"]], "weights": ["1"]}, "an array with the unknown name 'weights'"),
         ({"exponentials": [["1"]], "count": ["0", "1"]}, "no array start"),
         ({"exponentials": [["1"]], "count": ["0", "2"], "start": ["0", "0"]}, "does not agree"),
         ({"exponentials": [["1"]], "count": ["-1", "2"], "start": ["0", "0"]}, "does not agree"),

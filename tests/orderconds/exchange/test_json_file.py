@@ -22,9 +22,9 @@ def test_json_keeps_names_claims_and_proofs() -> None:
 
 
 def test_a_name_given_twice_is_refused() -> None:
-    with pytest.raises(TableauError, match="'b' twice"):
+    with pytest.raises(TableauError, match="the key 'b' occurs twice"):
         read(b'{"b": 1, "b": 2}', "m.json")
-    with pytest.raises(TableauError, match="'rk' twice"):
+    with pytest.raises(TableauError, match="the key 'rk' occurs twice"):
         read(b'{"claims": {"rk": 1, "rk": 2}}', "m.json")
 
 

@@ -30,7 +30,9 @@ def test_an_archive_that_swells_is_refused_unread(tmp_path: Path) -> None:
 
 def test_floats_that_are_not_what_is_spelled_beside_them_are_refused(tmp_path: Path) -> None:
     np.savez(tmp_path / "x.npz", A=np.zeros((1, 1)), b=np.ones(1), b_exact=np.array(["1/2"]))
-    with pytest.raises(InputError, match="the numbers b differ from their exact texts b_exact"):
+    with pytest.raises(
+        InputError, match="the numbers in the array b differ from the exact texts in the array b_exact"
+    ):
         read_data((tmp_path / "x.npz").read_bytes(), "numpy", "x.npz")
 
 

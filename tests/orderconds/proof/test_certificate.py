@@ -90,7 +90,7 @@ REFUSED: dict[str, tuple[str, str]] = {
     ),
     "not low-storage": (
         kutta3(ZEROS, 'conditions = "rk"\norder = 3\nreduction = "low-storage"\npins = ["x"]'),
-        "no table low_storage",
+        "no table [low_storage]",
     ),
     "low-storage in a family without the theorem": (
         text("carpenter_kennedy4").replace('conditions = "rk"', 'conditions = "cf"'),
@@ -101,7 +101,7 @@ REFUSED: dict[str, tuple[str, str]] = {
             ZEROS,
             'conditions = "rk"\norder = 3\nreduction = "simplifying"\nassumptions = { B = 3, C = 1 }',
         ),
-        "the assumptions imply order 2, but [proof] has order = 3",
+        "the assumptions imply order 2, but [proof] states order = 3",
     ),
 }
 
@@ -144,7 +144,7 @@ def test_the_digits_that_a_source_prints_are_refined_and_recorded() -> None:
 
 def test_refining_what_solves_nothing_is_refused() -> None:
     wrong = text("cg4a").replace('b1 = "0.1', 'b1 = "0.9')
-    with pytest.raises(NotProved, match="moves away from the decimals"):
+    with pytest.raises(NotProved, match="left the neighbourhood of the decimals"):
         refine(wrong)
 
 

@@ -58,12 +58,17 @@ def test_the_error_is_that_of_the_requested_family(family: str) -> None:
     ("family", "spec", "found", "where"),
     [
         ("cf", {"fix": ("A1=1",)}, "the constraint A1=1 contradicts the other constraints", "constraints"),
-        ("cf", {"exponentials": 3}, "family cf in low storage has no methods with --exponentials", "solve"),
-        ("cf", {"dirk": True}, "family cf in low storage has no methods with --dirk", "solve"),
-        ("rk", {"symmetric": True}, "family rk in low storage has no methods with --symmetric", "solve"),
-        ("cf", {"fsal": True}, "family cf in low storage has no methods with --fsal", "solve"),
+        (
+            "cf",
+            {"exponentials": 3},
+            "family cf with --low-storage has no methods with --exponentials",
+            "solve",
+        ),
+        ("cf", {"dirk": True}, "family cf with --low-storage has no methods with --dirk", "solve"),
+        ("rk", {"symmetric": True}, "family rk with --low-storage has no methods with --symmetric", "solve"),
+        ("cf", {"fsal": True}, "family cf with --low-storage has no methods with --fsal", "solve"),
         ("cf", {"fix": ("a31=1/2",)}, "unknown coefficient 'a31' in 'a31=1/2'", "--fix"),
-        ("vcg", {}, "--low-storage in family vcg", "solve"),
+        ("vcg", {}, "the option --low-storage with family vcg", "solve"),
     ],
 )
 def test_contradictory_constraints_are_refused(

@@ -75,13 +75,13 @@ def test_a_dask_cluster_gives_the_same_batches() -> None:
 
 
 def test_a_cluster_that_does_not_answer_is_named() -> None:
-    with pytest.raises(InputError, match=r"no cluster answers|not installed"):
+    with pytest.raises(InputError, match=r"no scheduler answers|not installed"):
         list(batches(SEARCH, 2, Checkpoint(None, SEARCH), cluster="tcp://127.0.0.1:1"))
 
 
 def test_an_address_that_needs_certificates_is_bad_input() -> None:
     pytest.importorskip("distributed")
-    with pytest.raises(InputError, match=r"--dask tls://127.0.0.1:1: no cluster answers.*tcp://host:port"):
+    with pytest.raises(InputError, match=r"--dask tls://127.0.0.1:1: no scheduler answers.*tcp://host:port"):
         list(batches(SEARCH, 2, Checkpoint(None, SEARCH), cluster="tls://127.0.0.1:1"))
 
 

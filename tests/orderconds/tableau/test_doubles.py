@@ -103,7 +103,7 @@ def test_a_typo_of_1e_10_in_any_coefficient_lowers_the_order(name: str, typo: fl
     A, b = doubles(name)
     for i, row in enumerate(A):
         for j, x in enumerate(row):
-            if x and b[i]:  # a last stage without weight occurs in the embedded row only
+            if x and b[i]:  # a last stage without weight occurs in the embedded method only
                 wrong = [[y + typo * ((k, m) == (i, j)) for m, y in enumerate(r)] for k, r in enumerate(A)]
                 assert order_of(wrong, b) < CORRECT[name], (i, j)
     for j, x in enumerate(b):
@@ -117,7 +117,7 @@ def test_a_typo_in_the_embedded_row_breaks_its_order() -> None:
     data |= {"A": rows, "claims": {"rk": 5}}
     assert check(from_data(data)).verdict == "holds"
     rows[6][0] = double_text(doubles("dormand_prince5")[0][6][0] + 1e-10)
-    assert "the embedded row has order" in check(from_data(data)).broken_claims[0]
+    assert "the embedded method has order" in check(from_data(data)).broken_claims[0]
 
 
 def large(size: float) -> tuple[list[list[float]], list[float]]:

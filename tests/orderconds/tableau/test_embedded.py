@@ -1,4 +1,5 @@
-"""Embedded rows: their stages are the method's own, their orders are computed, and equal rows are refused."""
+"""Embedded methods: their stages are the method's own, their orders are computed, and equal rows are
+refused."""
 
 from __future__ import annotations
 
@@ -101,7 +102,7 @@ def test_an_embedded_update_that_is_the_update_is_refused(product: str) -> None:
         .read_text(encoding="utf-8")
         .replace("[claims]", f"[embedded]\norder = 3\nexp = {product}\n[claims]")
     )
-    with pytest.raises(TableauError, match="embedded: an embedded row that is equal to the main row"):
+    with pytest.raises(TableauError, match="embedded: an embedded method that is equal to the method itself"):
         Tableau.loads(text)
 
 

@@ -58,11 +58,11 @@ def cf_files(draw: st.DrawFn) -> str:
 
 
 def read(text: str) -> Tableau | None:
-    """Return the tableau, None where its embedded row happens to be the main one."""
+    """Return the tableau, None where its embedded method happens to be the main one."""
     try:
         return Tableau.loads(text)
     except TableauError as problem:
-        if "the error estimate would be identically zero" not in str(problem):
+        if "the error estimate would always be zero" not in str(problem):
             raise
         return None
 
@@ -130,9 +130,9 @@ MALFORMED = {
         "c_i = sum",
     ),
     "c of another length": (EULER + "c = [0, 1]\n", "c: c has 2 entries, b has 1 entries", "as long as b"),
-    "embedded row equal to b": (
+    "embedded method equal to b": (
         EULER + 'embedded = { b = ["1"], order = 1 }',
-        "embedded.b: an embedded row that is equal to the main row",
+        "embedded.b: an embedded method that is equal to the method itself",
         "weights that differ",
     ),
     "unknown key in embedded": (
@@ -181,7 +181,7 @@ MALFORMED = {
     "too few rows": (HEAD + 'A = [[]]\nb = ["1", "0"]\n', "A: A has 1 rows, b has 2 entries", "a square A"),
     "too many rows": (HEAD + 'A = [[], []]\nb = ["1"]\n', "A: A has 2 rows, b has 1 entries", "a square A"),
     "row too long": (HEAD + 'A = [["0", "1"]]\nb = ["1"]\n', "A[1]: 2 entries", "at most 1"),
-    "embedded row too long": (
+    "embedded method too long": (
         EULER + 'embedded = { b = ["1", "0"], order = 1 }',
         "embedded.b: 2",
         "at most 1",
@@ -256,7 +256,7 @@ MALFORMED = {
     "two forms of cf": (
         CF + '[[stage]]\n[update]\nexp = [["1"]]\n[low_storage]\nA = ["0"]\nB = ["1"]\n',
         "contains low_storage, and also stage or update",
-        "only one of these two forms",
+        "either low_storage, or stage and update",
     ),
     "low storage of two lengths": (
         CF + '[low_storage]\nA = ["0"]\nB = ["1", "2"]\n',

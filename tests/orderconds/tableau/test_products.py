@@ -189,11 +189,15 @@ MALFORMED = {
         "the name '1a'",
         "a letter",
     ),
-    "a term twice": (MAGNUS + 'exponents = [{ "[1,2]" = 1, "[1, 2]" = 2 }]\n', "'[1,2]' twice", "once"),
+    "a term twice": (
+        MAGNUS + 'exponents = [{ "[1,2]" = 1, "[1, 2]" = 2 }]\n',
+        "'[1,2]' occurs twice",
+        "once",
+    ),
     "an open bracket": (MAGNUS + 'exponents = [{ "[1,2" = 1 }]\n', "a missing ']'", "a bracket"),
     "no comma": (MAGNUS + 'exponents = [{ "[1 2]" = 1 }]\n', "a missing ','", "a bracket"),
     "an empty term": (MAGNUS + 'exponents = [{ "" = 1 }]\n', "an incomplete term", "a node"),
-    "an empty bracket": (MAGNUS + 'exponents = [{ "[,1]" = 1 }]\n', "',' in place of a term", "a node"),
+    "an empty bracket": (MAGNUS + 'exponents = [{ "[,1]" = 1 }]\n', "',' where a term must begin", "a node"),
     "more than a term": (MAGNUS + 'exponents = [{ "1 2" = 1 }]\n', "'2' after a complete term", "a node"),
     "another sign": (MAGNUS + 'exponents = [{ "1+2" = 1 }]\n', "'+'", "a node"),
     "brackets too deep": (

@@ -94,13 +94,13 @@ def test_products_from_the_start_value_are_recognised() -> None:
     [
         (
             'family = "rk"\nA = [[], ["1/2"], ["1/4", "0"]]\nb = ["0", "0", "1"]\n',
-            "zero denominator: A_2 is the coefficient of k_1 divided by that of k_2 in the increment of "
-            "stage 2, which are -1/4 and 0",
+            "the denominator of A_2 is zero: in the increment of stage 2, the coefficient of k_2 is 0, but "
+            "the coefficient of k_1 is -1/4",
         ),
         (
             'family = "rk"\nA = [[], ["1/2"]]\nb = ["1/3", "0"]\n',
-            "zero denominator: A_2 is the coefficient of k_1 divided by that of k_2 in the increment of "
-            "stage 2, which are -1/6 and 0",
+            "the denominator of A_2 is zero: in the increment of stage 2, the coefficient of k_2 is 0, but "
+            "the coefficient of k_1 is -1/6",
         ),
         ('family = "rk"\nA = [["1/2"]]\nb = ["1"]\n', "the first stage is not the start value"),
         (
@@ -117,7 +117,8 @@ def test_products_from_the_start_value_are_recognised() -> None:
         ),
         (
             'family = "rk"\nA = [[], ["1/2"], ["0", "1/2"]]\nb = ["0", "0", "1"]\n',
-            "stage 3: the increment is not B_3 K_3: the coefficient of k_1 is 0; expected 1/2",
+            "the increment of stage 3 is not B_3 K_3: the coefficient of k_1 is 0, but two registers "
+            "require 1/2",
         ),
     ],
 )

@@ -295,7 +295,7 @@ def test_stiff_equations_are_solved_in_steps_that_the_fast_rates_do_not_bound(
 
 
 def test_a_method_without_an_error_estimate_is_refused() -> None:
-    with pytest.raises(InputError, match="embedded row"):
+    with pytest.raises(InputError, match="embedded method"):
         bench("free_rigid_body", [], ["c"], [], 1e-4, None, str, ["ambient:gauss2"])
 
 

@@ -19,7 +19,7 @@ from codegen.lab.measurements.orders import Orders, agreement
 from codegen.lab.measurements.stability import StabilityTests
 from codegen.lab.orders import order_study
 from codegen.lab.page import documents
-from codegen.lab.page.documents import page_name, render, render_overview
+from codegen.lab.page.documents import page_name, render, render_overview, summary
 from codegen.lab.registry import selected
 from codegen.lab.scene_results import Measured, SceneResults, measure_scene
 from codegen.lab.stability.endurance import Endurance
@@ -86,7 +86,7 @@ def found() -> SceneResults:
 
 @pytest.fixture(scope="module")
 def overview(found: SceneResults) -> str:
-    return render_overview([found], "orderconds report free_rigid_body -o DIR")
+    return render_overview([summary(found)], "orderconds report free_rigid_body -o DIR")
 
 
 @pytest.fixture(scope="module", params=["scene", "overview"])
@@ -166,7 +166,7 @@ def test_the_page_is_the_same_when_the_times_are(page: str, found: SceneResults)
 def test_text_of_a_scene_cannot_become_markup(found: SceneResults) -> None:
     wild = replace(found.scene, title="<script>alert(1)</script> & (x)")
     spoilt = replace(found, subject=replace(found.subject, scene=wild))
-    for document in (render(spoilt, "x"), render_overview([spoilt], "x")):
+    for document in (render(spoilt, "x"), render_overview([summary(spoilt)], "x")):
         assert "<script>alert" not in document
         assert document.count("<script") == 1
 
@@ -219,7 +219,7 @@ def test_a_part_that_was_not_asked_for_has_no_section(found: SceneResults) -> No
 
 def test_stiff_variants_endurance_and_wrong_results_are_shown(found: SceneResults) -> None:
     (one, *others) = part(found, StabilityTests).measured
-    spin = OrderReduction("stiff spin", 2e3, 4, ((0.1, 1e-2, ""),), 2.0, "order reduction 4 to 2.0")
+    spin = OrderReduction("stiff spin", 2e3, 4, ((0.1, 1e-2, ""),), 2.0, "order reduction from 4 to 2.0")
     ended = Endurance("forward", 10_000_000, 1e-12, None)
     answers = one.findings.answers
     bad = replace(answers[0], verdict=f"{WRONG}: a result that is not finite")
@@ -229,7 +229,7 @@ def test_stiff_variants_endurance_and_wrong_results_are_shown(found: SceneResult
     page = render(with_part(found, StabilityTests, replace(one, findings=findings), *others), "x")
     for text in (
         '<th scope="row">stiff spin</th>',
-        "order reduction 4 to 2.0",
+        "order reduction from 4 to 2.0",
         "10000000 steps",
         "no reference",
     ):

@@ -15,13 +15,16 @@ from codegen.errors import SceneError
 from codegen.lab.page.svg import PLACEHOLDERS, standalone
 from codegen.lab.pictures import draw, listing, register
 from codegen.lab.pictures.deviation import maxima
+from codegen.lab.pictures.lattice_means import means
 from codegen.lab.pictures.picture import Drawn
 from codegen.lab.pictures.registry import find, unregister
 from codegen.lab.pictures.source import Source, formulas
 from codegen.lab.reference import cached_reference
+from codegen.loader import load_lattice
 from codegen.scene.figure import (
     Deviation,
     Figure,
+    LatticeMeans,
     Orders,
     PlaneCurves,
     Run,
@@ -32,8 +35,10 @@ from codegen.scene.figure import (
     TimeSeries,
     read_figures,
 )
+from codegen.scene.sites import neighbour
 from codegen.scenes import GALLERY, load
 from orderconds.errors import UnknownName
+from tests.codegen.chains import S, chain, open_chain
 
 EULER = Run("rkmk(0):euler", 0.1, 20)
 AMBIENT = Run("ambient:euler", 0.1, 20)
@@ -247,3 +252,53 @@ def test_every_figure_of_the_gallery_is_drawn_without_a_failed_run(scene):
         assert "ends early" not in drawn.note
         assert drawn.numbers
         ElementTree.fromstring(standalone(str(drawn.svg)))
+
+
+def test_means_over_a_lattice_are_means_of_arrays():
+    scene = chain()
+    t = Symbol("t")
+    evaluate = means(scene, [S[0] * neighbour(S, (1,))[1], t * S[2] * neighbour(S, (-1,))[2]])
+    states = np.random.default_rng(1).normal(size=(5, 3))
+    after, before = np.roll(states, -1, axis=0), np.roll(states, 1, axis=0)
+    expected = [(states[:, 0] * after[:, 1]).mean(), 2.5 * (states[:, 2] * before[:, 2]).mean()]
+    assert evaluate(states, 2.5) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("scene", "formula", "message"),
+    [
+        (load("free_rigid_body"), M[0], "a scene without sites"),
+        (open_chain(), neighbour(S, (1,))[0], "an open boundary"),
+        (chain(), "length", "in place of a formula"),
+        (chain(), Symbol("z"), "symbol z"),
+    ],
+)
+def test_impossible_means_are_errors(scene, formula, message):
+    with pytest.raises(SceneError, match=message):
+        means(scene, [formula])
+
+
+def lattice_figure(h):
+    rng = np.random.default_rng(1)
+    return LatticeMeans(
+        name="spin",
+        title="Mean spin",
+        runs=(Run("rkmk(0):euler", h, 6, stride=2),),
+        quantities={"third": S[2]},
+        shape=(7,),
+        start=lambda shape: rng.normal(size=(*shape, 3)),
+    )
+
+
+@pytest.mark.slow
+def test_the_figure_of_a_lattice_shows_runs_of_emitted_code():
+    source, figure = Source(chain()), lattice_figure(0.1)
+    numbers = draw(figure, source).numbers
+    lattice = load_lattice(source.artifact(figure.runs[0]))
+    states = lattice_figure(0.1).start((7,))
+    last = lattice.run(states, 0.1, 6).states
+    first, most, end = numbers["rkmk(0):euler"]["third"]
+    assert (first, end) == pytest.approx((states[:, 2].mean(), last[:, 2].mean()), rel=1e-13)
+    assert most >= max(first, end)
+    with pytest.raises(SceneError, match="fails after t = 0"):
+        draw(lattice_figure(1e308), source)

@@ -70,7 +70,7 @@ def test_order_is_lost_on_a_thin_body_and_kept_by_nothing_that_is_resolved():
     thin = thin_body(10**6)
     left = order_reduction(thin, method("free_rigid_body", "cf:cf4"), cached_reference(thin.scene))
     assert left.stated == 4
-    assert "order reduction 4 to" in left.verdict
+    assert "order reduction from 4 to" in left.verdict
     gentle = thin_body(10)
     kept = order_reduction(gentle, method("free_rigid_body", "cf:cf4"), cached_reference(gentle.scene))
     assert "order reduction" not in kept.verdict

@@ -1,0 +1,289 @@
+"""The distribution of a program's assignments among sweeps over the sites of a lattice.
+
+A value that the field reads at neighbours is stored by one sweep and read by a later sweep. The equations
+of an implicit method are a block of sweeps that are repeated. Values from outside the block are stored before
+the block begins, and the last sweep of the block replaces the unknowns by their images. Statements after the
+block read the unknowns in place of the images.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from codegen.ir.expr import walk
+from codegen.ir.operations import Advance, Linear, Zero
+from codegen.ir.program import Assign, Program, Solve
+from codegen.ir.scene_operations import Field, HamiltonianDerivatives
+from codegen.ir.site_step import RESULT, STATE, WORK, Row, SiteBlock, SiteStep, Sweep
+from codegen.ir.values import Kind, Var
+from codegen.kernel.site_execution import Content, Execution, blocks_of
+from codegen.scene.problem import Problem
+from codegen.scene.sites import Sites
+
+RECOMPUTED = (Linear, Zero, Advance)
+"""Operations whose results are computed again in each sweep that reads them, except stored sums."""
+
+EVALUATED = (Field, HamiltonianDerivatives)
+"""Operations that read the states of neighbours."""
+
+MEASURED = 2
+"""The number of rows with the changes and the sizes of unknowns."""
+
+
+@dataclass
+class _Needs:
+    """The variables that one sweep computes, loads from its own site, and reads at neighbours."""
+
+    computed: set[Var] = field(default_factory=set)
+    loaded: set[Var] = field(default_factory=set)
+    around: set[Var] = field(default_factory=set)
+
+
+@dataclass(frozen=True)
+class _Block:
+    """The equations of a block, and the indices of the first and the last sweep of an iteration."""
+
+    solve: Solve
+    first: int
+    last: int
+
+    def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
+        """Return the unknowns that the sweep with this index sets, each with its new value."""
+        values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
+        return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
+
+
+@dataclass
+class Planner:
+    """Distributes the assignments of a program among sweeps."""
+
+    program: Program
+    problem: Problem
+    sites: Sites
+    sweep_of: dict[Var, int] = field(default_factory=dict)
+    makers: dict[Var, Assign] = field(default_factory=dict)
+    rows: dict[Var, tuple[Row, ...]] = field(default_factory=dict)
+    blocks: list[_Block] = field(default_factory=list)
+    order: list[Assign] = field(default_factory=list)
+    renamed: dict[Var, Var] = field(default_factory=dict)
+    sums: set[Var] = field(default_factory=set)
+
+    def step(self) -> SiteStep:
+        """Return the step."""
+        self._place()
+        self._choose_sums()
+        outputs = tuple(self.renamed.get(var, var) for _, var in self.program.outputs)
+        least = max((block.last + 1 for block in self.blocks), default=0)
+        last = max([least, *(self.sweep_of[var] for var in outputs)])
+        needs = [_Needs() for _ in range(last + 1)]
+        for number in range(last, -1, -1):
+            roots = [v for later in needs[number + 1 :] for v in (later.loaded | later.around)]
+            roots = [v for v in roots if v in self.makers and self.sweep_of[v] == number]
+            roots += [value for block in self.blocks for _, value in block.copies(number)]
+            need = needs[number]
+            self._require(number, need, [*roots, *(outputs if number == last else ())])
+            need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
+        count = self._store(needs)
+        measured = tuple(Row(WORK, count + k) for k in range(MEASURED)) if self.blocks else ()
+        sweeps = tuple(
+            self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], measured)
+            for k, need in enumerate(needs)
+        )
+        size, sites = len(self.problem.symbols), self.sites
+        step = SiteStep(sites.dimension, sites.offsets, sites.periodic, sweeps, size, count + len(measured))
+        blocks = tuple(
+            SiteBlock(b.solve.label, tuple(u.name for u in b.solve.unknowns), b.first, b.last)
+            for b in self.blocks
+        )
+        return replace(step, blocks=blocks)
+
+    @cached_property
+    def coupled(self) -> tuple[int, ...]:
+        """The indices of the blocks of the state that the field reads at neighbours."""
+        read = {n.payload for n in walk(self.problem.roots) if n.op == "sym"}
+        return tuple(
+            k
+            for k, block in enumerate(blocks_of(self.problem))
+            if any(read.intersection(column[block]) for column in self.sites.symbols)
+        )
+
+    def _points(self, assign: Assign) -> tuple[Var, ...]:
+        """Return the arguments that an assignment reads at neighbours, too."""
+        if not isinstance(assign.operation, EVALUATED):
+            return ()
+        return tuple(assign.args[k] for k in self.coupled)
+
+    def _place(self) -> None:
+        """Find for each variable the first sweep that can compute it."""
+        least = 0
+        for var in self.program.inputs:
+            self.sweep_of[var] = 0
+        for statement in self.program.body:
+            if isinstance(statement, Assign):
+                self._place_one(statement, least)
+                continue
+            solve = self._without_renamed(statement)
+            inside = {t for assign in solve.body for t in assign.targets} | set(solve.unknowns)
+            read = {v for assign in solve.body for v in assign.args} - inside
+            # Before the first iteration, a sweep stores the first values of the unknowns and all other values
+            # that the equations read.
+            first = 1 + max([least, *(self.sweep_of[v] for v in (*solve.starts, *read))])
+            self.sweep_of |= dict.fromkeys(solve.unknowns, first)
+            for assign in solve.body:
+                self._place_one(assign, first)
+            last = max(first, *(self.sweep_of[v] for v in solve.images))
+            points = {v for a in solve.body for v in self._points(a)}
+            if points & set(solve.unknowns):
+                # Sites read the unknowns of their neighbours. A sweep of its own replaces the unknowns after
+                # all sites have read them.
+                last += 1
+            self.blocks.append(_Block(solve, first, last))
+            self.renamed |= dict(zip(solve.images, solve.unknowns, strict=True))
+            least = last + 1
+
+    def _without_renamed(self, solve: Solve) -> Solve:
+        """Return a block that reads the unknowns of earlier blocks in place of their images."""
+        starts = tuple(self.renamed.get(v, v) for v in solve.starts)
+        return replace(solve, starts=starts, body=tuple(map(self._rename, solve.body)))
+
+    def _rename(self, assign: Assign) -> Assign:
+        return replace(assign, args=tuple(self.renamed.get(v, v) for v in assign.args))
+
+    def _place_one(self, statement: Assign, least: int) -> None:
+        assign = self._rename(statement)
+        self.order.append(assign)
+        places = [self.sweep_of[arg] for arg in assign.args]
+        # Unknowns and the old state are stored already.
+        points = [v for v in self._points(assign) if v in self.makers]
+        places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
+        for target in assign.targets:
+            self.sweep_of[target] = max([least, *places])
+            self.makers[target] = assign
+
+    def _choose_sums(self) -> None:
+        """Find the sums to store: those that are the only reader of a term which the same sweep computes.
+
+        Without the sum, this term would be stored. A 2N scheme then stores one element of the Lie algebra for
+        any number of stages. In programs with equations no sums are stored.
+        """
+        readers = Counter(arg for assign in self.order for arg in assign.args)
+        for assign in self.order:
+            if self.blocks or not isinstance(assign.operation, Linear):
+                continue
+            (target,) = assign.targets
+            if any(
+                readers[arg] == 1
+                and self.sweep_of[arg] == self.sweep_of[target]
+                and arg in self.makers
+                and not isinstance(self.makers[arg].operation, RECOMPUTED)
+                for arg in assign.args
+            ):
+                self.sums.add(target)
+
+    def _require(self, number: int, need: _Needs, roots: Iterable[Var]) -> None:
+        """Find the variables that a sweep needs for ``roots``."""
+        waiting = list(roots)
+        while waiting:
+            var = waiting.pop()
+            if var in need.computed:
+                continue
+            maker = self.makers.get(var)
+            again = maker is not None and isinstance(maker.operation, RECOMPUTED) and var not in self.sums
+            if maker is None or (self.sweep_of[var] < number and not again):
+                need.loaded.add(var)
+                continue
+            need.computed |= set(maker.targets)
+            need.around |= set(self._points(maker))
+            waiting += maker.args
+
+    def _last_uses(self, needs: list[_Needs]) -> dict[Var, int]:
+        """Return the index of the last sweep that needs each variable."""
+        used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
+        for block in self.blocks:
+            repeated = needs[block.first : block.last + 1]
+            defined = {v for need in repeated for v in need.computed}
+            for var in {v for need in repeated for v in (need.loaded | need.around)} - defined:
+                # The next iteration reads these values again, so their rows stay occupied until the block
+                # ends.
+                used[var] = max(used[var], block.last + 1)
+        return used
+
+    def _store(self, needs: list[_Needs]) -> int:
+        """Assign rows of the workspace to stored variables; return the number of rows."""
+        for var in self._given():
+            self.rows[var] = tuple(Row(STATE, k) for k in self._numbers(var.name))
+        used = self._last_uses(needs)
+        around = [need.around for need in needs]
+        free: list[int] = []
+        count = 0
+        for number, need in enumerate(needs):
+            # A sweep may overwrite values that it reads for the last time, unless other sites read them too.
+            done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
+            done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
+            ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
+            free = sorted({*free, *ended})
+            begun = [u for block in self.blocks if block.first - 1 == number for u in block.solve.unknowns]
+            stored = [v for v in self._ordered(need.computed) if self.sweep_of[v] == number]
+            for var in [*begun, *(v for v in stored if used.get(v, -1) > number)]:
+                width = self._width(var)
+                chosen, free = free[:width], free[width:]
+                chosen += range(count, count + width - len(chosen))
+                count = max(count, max(chosen) + 1)
+                self.rows[var] = tuple(Row(WORK, k) for k in chosen)
+        return count
+
+    def _given(self) -> tuple[Var, ...]:
+        """Return the variables of the old state."""
+        return tuple(var for var in self.program.inputs if var.kind is not Kind.REAL)
+
+    def _numbers(self, name: str) -> range:
+        """Return the indices of a block of the state."""
+        places = zip(self.problem.state, blocks_of(self.problem), strict=True)
+        return next(range(place.start, place.stop) for block, place in places if block.name == name)
+
+    def _ordered(self, variables: Iterable[Var]) -> list[Var]:
+        """Return variables in the order of the program."""
+        wanted = set(variables)
+        unknowns = [u for block in self.blocks for u in block.solve.unknowns]
+        listed = [*self.program.inputs, *unknowns, *(t for a in self.order for t in a.targets)]
+        return [v for v in listed if v in wanted]
+
+    def _width(self, var: Var) -> int:
+        if var.kind is Kind.REAL:
+            return 1
+        if var.kind is Kind.POINT:
+            return len(self.problem.symbols)
+        return self.problem.group.size if var.kind is Kind.GROUP else self.problem.group.dim
+
+    def _sweep(
+        self,
+        number: int,
+        need: _Needs,
+        outputs: tuple[Var, ...],
+        later: list[_Needs],
+        measured: tuple[Row, ...],
+    ) -> Sweep:
+        read = {v for other in later for v in (other.loaded | other.around)}
+        kept = [
+            v
+            for v in self._ordered(need.computed)
+            if self.sweep_of[v] == number and v in self.rows and v in read
+        ]
+        executed = [a for a in self.order if set(a.targets) & need.computed]
+        run = Execution(self.program.name, self.problem, self.sites, self.rows, self._given(), self.coupled)
+        run.begin(self._ordered(need.loaded | need.around))
+        for assign in executed:
+            run.execute(assign)
+        copies = [pair for block in self.blocks for pair in block.copies(number)]
+        ending = tuple(u for block in self.blocks if block.last == number for u in block.solve.unknowns)
+        stored = [(self.rows[unknown], value) for unknown, value in copies]
+        stored += [(self.rows[v], v) for v in kept]
+        named = zip((name for name, _ in self.program.outputs), outputs, strict=False)
+        stored += [(tuple(Row(RESULT, k) for k in self._numbers(name)), v) for name, v in named]
+        shown = [a.text() for a in executed if not isinstance(a.operation, RECOMPUTED)]
+        shown += [f"{unknown.name} = {value.name}" for unknown, value in copies]
+        own = measured if ending else ()
+        return run.sweep(Content("; ".join(shown), tuple(stored), ending, own))

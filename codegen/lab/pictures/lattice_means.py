@@ -1,0 +1,133 @@
+"""Draws means over the sites of a lattice against time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy
+
+from codegen.errors import SceneError
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import evaluate
+from codegen.lab.long_runs.trajectory import FUNCTIONS
+from codegen.lab.page.axes import label_axes
+from codegen.lab.page.series_style import DASH_DOTTED, DASHED, DOTTED, MARKERS, SOLID, Style
+from codegen.lab.pictures.canvas import WIDE, Canvas, marks
+from codegen.lab.pictures.picture import Drawn
+from codegen.lab.pictures.source import Source
+from codegen.lab.straight_line_field import straight_line
+from codegen.loader import load_lattice
+from codegen.scene.figure import LatticeMeans, Quantity, Run
+from codegen.scene.formulas import Reader
+from codegen.scene.problem import TIME, Problem
+from codegen.scene.sites import Offset, neighbour, offset_of
+
+DASHES = (SOLID, DASHED, DASH_DOTTED, DOTTED)
+
+
+def draw(figure: LatticeMeans, source: Source) -> Drawn:
+    """Return the picture. Each quantity of each run has a colour, a dash and a marker.
+
+    Raises :class:`codegen.errors.SceneError` for a scene without sites and for a step that fails.
+    """
+    canvas = Canvas.of(1, 1, 3.4, width=WIDE)
+    (axes,) = canvas.panels
+    numbers: dict[str, dict[str, list[float]]] = {}
+    total = len(figure.runs) * len(figure.quantities)
+    for k, run in enumerate(figure.runs):
+        times, rows = _series(figure, source, run)
+        numbers[run.name] = {}
+        for j, (name, row) in enumerate(zip(figure.quantities, rows.T, strict=True)):
+            place = k * len(figure.quantities) + j
+            label = ", ".join(([run.name] if len(figure.runs) > 1 else []) + [name])
+            style = Style(f"var(--series-{place + 1})", MARKERS[place], DASHES[place % len(DASHES)])
+            chosen = marks(len(times), (place + 0.5) / total)
+            texts = [f"{label}: {row[i]:.6g} at t = {times[i]:.4g}" for i in chosen]
+            canvas.line(axes, (times, row), label, style, chosen, texts)
+            numbers[run.name][name] = [float(row[0]), float(row.max()), float(row[-1])]
+    label_axes(axes, "time t", figure.axis)
+    note = f"Lattice of {' x '.join(map(str, figure.shape))} sites. "
+    note += " ".join(
+        f"{run}, {name}: {first:.6g} at the start, at most {most:.6g}, {last:.6g} at the end."
+        for run, series in numbers.items()
+        for name, (first, most, last) in series.items()
+    )
+    return Drawn(canvas.finish(figure, source.problem, note), note, numbers)
+
+
+def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Return the times of a run and the means: one row for each time."""
+    problem = source.problem
+    evaluate_means = means(problem, list(figure.quantities.values()))
+    lattice = load_lattice(source.artifact(run))
+    states, first = numpy.asarray(figure.start(figure.shape), dtype=float), float(problem.span[0])
+    times, rows = [first], [evaluate_means(states, first)]
+    for done in range(run.stride, run.steps + 1, run.stride):
+        source.progress(f"{problem.name}, {run.name}: step {done} of {run.steps}")
+        result = lattice.run(states, run.h, run.stride, times[-1])
+        if not result.ok:
+            raise SceneError(
+                f"{run.name} fails after t = {times[-1]:g}: {result.reason}",
+                where=problem.name,
+                expected="a run without a failed step",
+                hint="use smaller steps",
+            )
+        states = result.states
+        times.append(first + run.h * done)
+        rows.append(evaluate_means(states, times[-1]))
+    return numpy.array(times), numpy.array(rows)
+
+
+def means(problem: Problem, quantities: list[Quantity]) -> Any:
+    """Return the function (states, time) that computes the means of formulas over all sites.
+
+    The formulas contain the coordinates of a site and of its neighbours. Raises
+    :class:`codegen.errors.SceneError` for a scene without sites, and for formulas with neighbours if the
+    boundary is open.
+    """
+    import sympy
+
+    if problem.sites is None:
+        raise SceneError("a scene without sites", where=problem.name, expected="a SiteScene")
+    own = [sympy.Symbol(s, real=True) for s in problem.symbols]
+    free = {str(s) for q in quantities for s in getattr(q, "free_symbols", ())}
+    offsets = sorted({o for s in free if (o := offset_of(s, problem.symbols)) is not None})
+    if offsets and not problem.sites.periodic:
+        raise SceneError(
+            "a mean of neighbours in a lattice with an open boundary",
+            where=problem.name,
+            expected="a formula in the coordinates of one site",
+        )
+    around = [str(s) for offset in offsets for s in neighbour(own, offset)]
+    reader = Reader(problem.name, own)
+    domain = ExprDomain(reader.space)
+    state = tuple(map(reader.space.sym, problem.symbols))
+    known = problem.values(domain, state, reader.space.sym(TIME))
+    known |= {name: reader.space.sym(name) for name in around}
+    roots = [reader.scalar(_formula(problem, q), "the formula of a figure", more=around) for q in quantities]
+    names = (*problem.symbols, *around)
+    line = straight_line(problem.name, names, tuple(evaluate(roots, domain, known)))
+    compute = line.python(float, FUNCTIONS)
+
+    def mean(states: numpy.ndarray, time: float) -> list[float]:
+        arrays = [
+            moved for offset in ((0,) * (states.ndim - 1), *offsets) for moved in _moved(states, offset)
+        ]
+        return [float(numpy.mean(x)) for x in compute(arrays, time)]
+
+    return mean
+
+
+def _formula(problem: Problem, quantity: Quantity) -> Any:
+    """Return a formula; a name is an error, because the invariants of a site are constant."""
+    if isinstance(quantity, str):
+        raise SceneError(
+            f"the name {quantity!r} in place of a formula", where=problem.name, expected="a sympy formula"
+        )
+    return quantity
+
+
+def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
+    """Return the coordinates of the neighbour of each site of a periodic lattice, one array each."""
+    rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
+    return [rolled[..., k] for k in range(states.shape[-1])]

@@ -1,0 +1,133 @@
+"""The solution of implicit equations on a lattice, by fixed-point iteration.
+
+An iteration consists of sweeps over all sites. The last sweep replaces the unknowns by their images, and
+stores two numbers for each site: the largest change of an unknown and the largest absolute value of an
+unknown. The maxima over all sites enter the stopping rule of single systems (:mod:`codegen.run.stopping`). In
+contrast to a single system, the last change is always applied, because the images are stored in place of the
+unknowns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from codegen.ir.expr import Space
+from codegen.ir.kernel import LOST, Loop
+from codegen.ir.site_step import STATE, WORK, SiteBlock, SiteStep
+from codegen.kernel.schedule import METHODS
+from codegen.run.language import Array, Assign, Call, For, Function, If, Note, Return, Statement, While
+from codegen.run.plan import STEP, Plan
+from codegen.run.site_terms import ARRAYS, SITES
+from codegen.run.statistics import SWEEPS
+from codegen.run.stopping import CHANGE, SCALE, Stopping
+from codegen.run.terms import (
+    NOT_CONVERGED,
+    OK,
+    STATUS,
+    Kind,
+    Term,
+    both,
+    code,
+    count,
+    greatest,
+    number,
+    real,
+    size,
+    whole,
+)
+
+MEASURE, REACH = "measured", "largest_state"
+"""The names of the functions that compute maxima over all sites: of changes and unknowns, and of states."""
+
+_MEASURED, _REACH, _PLACE = real("measures", 3), real("reach"), count("place")
+
+
+class _Stopping(Stopping):
+    """The stopping rule for the unknowns of all sites."""
+
+    def converged(self) -> list[Statement]:
+        """Return the statements that set the flag ``converged``."""
+        # The largest entry of the state is needed only if the change no longer decreases.
+        still = both(self.previous > 0.0, CHANGE >= self.previous)
+        measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
+        return [Assign(_REACH, number(0.0)), measured, *super().converged()]
+
+    def lost(self) -> Term:
+        """Return the test that h times the change is below the rounding errors of the states."""
+        return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
+
+
+def loop_of(block: SiteBlock) -> Loop:
+    """Return the block as a loop without a warm start, whose bounds and name the stopping rule reads."""
+    # A loop has a warm start if it has no starting values of its own.
+    return Loop(block.label, block.unknowns, (Space().zero,), (), ())
+
+
+def iterated(
+    plan: Plan, block_number: int, block: SiteBlock, iteration: Sequence[Statement]
+) -> list[Statement]:
+    """Return the statements that repeat an iteration until the unknowns converge. If they do not converge,
+    the function returns the status."""
+    rule = _Stopping(plan, loop_of(block), block_number, ())
+    body: list[Statement] = [
+        Assign(SWEEPS, SWEEPS + 1),
+        *iteration,
+        Call(MEASURE, (SITES, ARRAYS[WORK], _MEASURED)),
+        Assign(CHANGE, _MEASURED[0]),
+        Assign(SCALE, _MEASURED[1]),
+        *rule.converged(),
+        rule.decided(_MEASURED[2]),
+        Assign(rule.previous, CHANGE),
+    ]
+    return [
+        Note(f"{block.label}: {METHODS[rule.loop.solver]}"),
+        *([Array(_MEASURED)] if block_number == 1 else []),
+        *rule.before(),
+        Assign(SWEEPS, whole(0)),
+        Assign(STATUS, code(NOT_CONVERGED)),
+        While(rule.going_on(), tuple(body), at_least_once=True),
+        If(STATUS.differs(code(OK)), (Return(STATUS),)),
+        *rule.after(),
+    ]
+
+
+def measures(step: SiteStep) -> list[Function]:
+    """Return the functions that compute maxima over all sites; none for an explicit method."""
+    if not step.blocks:
+        return []
+    work, state = ARRAYS[WORK], ARRAYS[STATE]
+    change_row, size_row = (
+        (row.number + step.size) * SITES for row in step.sweeps[step.blocks[0].last].measured
+    )
+    start = [count("changes"), count("sizes")]
+    most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")
+    body = (
+        Assign(most, greatest([most, work[start[0] + _PLACE]])),
+        Assign(all_changes, all_changes + work[start[0] + _PLACE]),
+        Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
+    )
+    about = (
+        "The maxima over all sites of the changes and of the unknowns, and the sum of all changes, which is "
+    )
+    about += "finite only if all changes are."
+    measured = Function(
+        MEASURE,
+        about,
+        (SITES, work, _MEASURED),
+        (
+            Assign(start[0], change_row),
+            Assign(start[1], size_row),
+            *(Assign(x, number(0.0)) for x in (most, all_changes, largest)),
+            For(_PLACE, SITES, body),
+            *(Assign(_MEASURED[k], x) for k, x in enumerate((most, largest, all_changes))),
+        ),
+    )
+    entry = Assign(most, greatest([most, size(state[_PLACE])]))
+    reach = Function(
+        REACH,
+        "The largest absolute value in the states of all sites.",
+        (SITES, state),
+        (Assign(most, number(0.0)), For(_PLACE, step.size * SITES, (entry,)), Return(most)),
+        Kind.REAL,
+    )
+    return [measured, reach]

@@ -1,0 +1,83 @@
+"""Wilson flow of a lattice gauge field: links in SU(3) between the sites of a periodic lattice.
+
+V' = -g0^2 (dS(V)) V with the Wilson action S (M. Luescher, Properties and uses of the Wilson flow in lattice
+QCD, JHEP 08 (2010) 071, arXiv:1006.4518, section 1). Link a of a site goes to the next site along axis a. Its
+coordinates are a 6 x 3 matrix, Re V above Im V. A staple of a link is the product of the other three links of
+a plaquette. The generator of a link is the anti-Hermitian part, without its trace, of minus the link times
+the sum of its staples.
+
+The variable ``energy`` is the density E of the action: the sum of 2 Re tr(1 - P) over the plaquettes P that
+begin at a site. The function ``start`` returns random links.
+"""
+
+from collections.abc import Sequence
+from itertools import combinations
+from random import Random
+
+import numpy as np
+from sympy import Matrix, Symbol, eye, symbols, zeros
+
+from codegen.groups import SU, Columns, FactorwiseAction, Product
+from codegen.scene import SiteScene, neighbour
+from codegen.scene.figure import LatticeMeans, Run
+from codegen.scenes.wilson_flow import full, generator
+
+DIMENSION = 4
+axes = range(DIMENSION)
+links = [x for k in axes for x in symbols(f"v{k}_0:6(0:3)", real=True)]
+
+
+def link(axis: int, *steps: tuple[int, int]) -> Matrix:
+    """Return the link along an axis that begins where ``steps`` end; a step is an axis and a sign.
+
+    The link is a real 6 x 6 matrix. Its transpose belongs to the inverse link.
+    """
+    offset = [sum(sign for along, sign in steps if along == e) for e in axes]
+    site = neighbour(links, offset) if any(offset) else links
+    return full(Matrix(6, 3, site[18 * axis : 18 * axis + 18]))
+
+
+def staples(a: int) -> Matrix:
+    """Return the sum of the staples of link a."""
+    total = zeros(6, 6)
+    for b in [b for b in axes if b != a]:
+        total += link(b, (a, 1)) * (link(a, (b, 1)).T * link(b).T)
+        total += link(b, (a, 1), (b, -1)).T * (link(a, (b, -1)).T * link(b, (b, -1)))
+    return total
+
+
+def start(shape: Sequence[int]) -> np.ndarray:
+    """Return random links at all sites, an array of shape (n1, ..., nd, 18 d). The seed is fixed."""
+    draw, count = Random(1006), DIMENSION * int(np.prod(shape))
+    parts = np.array([draw.gauss(0, 1) for _ in range(12 * count)]).reshape(count, 2, 2, 3)
+    first, second = np.moveaxis(parts[:, 0] + 1j * parts[:, 1], 1, 0)
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    second -= (first.conj() * second).sum(axis=1, keepdims=True) * first
+    second /= np.linalg.norm(second, axis=1, keepdims=True)
+    columns = np.stack([first, second, np.cross(first, second).conj()], axis=2)
+    return np.concatenate([columns.real, columns.imag], axis=1).reshape(*shape, -1)
+
+
+# The trace of the real matrix of a plaquette P is 2 Re tr P.
+plaquettes = [link(a) * link(b, (a, 1)) * (link(b) * link(a, (b, 1))).T for a, b in combinations(axes, 2)]
+energy = sum(6 - plaquette.trace() for plaquette in plaquettes)
+scene = SiteScene(
+    title=f"Wilson flow of a lattice gauge field in SU(3), dimension {DIMENSION}",
+    group=Product(*(SU(3) for _ in axes)),
+    action=FactorwiseAction(*(Columns(3) for _ in axes)),
+    y=links,
+    f=[x for a in axes for x in generator(link(a) * staples(a)[:, :3])],
+    y0=[*Matrix.vstack(eye(3), zeros(3, 3))] * DIMENSION,
+    span=(0, 1),
+)
+figures = [
+    LatticeMeans(
+        name="energy",
+        title="Density of the action along the Wilson flow",
+        axis="t² E(t)",
+        quantities={"t² E": Symbol("t") ** 2 * energy},
+        shape=(4,) * DIMENSION,
+        start=start,
+        runs=(Run("cf:luescher3", 0.02, 100, stride=2),),
+    )
+]

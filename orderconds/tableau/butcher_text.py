@@ -1,0 +1,61 @@
+"""A Butcher tableau as text: c and A, a rule, and b, with exact entries."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+
+from orderconds.ring import Ball, Balls, Element
+from orderconds.tableau.record import Tableau
+
+SHORT = Balls(64)
+"""The precision of printed decimals."""
+
+DIGITS = 24
+"""The number of characters of the longest decimal."""
+
+
+def butcher_text(tableau: Tableau) -> list[str]:
+    """Return the lines of the Butcher tableau. Decimals have about twenty digits and end with "~".
+
+    A composition is printed as the Runge-Kutta method that it is for the implicit midpoint rule, and a
+    commutator-free method as its Runge-Kutta method on vector spaces. Embedded
+    weights are not printed. Raises :class:`orderconds.errors.TableauError` for a splitting and for a Magnus
+    method.
+
+    >>> from orderconds.tableau import find
+    >>> print("\\n".join(butcher_text(Tableau.load(find("gauss2")))))
+    1/2 - sqrt(3)/6 | 1/4              1/4 - sqrt(3)/6
+    1/2 + sqrt(3)/6 | 1/4 + sqrt(3)/6  1/4
+    ----------------+---------------------------------
+                    | 1/2              1/2
+    """
+    method = tableau.abelian()
+    rows = [[entry(tableau, x) for x in row] for row in method.A]
+    below = [[entry(tableau, x) for x in method.b]]
+    nodes = [entry(tableau, x) for x in method.c]
+    widths = [max(len(row[k]) for row in [*rows, *below]) for k in range(len(method.b))]
+    left = max(map(len, nodes))
+
+    def line(first: str, cells: list[str]) -> str:
+        padded = (cell.ljust(width) for cell, width in zip(cells, widths, strict=True))
+        return f"{first.ljust(left)} | {'  '.join(padded)}".rstrip()
+
+    rule = "-" * left + "-+-" + "-" * (sum(widths) + 2 * (len(widths) - 1))
+    return [*(line(c, row) for c, row in zip(nodes, rows, strict=True)), rule, *(line("", b) for b in below)]
+
+
+def entry(tableau: Tableau, x: Element) -> str:
+    """Return a coefficient as text.
+
+    >>> from orderconds.tableau import find
+    >>> yoshida = Tableau.load(find("yoshida6"))
+    >>> entry(yoshida, yoshida.abelian().b[0])
+    '0.784513610477557264~'
+    """
+    if not isinstance(x, Ball):
+        return tableau.ring.text(x)
+    text = SHORT.text(SHORT.enclose(x.value) + 0)
+    if len(text) <= DIGITS:
+        return text
+    # The sum of rounded numbers can have more zeros than digits that are correct.
+    return f"{Decimal(text.rstrip('~')):.{DIGITS - 2}g}~"
