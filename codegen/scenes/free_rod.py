@@ -45,16 +45,16 @@ turns = [(other - R)[:, a] for a in range(3)]
 stretching = sum(S * s**2 / 2 for S, s in zip((GA, GA, EA), strain, strict=True))
 bending = sum(D * d.dot(d) for D, d in zip((GJ / 2, GJ / 2, EI - GJ / 2), turns, strict=True)) / (2 * ds**2)
 
-Section = Sequence[sympy.Expr]
+Ends = Mapping[Sequence[int], Sequence[sympy.Expr]]
+"""Cross sections outside the rod, by offset."""
+
 normal = R[:, 0].cross(R[:, 1])
-FREE = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
+FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
 """Cross sections outside the rod in which all strains vanish, so they exert no force. The formula holds for
 any matrix R, so rounding errors in R do not change the total momentum."""
 
 
-def rod(
-    ends: Mapping[tuple[int], Section] | None = None, gravity: sympy.Expr | None = None, title: str = ""
-) -> Problem:
+def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
     """Return a rod whose ends are free, or follow the cross sections ``ends``, with gravity in the direction
     of -e1."""
     parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
