@@ -13,7 +13,7 @@ from sympy import Matrix, Rational, diag, sqrt
 
 from codegen.groups import SO3
 from codegen.scene import HamiltonianScene, param
-from codegen.scene.figure import Deviation, Orders, Run
+from codegen.scene.figure import Deviation, Motion, Orders, Run
 from codegen.scene.run_time import with_runtime
 from codegen.scene.stiff_variant import StiffVariant
 
@@ -71,6 +71,18 @@ figures = [
             Run("vrkmk(2):gauss2", 0.01, 100_000),
             Run("vcg:triple_jump", 0.01, 100_000),
         ),
+    ),
+    Motion(
+        name="motion",
+        title="Motion of the dipole",
+        caption="800 steps of size 0.01. The motion stops while the pointer is on the picture.",
+        bars={
+            "stick": ((0, 0, 0), tuple(-g * e3)),
+            "dipole": (tuple(g * Matrix([0, a, -1])), tuple(g * Matrix([0, -a, -1]))),
+        },
+        trace=tuple(-g * e3),
+        fixed={"fixed charge": (0, 0, -1.5)},
+        runs=(Run("vrkmk(2):gauss2", 0.01, 800, stride=8),),
     ),
 ]
 
