@@ -7,7 +7,6 @@ and the bars at a few later times.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -39,18 +38,38 @@ FRAMES = 150
 
 @dataclass(frozen=True)
 class _Sheet:
-    """The map from points in space to points of the picture: ``frame`` is the projection, and ``reach`` the
-    largest absolute value of a projected coordinate."""
+    """The map from points in space to points of the picture. ``frame`` is the projection, ``left`` and
+    ``high`` are the projected coordinates of the corner at the left above, and ``unit`` is the length of a
+    unit vector. ``axis`` is the length of the coordinate axes."""
 
     frame: numpy.ndarray
-    reach: float
+    left: float
+    high: float
+    low: float
+    unit: float
     top: float
+    axis: float
+
+    @classmethod
+    def of(cls, frame: numpy.ndarray, points: numpy.ndarray, top: float) -> _Sheet:
+        """Return the sheet that contains the columns of ``points`` and the coordinate axes."""
+        axis = 0.55 * float(numpy.linalg.norm(points, axis=0).max())
+        ends = numpy.concatenate([points, 1.1 * axis * numpy.eye(3), numpy.zeros((3, 1))], axis=1)
+        right, up, _ = frame @ ends
+        unit = (WIDTH - 2 * MARGIN) / float(right.max() - right.min())
+        return cls(frame, float(right.min()), float(up.max()), float(up.min()), unit, top, axis)
+
+    @property
+    def height(self) -> float:
+        """The height of the picture."""
+        return self.top + MARGIN + self.unit * (self.high - self.low)
 
     def seen(self, points: numpy.ndarray) -> numpy.ndarray:
         """Return the places of points, which are the columns of an array with three rows."""
         right, up, _ = self.frame @ points
-        half = (WIDTH - 2 * MARGIN) / 2
-        return numpy.array([WIDTH / 2 + half / self.reach * right, self.top + half - half / self.reach * up])
+        return numpy.array(
+            [MARGIN + self.unit * (right - self.left), self.top + self.unit * (self.high - up)]
+        )
 
 
 def draw(figure: Motion, source: Source) -> Drawn:
@@ -70,9 +89,8 @@ def draw(figure: Motion, source: Source) -> Drawn:
     points = rows.reshape(len(places), 3, -1)
     frame = projection(*figure.direction)
     fixed = numpy.array([*figure.fixed.values(), (0.0, 0.0, 0.0)]).T
-    every = numpy.concatenate([frame @ p for p in (*points, fixed)], axis=1)
-    top = MARGIN + LINE * (len(figure.bars) + 2 + len(figure.fixed))
-    sheet = _Sheet(frame, 1.05 * float(numpy.abs(every[:2]).max()), top)
+    top = MARGIN + LINE * (len(figure.bars) + 1 + len(figure.fixed))
+    sheet = _Sheet.of(frame, numpy.concatenate([*points, fixed], axis=1), top)
     ends = [sheet.seen(p) for p in points[:-1]]
     bars = list(zip(ends[::2], ends[1::2], strict=True))
     name = re.sub(r"\W+", "-", f"{source.problem.name} {figure.name}")
@@ -92,8 +110,7 @@ def draw(figure: Motion, source: Source) -> Drawn:
     note = failures(figure.runs, [path.failure])
     words = f"{figure.title}, {source.problem.title}"
     about = f"{run.name}: t from {path.times[0]:g} to {path.times[-1]:g}."
-    height = top + WIDTH - 2 * MARGIN + MARGIN / 2
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH:g} {height:g}" class="{name}"'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH:g} {sheet.height:g}" class="{name}"'
     head += f' tabindex="0" role="img" aria-labelledby="{name}-title {name}-desc">'
     head += f'<title id="{name}-title">{escape(words)}</title><desc id="{name}-desc">{escape(about)}</desc>'
     return Drawn(Markup(f"{head}{style}{''.join(parts)}</svg>"), note, last)
@@ -116,7 +133,7 @@ def _text(x: float, y: float, words: str, colour: str = "var(--muted)") -> str:
 def _axes(sheet: _Sheet) -> Iterator[str]:
     """Yield the coordinate axes through the origin and their names."""
     for k, name in enumerate("xyz"):
-        ends = sheet.seen(0.6 * sheet.reach * numpy.outer(numpy.eye(3)[k], (0.0, 1.0, 1.09)))
+        ends = sheet.seen(sheet.axis * numpy.outer(numpy.eye(3)[k], (0.0, 1.0, 1.09)))
         yield f'<path d="{_curve(ends[:, :2])}" style="fill:none;stroke:var(--rule);stroke-width:0.8"/>'
         yield _text(ends[0, 2] - 2, ends[1, 2] + 3, name)
 
@@ -153,12 +170,20 @@ def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> 
         yield _text(x + 4, y - 4, str(number), "var(--ink)")
 
 
+def _lengths(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
+    """Return the lengths of a bar in the picture."""
+    return numpy.hypot(*(bar[1] - bar[0]))
+
+
 def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, unit: str = "") -> str:
-    """Return the transform that moves the bar from (0, 0) to (1, 0) to its place; ``turn`` is its angle."""
-    (x, y), (u, v) = bar[0][:, k], bar[1][:, k]
-    length = math.hypot(u - x, v - y)
+    """Return the transform that moves a horizontal bar to its place; ``turn`` is its angle.
+
+    The horizontal bar begins at the origin and has the greatest length of the bar in the picture.
+    """
+    (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"
-    return f"translate({comma}) rotate({_number(turn)}{'deg' if unit else ''}) scale({_number(length)},1)"
+    scale = f"scale({lengths[k] / lengths.max():.4f},1)"
+    return f"translate({comma}) rotate({_number(turn)}{'deg' if unit else ''}) {scale}"
 
 
 def _turns(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
@@ -172,8 +197,8 @@ def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> I
     """Yield the bars that move, at their first places."""
     for number, bar in enumerate(bars):
         at = _transform(bar, 0, _turns(bar)[0])
-        yield f'<path class="{name}-{number}" d="M0 0H1" vector-effect="non-scaling-stroke" transform="{at}"'
-        yield f' style="{_stroke(number, 3.2)};stroke-linecap:round"/>'
+        yield f'<path class="{name}-{number}" d="M0 0H{_number(_lengths(bar).max())}" transform="{at}"'
+        yield f' style="{_stroke(number, 3.2)}"/>'
 
 
 def _keyframes(name: str, seconds: float, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> str:
