@@ -63,7 +63,7 @@ figures = [
     Orders(
         name="found_methods",
         title="Errors on the dipole: methods found with orderconds solve",
-        caption="Commutator-free (vcf) and Crouch-Grossman (vcg) methods beside VRKMK4 and VCG4 of the thesis.",
+        caption="Methods of the families vcf and vcg beside VRKMK4 and VCG4 of the thesis.",
         halvings=5,
         orders=(4, 6),
         runs=(

@@ -13,7 +13,7 @@ from sympy import Symbol, symbols
 
 from codegen.errors import SceneError
 from codegen.lab.page.svg import PLACEHOLDERS, standalone
-from codegen.lab.pictures import draw, listing, register
+from codegen.lab.pictures import draw, listing, orders, register
 from codegen.lab.pictures.deviation import maxima
 from codegen.lab.pictures.lattice_means import means
 from codegen.lab.pictures.picture import Drawn
@@ -177,6 +177,18 @@ def test_the_errors_of_a_figure_of_orders_have_the_order_of_the_method(source):
     exact = [float(x) for x in cached_reference(source.problem).state]
     assert errors[0] == pytest.approx(math.dist(integrator.run(integrator.initial, 0.1, 20), exact), rel=1e-6)
     assert math.log2(errors[2] / errors[3]) == pytest.approx(4.0, abs=0.1)
+
+
+def test_an_order_plot_names_runs_that_fail(source, monkeypatch):
+    run = Run("rkmk(2):rk4", 0.1, 0)
+    figure = Orders(name="o", title="O", runs=(run,), halvings=3)
+    assert draw(figure, source).note == ""
+    all_points = orders.errors(figure, source, run)
+    monkeypatch.setattr(orders, "errors", lambda *_: all_points[1:])
+    assert draw(figure, source).note == "rkmk(2):rk4 fails with 1 of 4 step sizes."
+    monkeypatch.setattr(orders, "errors", lambda *_: [])
+    with pytest.raises(SceneError, match="fails with all step sizes"):
+        draw(figure, source)
 
 
 def test_step_control_keeps_the_requested_output_times(source):
