@@ -17,8 +17,10 @@ from math import factorial
 import numpy as np
 from flint import nmod_poly
 
+from orderconds.proof.certificate import certify
 from orderconds.ring import QQ, Balls, NumberField
 from orderconds.ring.decimals import endpoints
+from orderconds.tableau import Tableau, find
 
 LARGEST_PRIME = 2**28
 BERNOULLI = {0: Fraction(1), 1: Fraction(-1, 2), 2: Fraction(1, 6), 4: Fraction(-1, 30), 6: Fraction(1, 42)}
@@ -119,14 +121,17 @@ def _skew(i, j):
     return E
 
 
-GL2 = Group(
-    [_unit(2, i, j) for i in (0, 1) for j in (0, 1)], [_unit(2, j, i) for i in (0, 1) for j in (0, 1)]
-)
+def _general_linear(n):
+    pairs = [(i, j) for i in range(n) for j in range(n)]
+    return Group([_unit(n, i, j) for i, j in pairs], [_unit(n, j, i) for i, j in pairs])
+
+
 _SO3 = [_skew(1, 2), _skew(2, 0), _skew(0, 1)]
 SO3 = Group(_SO3, [[[Fraction(-x, 2) for x in row] for row in E] for E in _SO3])
 _UPPER = [(i, j) for i in range(4) for j in range(i + 1, 4)]
 NILPOTENT = Group([_unit(4, i, j) for i, j in _UPPER], [_unit(4, j, i) for i, j in _UPPER])
-GROUPS = {"SO(3)": SO3, "GL(2)": GL2, "nilpotent": NILPOTENT}
+GROUPS = {"SO(3)": SO3, "GL(2)": _general_linear(2), "nilpotent": NILPOTENT}
+GL3 = _general_linear(3)
 
 
 class Steps:
@@ -530,6 +535,13 @@ def _explicit(stages):
 def rows_from_start(method, stage):
     before = () if stage.start is None else rows_from_start(method, method.stages[stage.start])
     return (*before, *stage.exponentials)
+
+
+@lru_cache(maxsize=4)
+def certified(name):
+    """Return a tableau of the library; proved decimals have all digits of the proof."""
+    found = Tableau.load(find(name))
+    return certify(found).tableau if found.proof else found
 
 
 def local_error_power(tableau, family, cutoff, group, order, seed=1):

@@ -4,6 +4,7 @@ The sentences are in README.md, docs/ and tableaux/; tests/claims.toml lists the
 library reads every tableau in the family of the sentence, from whatever format its file has.
 """
 
+import math
 import re
 import tomllib
 from functools import cache
@@ -17,20 +18,24 @@ from orderconds.tableau import available, find
 
 ROOT = Path(__file__).parents[1]
 CLAIMS = tomllib.loads((ROOT / "tests" / "claims.toml").read_text(encoding="utf-8"))["claim"]
-PAGES = ("README.md", "docs/**/*.md", "tableaux/**/*.toml")
+PAGES = ("README.md", "docs/**/*.md", "benchmarks/README.md", "tableaux/**/*.toml")
 WRITTEN = ("docs/reference/commands.md", "docs/reference/api.md")
 """Pages that the program writes: helps and docstrings."""
 
 KIND = r"(?:method|tableau|scheme|proof)\w*"
 PHRASES = re.compile(
-    rf"\b(?:no other (?:known )?{KIND}|no commutator-free {KIND}"
+    rf"\b(?:no other (?:known )?{KIND}|no commutator-free {KIND}|new {KIND} (?:of|with)|new methods"
+    rf"|(?:is|are) the fastest (?:structure-preserving|published|explicit|implicit) {KIND}|fastest published"
+    rf"|the smallest (?:pair|{KIND})|smaller than (?:all|every|any)|better than (?:all|every|any)"
+    r"|needs? at least|than order \w+ needs|errors? \d\.\d+"
+    r"|(?:error norm|principal error)(?: times s\^\d)?,? (?:is )?[\d.]*\d"
     rf"|the only (?:known )?{KIND}|the only commutator-free|novel\w*"
     rf"|(?:is|are) not known|no {KIND} (?:with|of)|(?:the )?first {KIND} (?:of|with|to|that)"
     r"|fewest|least (?:principal )?(?:error|bound)|the best of|, the least|minimum number|state of the art"
     r"|unprecedented|in the literature|in print)\b",
     re.IGNORECASE,
 )
-SUPPORTS = ("library", "test", "theorem")
+SUPPORTS = ("library", "test", "theorem", "measured", "norms")
 
 
 def plain(text):
@@ -73,6 +78,10 @@ def test_entries_are_in_use_and_name_their_support(claim):
         assert f"def {function}(" in (ROOT / path).read_text(encoding="utf-8")
     for name in claim.get("library", {}).get("named", ()):
         assert f"`{name}`" in page(claim["file"])
+    if "measured" in claim:
+        assert f"({claim['measured'].removeprefix('docs/').join(('../', ''))})" in page(claim["file"])
+        picture = (ROOT / claim["measured"]).read_text(encoding="utf-8")
+        assert all(f">{label}<" in picture for label in claim["labels"])
     if "theorem" in claim:
         assert re.search(r"[12]\d{3}", claim["theorem"])
         assert claim["theorem"] in page(claim["file"])
@@ -116,6 +125,43 @@ def test_false_claims_are_refuted():
     assert {"cf3", "luescher3", "cg3"} <= set(refutations("cf", 3, 3))
     assert {"cg5", "triple_jump6"} <= set(refutations("cf", 5, 9))
     assert set(refutations("vcf", 4, 2, least_error="vcf_gauss2")) == {"vcf4_s2"}
+
+
+NORMS = [claim for claim in CLAIMS if "norms" in claim]
+
+
+@cache
+def principal_error(name, family, order):
+    """The 2-norm of the residuals that ``solve --minimise error`` minimises, and the number of stages."""
+    tableau = Tableau.load(find(name))
+    reader = families.get(family)
+    method = reader.read(tableau)
+    residuals = reader.principal_residuals(method, tableau.ring, order + 1)
+    return math.hypot(*(tableau.ring.nearest_float(x) for x in residuals)), method.s
+
+
+@pytest.mark.parametrize("claim", NORMS, ids=lambda claim: claim["text"][:40])
+def test_error_norms_are_those_of_the_tableaux(claim):
+    """The digits are those of the norm of the residuals of the next order, times s^power."""
+    for name, digits in claim["norms"].items():
+        assert digits in claim["text"]
+        assert name == claim.get("tableau") or f"`{name}`" in claim["text"] or name in claim.get("meant", ())
+        error, stages = principal_error(name, claim["family"], claim["order"])
+        places = len(digits.partition(".")[2])
+        assert abs(error * stages ** claim.get("power", 0) - float(digits)) <= 0.51 * 10.0**-places
+
+
+def test_the_table_of_ensembles_supports_its_sentence():
+    """The table in benchmarks/README.md: published tableaux are those that ``solve`` did not find."""
+    text = (ROOT / "benchmarks" / "README.md").read_text(encoding="utf-8")
+    times = {
+        name: float(time)
+        for name, time in re.findall(r"(?m)^\| driven_spin \| (\w+) \|.* ([\d.]+) \|$", text)
+    }
+    published = {n for n in times if not Tableau.load(find(n)).source.startswith("orderconds solve")}
+    assert {"yan5", "berland4", "carpenter_kennedy4", "cf4"} <= published
+    ratio = times["cf5_2n_s10"] / min(times[n] for n in published)
+    assert f"needs {ratio:.2f} of the time of the fastest published method" in page("benchmarks/README.md")
 
 
 def test_sentences_without_an_entry_are_found():

@@ -62,6 +62,8 @@ def states(shape, seed=1, size=3):
         pytest.param("chain", "rkmk:rk4", (4,), marks=pytest.mark.slow),
         pytest.param("chain", "cg:cg3", (4,), marks=pytest.mark.slow),
         pytest.param("chain", "ambient:rk4", (4,), marks=pytest.mark.slow),
+        pytest.param("chain", "cf:carpenter_kennedy4", (5,), marks=pytest.mark.slow),
+        pytest.param("open_plane", "cf:williamson3", (3, 4), marks=pytest.mark.slow),
         pytest.param("open_chain", "cf:cf4", (4,), marks=pytest.mark.slow),
         pytest.param("open_chain", "cf:cf4", (1,), marks=pytest.mark.slow),
         pytest.param("plane", "cf:cf4", (2, 3), marks=pytest.mark.slow),

@@ -8,15 +8,13 @@ field (or energy on the cotangent bundle) are series in h, exactly, modulo a pri
 from __future__ import annotations
 
 import tomllib
-from functools import lru_cache
 from pathlib import Path
 
 import pytest
 
-from orderconds.proof.certificate import certify
 from orderconds.tableau import Tableau, available, find
 from orderconds.tableau.claims import OrderClaim
-from tests.exact_steps import GROUPS, local_error_power
+from tests.exact_steps import GROUPS, certified, local_error_power
 
 FAMILIES = ("cg", "cf", "rkmk", "vcg", "vrkmk", "vcf")
 OTHERS = ("rk", "sprk", "prk", "prk_same_weights", "sprk_separable", "composition", "symmetric_composition")
@@ -24,13 +22,6 @@ OTHERS = ("rk", "sprk", "prk", "prk_same_weights", "sprk_separable", "compositio
 LINEAR = ("splitting", "splitting(3)", "rkn", "magnus", "cf_magnus", "fer", "cayley")
 """Families of words, whose second route is in ``families/test_word_families_local_error.py``."""
 QUICK = ("cf4", "cg3", "cg4", "cg4a", "gauss2", "triple_jump")
-
-
-@lru_cache(maxsize=4)
-def tableau(name: str) -> Tableau:
-    """Return a tableau of the library, its decimals sharpened where they are proved."""
-    found = Tableau.load(find(name))
-    return certify(found).tableau if found.proof else found
 
 
 CLAIMS = [
@@ -44,7 +35,7 @@ CLAIMS = [
 @pytest.mark.parametrize(("name", "claim"), CLAIMS)
 def test_a_claimed_order_is_that_of_the_local_error(name: str, claim: OrderClaim) -> None:
     powers = {
-        group: local_error_power(tableau(name), claim.family, claim.cutoff, GROUPS[group], claim.order + 1)
+        group: local_error_power(certified(name), claim.family, claim.cutoff, GROUPS[group], claim.order + 1)
         for group in GROUPS
     }
     if claim.cutoff is not None and claim.cutoff >= 2 and powers["nilpotent"] is None:

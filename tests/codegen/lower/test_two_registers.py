@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
 import codegen
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
+from codegen.ir.site_step import WORK
+from codegen.kernel.site_kernel import site_method
 from codegen.lower import lowering, names, problem_for
 from codegen.lower.cf import products, two_registers
 from codegen.method import parse
@@ -44,3 +47,17 @@ def test_the_header_states_two_registers_only_where_they_suffice() -> None:
     assert "two registers" not in header("cf:cf4")
     assert "two registers" not in header("cf:luescher3", adaptive=True)
     assert lowering("cf").storage(parse("cf:cf4", names())) == ""
+
+
+@pytest.mark.parametrize("name", ["williamson3", "carpenter_kennedy4"])
+def test_a_lattice_stores_as_many_numbers_for_any_number_of_stages(name: str) -> None:
+    """A step stores one element K of so(3) for each site, and the states before and after a stage."""
+    path = Path(__file__).parents[3] / "examples" / "lattice" / "spin_lattice.py"
+    scene = load(str(path))
+    step = site_method(scene, parse(f"cf:{name}", names())).kernel.sites
+    assert step is not None
+    rows = {load.row for sweep in step.sweeps for load in sweep.loads} | {
+        row for sweep in step.sweeps for row in sweep.stores
+    }
+    assert len({row for row in rows if row.array == WORK}) == 9
+    assert all(len(sweep.stores) <= 6 for sweep in step.sweeps)
