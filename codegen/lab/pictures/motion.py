@@ -172,7 +172,8 @@ def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> 
 
 def _lengths(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
     """Return the lengths of a bar in the picture."""
-    return numpy.hypot(*(bar[1] - bar[0]))
+    lengths: numpy.ndarray = numpy.hypot(*(bar[1] - bar[0]))
+    return lengths
 
 
 def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, unit: str = "") -> str:
