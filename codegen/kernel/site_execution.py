@@ -11,6 +11,7 @@ from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.interpret import flatten
 from codegen.ir.kernel import Field as StateBlock
 from codegen.ir.kernel import Kernel, Let
+from codegen.ir.operations import Advance, Linear, Zero
 from codegen.ir.program import Assign
 from codegen.ir.scene_operations import Field, HamiltonianDerivatives
 from codegen.ir.site_step import OWN, Load, Row, Sweep
@@ -19,6 +20,12 @@ from codegen.kernel.assignments import Assignments
 from codegen.kernel.shared_angles import SharedArguments
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites, offset_text
+
+RECOMPUTED = (Linear, Zero, Advance)
+"""Operations whose results are computed again in each sweep that reads them, except stored sums."""
+
+EVALUATED = (Field, HamiltonianDerivatives)
+"""Operations that read the states of neighbours."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +92,7 @@ class Execution:
         args = tuple(self.env[a] for a in assign.args)
         operation = assign.operation
         results: tuple[Any, ...]
-        if isinstance(operation, Field | HamiltonianDerivatives):
+        if isinstance(operation, EVALUATED):
             f, dim = self._field(assign.args, args), self.problem.group.dim
             results = (f[:dim], f[dim:]) if self.problem.paired else (f,)
         else:
