@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
-from typing import Any
 
+from codegen.ir.domain import Value
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.interpret import flatten
 from codegen.ir.kernel import Field as StateBlock
@@ -62,7 +62,7 @@ class Execution:
         self.name, self.problem, self.sites = name, problem, sites
         self.rows, self.given, self.coupled = rows, given, coupled
         self.domain = SharedArguments()
-        self.env: dict[Var, Any] = {}
+        self.env: dict[Var, Value] = {}
         self.hints: dict[int, str] = {}
         self.loads: dict[str, Load] = {}
         # Names that users have chosen are reserved, so no computed value gets one of these names.
@@ -91,7 +91,7 @@ class Execution:
         """Execute an assignment."""
         args = tuple(self.env[a] for a in assign.args)
         operation = assign.operation
-        results: tuple[Any, ...]
+        results: tuple[Value, ...]
         if isinstance(operation, EVALUATED):
             f, dim = self._field(assign.args, args), self.problem.group.dim
             results = (f[:dim], f[dim:]) if self.problem.paired else (f,)
@@ -102,7 +102,7 @@ class Execution:
             for k, x in enumerate(flatten(target.kind, value)):
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
-    def _field(self, variables: tuple[Var, ...], args: tuple[Any, ...]) -> tuple[Expr, ...]:
+    def _field(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> tuple[Expr, ...]:
         """Return the field at a point. The values of the point that neighbours need are stored at all
         sites."""
         number = len(self.problem.state)

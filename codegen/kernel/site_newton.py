@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from codegen.errors import MethodError
+from codegen.ir.domain import Value
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.interpret import flatten
 from codegen.ir.jacobian import jacobian
@@ -46,7 +46,7 @@ class Linearisation:
     coupled: Sequence[int]
     makers: Mapping[Var, Assign]
     domain: SharedArguments = field(default_factory=SharedArguments)
-    values: dict[tuple[int, Var], Any] = field(default_factory=dict)
+    values: dict[tuple[int, Var], Value] = field(default_factory=dict)
     loads: dict[str, Load] = field(default_factory=dict)
     taken: set[str] = field(default_factory=set)
     inside: set[Var] = field(default_factory=set)
@@ -104,7 +104,7 @@ class Linearisation:
             name += "_"
         return name
 
-    def value(self, var: Var, site: int) -> Any:
+    def value(self, var: Var, site: int) -> Value:
         """Return the value of a variable at a site or at a neighbour, as a function of stored numbers."""
         key = (site, var)
         if key not in self.values:
@@ -121,7 +121,7 @@ class Linearisation:
                 self.values[site, target] = result
         return self.values[key]
 
-    def _stored(self, var: Var, site: int) -> Any:
+    def _stored(self, var: Var, site: int) -> Value:
         if var.kind is Kind.REAL:
             return self.domain.space.sym(var.name)
         blocks = {block.name: block.symbols for block in self.problem.state}
@@ -134,7 +134,7 @@ class Linearisation:
         self.loads |= {s: Load(s, row, site) for s, row in zip(names, rows, strict=True)}
         return tuple(map(self.domain.space.sym, names))
 
-    def _field(self, maker: Assign, site: int) -> tuple[Any, ...]:
+    def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a stage, with the stages of neighbours."""
         if site != OWN:
             raise MethodError(
