@@ -19,13 +19,14 @@ if TYPE_CHECKING:
     from codegen.lab.orders.scene_convergence import converge as converge
     from codegen.loader import load as load
     from codegen.loader import load_lattice as load_lattice
+    from codegen.loader import load_spectral as load_spectral
 
-__all__ = ["bench", "converge", "emit", "load", "load_lattice", "recommend"]
+__all__ = ["bench", "converge", "emit", "load", "load_lattice", "load_spectral", "recommend"]
 
 lazy(
     __name__,
     emitter=("emit",),
-    loader=("load", "load_lattice"),
+    loader=("load", "load_lattice", "load_spectral"),
     **{
         "lab.efficiency.advice": ("recommend",),
         "lab.efficiency.measured": ("bench",),

@@ -34,6 +34,7 @@ class Status(IntEnum):
     LEAST_STEP = 10
     BAD_EVENT = 11
     BAD_SHAPE = 12
+    BAD_OPERATOR = 13
 
 
 class StepFailed(ArithmeticError):

@@ -25,6 +25,7 @@ from codegen.kernel.array_kernel import array_method
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.compensation import compensated as add_carries
 from codegen.kernel.large_linear_kernel import large_linear_method
+from codegen.kernel.mode_kernel import mode_method
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.site_kernel import site_method
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
@@ -132,9 +133,9 @@ def compile_method(
     method = method_for(scene, method, family)
     if adaptive:
         method = replace(method, adaptive=True)
-    if scene.sites is not None:
+    if scene.sites is not None or scene.semilinear is not None:
         refused = {"a Jacobian": jacobian, "a run to an end time": request.any}
-        return _with_sites(scene, method, known_solver(solver), refused)
+        return _of_fields(scene, method, known_solver(solver), refused)
     problem = problem_for(scene, method)
     if scene.matrices is not None and not lowering(method.family).in_coordinates:
         return _with_arrays(scene, method, jacobian, request)
@@ -232,13 +233,19 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
     return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
 
 
-def _with_sites(scene: Problem, method: Method, solver: str, requests: Mapping[str, bool]) -> Compiled:
-    """Return a method on a chain or lattice."""
+def _of_fields(scene: Problem, method: Method, solver: str, requests: Mapping[str, bool]) -> Compiled:
+    """Return a method on a chain or lattice, or on a semilinear equation."""
     requests = {"an error estimate": method.adaptive, **requests}
     refused = [what for what, wanted in requests.items() if wanted]
     if refused:
-        what = f"{refused[0]} for a chain or lattice"
+        kind = "a chain or lattice" if scene.semilinear is None else "a semilinear equation"
+        what = f"{refused[0]} for {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
+    if scene.semilinear is not None:
+        # A given cut-off truncates dexp^{-1}; without a cut-off the closed form is used.
+        scene = scene if method.cutoff is None else replace(scene, coordinates=None)
+        modes = mode_method(scene, method)
+        return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
     own = site_method(scene, method)
     choices = site_choices(own.kernel, solver, scene.name)
     parts = (own.problem, own.lowered, own.program, own.trace, own.kernel)
@@ -409,6 +416,14 @@ def emit_kernel(
             f"the target {target}",
             where=interface.module,
             expected="a target with chains and lattices",
+            hint=f"add --target {able}",
+        )
+    if kernel.modes is not None and not known_target(target).spectral_loader:
+        able = next(name for name in target_names() if known_target(name).spectral_loader)
+        raise InputError(
+            f"the target {target}",
+            where=interface.module,
+            expected="a target with semilinear equations",
             hint=f"add --target {able}",
         )
     files = known_target(target).print_module(kernel, interface, recipe)

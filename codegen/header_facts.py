@@ -51,6 +51,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
             *digits,
             *scene_facts(compiled),
             *site_facts(compiled),
+            *_mode_facts(compiled),
             *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
             *(("solved by", choice.text()) for choice in compiled.solvers),
@@ -118,6 +119,12 @@ def site_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     *_, workspace, traffic = step.explanation()
     loops = f"{len(step.sweeps)} loops over all sites a step; {workspace}; {traffic}"
     return (("sites", sites.text()), ("loops", loops))
+
+
+def _mode_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
+    """Return the line of the header about the operator of a semilinear equation."""
+    semilinear = compiled.scene.semilinear
+    return () if semilinear is None else (("operator", semilinear.text()),)
 
 
 def steps_of(kernel: Kernel) -> str:

@@ -19,6 +19,7 @@ from codegen.lattice import CompiledLattice, Lattice
 from codegen.printers import target as known_target
 from codegen.printers.c.module import FLAGS, VECTOR_FLAGS
 from codegen.printers.interface import Interface
+from codegen.spectral import CompiledSpectral, InterpretedSpectral, Spectral
 from orderconds.argument import described
 from orderconds.errors import InputError
 
@@ -37,6 +38,13 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
             where="load",
             expected="a module for a single system",
             hint="call codegen.load_lattice",
+        )
+    if interface.modes:
+        raise InputError(
+            f"{artifact.key[0]} is a module for a semilinear equation",
+            where="load",
+            expected="a module for a system of ordinary differential equations",
+            hint="call codegen.load_spectral",
         )
     integrator = known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
     integrator.artifact = artifact
@@ -59,6 +67,24 @@ def load_lattice(source: Artifact | str | PathLike[str], module: str = "", targe
     lattice = known_target(artifact.manifest["target"]).load_lattice(interface, defaults, artifact.files)
     lattice.artifact = artifact
     return lattice
+
+
+def load_spectral(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Spectral:
+    """Return a module for a semilinear equation, which :class:`codegen.scene.SemilinearScene` describes.
+
+    The arguments and errors are those of :func:`load`.
+    """
+    artifact, interface, defaults = _opened(source, module, target)
+    if not interface.modes:
+        raise InputError(
+            f"{artifact.key[0]} is no module for a semilinear equation",
+            where="load_spectral",
+            expected="a module for a semilinear equation",
+            hint="call codegen.load, or codegen.load_lattice for a lattice",
+        )
+    spectral = known_target(artifact.manifest["target"]).load_spectral(interface, defaults, artifact.files)
+    spectral.artifact = artifact
+    return spectral
 
 
 def _opened(source: object, module: str, target: str) -> tuple[Artifact, Interface, dict[str, float]]:
@@ -111,3 +137,22 @@ def load_compiled_lattice(
     except (OSError, AttributeError):
         # The cached file has the recorded digest, but it is not the library of this module.
         return CompiledLattice(interface, defaults, build(files, flags, again=True))
+
+
+def load_compiled_spectral(
+    interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
+) -> Spectral:
+    """Return the spectral module of a C module; the module is compiled unless the cache contains it."""
+    flags = (*FLAGS, *VECTOR_FLAGS)
+    try:
+        return CompiledSpectral(interface, defaults, build(files, flags))
+    except (OSError, AttributeError):
+        # The cached file has the recorded digest, but it is not the library of this module.
+        return CompiledSpectral(interface, defaults, build(files, flags, again=True))
+
+
+def load_interpreted_spectral(
+    interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
+) -> Spectral:
+    """Return the spectral module of a Python module."""
+    return InterpretedSpectral(interface, defaults, files[f"{interface.module}.py"])

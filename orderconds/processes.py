@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 Job = TypeVar("Job")
 Result = TypeVar("Result")
 
+_is_worker = False
+"""True in a worker process."""
+
 
 def in_processes(
     work: Callable[[Job], Result], jobs: Sequence[Job], processes: int | None = None
@@ -28,13 +31,14 @@ def in_processes(
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
     ``processes`` is the number of worker processes, by default the number of processors. A single job runs in
-    this process. If the iteration ends before the last job, the workers are terminated. An error that a job
-    raises in a worker is raised again in this process. Raises InputError if a worker was killed.
+    this process. Jobs that a worker process starts run in that worker. If the iteration ends before the last
+    job, the workers are terminated. An error that a job raises in a worker is raised again in this process.
+    Raises InputError if a worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]
     """
-    count = min(len(jobs), processes or os.cpu_count() or 1)
+    count = 1 if _is_worker else min(len(jobs), processes or os.cpu_count() or 1)
     if count < 2:
         yield from map(work, jobs)
         return
@@ -105,6 +109,8 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
     """Receive jobs, each in a tuple, until an empty tuple arrives. Only the parent process handles Ctrl-C."""
     import threading
 
+    global _is_worker
+    _is_worker = True
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for name in ("SIGTERM", "SIGHUP"):
         if hasattr(signal, name):

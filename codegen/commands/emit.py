@@ -251,6 +251,10 @@ def explanation(compiled: Compiled) -> str:
         parts.append(
             "# loops over sites\n" + "".join(f"  {x}\n" for x in compiled.kernel.sites.explanation())
         )
+    if compiled.kernel.modes is not None:
+        parts.append(
+            "# on Fourier modes\n" + "".join(f"  {x}\n" for x in compiled.kernel.modes.explanation())
+        )
     functions = functions_of(compiled)
     if functions:
         lines = [f"  {p['name']}, {p['calls']} calls: {p['about']}\n" for p in functions]

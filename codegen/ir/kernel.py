@@ -16,6 +16,7 @@ from typing import ClassVar
 from codegen.ir.array_step import ArrayStep
 from codegen.ir.expr import Expr, walk
 from codegen.ir.linear_array_step import LinearArrayStep
+from codegen.ir.mode_step import ModeStep
 from codegen.ir.number import Number
 from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
@@ -326,13 +327,14 @@ class Kernel:
 
     ``inputs`` names functions of time that the caller supplies, ``samples`` are the times at which they are
     read. ``vary`` is the kernel of the variational equation: its state is the state of this kernel followed
-    by a variation, and its outputs are the variation of the new state. With ``substeps`` a step repeats this
-    kernel for each of its parts, and h and t are the length and the start of the part. ``outlined`` are
-    functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
-    momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted code can have a
-    run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or
-    makes the step ``arrays`` or the step ``sites`` of a lattice. With ``batch``, emitted code also has a
-    function that steps many independent systems, and with ``observed`` a run to a given end time.
+    by a variation, and its outputs are the variation of the new state. With ``substeps`` a step repeats
+    this kernel for each of its parts, and h and t are the length and the start of the part. ``outlined``
+    are functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
+    momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted code can have
+    a run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or
+    makes the step ``arrays``, the step ``sites`` of a lattice, or the step ``modes`` on Fourier modes. With
+    ``batch``, emitted code also has a function that steps many independent systems, and with ``observed`` a
+    run to a given end time.
     """
 
     name: str
@@ -353,6 +355,7 @@ class Kernel:
     batch: bool = False
     observed: Observed | None = None
     sites: SiteStep | None = None
+    modes: ModeStep | None = None
 
     @property
     def adaptive(self) -> bool:
@@ -404,6 +407,8 @@ class Kernel:
             yield from self.arrays.expressions()
         if self.sites is not None:
             yield from self.sites.expressions()
+        if self.modes is not None:
+            yield from self.modes.expressions()
         if self.estimate is not None:
             yield from self.estimate.errors
 

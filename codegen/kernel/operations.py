@@ -70,12 +70,14 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     A kernel without outputs is one of three kinds. For a Taylor polynomial, the computation of its
     coefficients and its evaluation are counted. For a step with whole matrices, a typical number of terms of
     each exponential is assumed. For a lattice, the operations of one site are counted; a flow of pairs counts
-    as one pair for each site.
+    as one pair for each site. For a step on Fourier modes, transforms are counted.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
     if kernel.sites is not None:
         return _site_operations(kernel.sites)
+    if kernel.modes is not None:
+        return {STEP: {"transform": kernel.modes.transforms}}
     expansion = kernel.expansion
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))

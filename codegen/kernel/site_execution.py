@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any
 
 from codegen.ir.expr import Expr, evaluate, walk
@@ -11,7 +12,7 @@ from codegen.ir.interpret import flatten
 from codegen.ir.kernel import Field as StateBlock
 from codegen.ir.kernel import Kernel, Let
 from codegen.ir.program import Assign
-from codegen.ir.scene_operations import Field
+from codegen.ir.scene_operations import Field, HamiltonianDerivatives
 from codegen.ir.site_step import OWN, Load, Row, Sweep
 from codegen.ir.values import Kind, Var
 from codegen.kernel.assignments import Assignments
@@ -31,9 +32,16 @@ class Content:
     measured: tuple[Row, ...] = ()
 
 
+def blocks_of(problem: Problem) -> tuple[slice, ...]:
+    """Return the places of the blocks of a state among all coordinates."""
+    ends = tuple(accumulate(len(block.symbols) for block in problem.state))
+    return tuple(slice(first, last) for first, last in zip((0, *ends), ends, strict=False))
+
+
 class Execution:
     """The symbolic execution of one sweep. ``rows`` are the rows of stored variables, and ``given`` are the
-    variables of the old state."""
+    variables of the old state. ``coupled`` are the indices of the blocks of the state that the field reads at
+    neighbours."""
 
     def __init__(
         self,
@@ -42,9 +50,10 @@ class Execution:
         sites: Sites,
         rows: Mapping[Var, tuple[Row, ...]],
         given: Sequence[Var],
+        coupled: Sequence[int],
     ) -> None:
         self.name, self.problem, self.sites = name, problem, sites
-        self.rows, self.given = rows, given
+        self.rows, self.given, self.coupled = rows, given, coupled
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
@@ -66,7 +75,7 @@ class Execution:
 
     def _names(self, var: Var) -> tuple[str, ...]:
         if var in self.given:
-            return self.problem.symbols
+            return next(block.symbols for block in self.problem.state if block.name == var.name)
         if var not in self.named:
             self.named[var] = tuple(self._fresh(f"{var.name}_{k}") for k in range(len(self.rows[var])))
         return self.named[var]
@@ -75,8 +84,10 @@ class Execution:
         """Execute an assignment."""
         args = tuple(self.env[a] for a in assign.args)
         operation = assign.operation
-        if isinstance(operation, Field):
-            results: tuple[Any, ...] = (self._field(assign.args[0], *args),)
+        results: tuple[Any, ...]
+        if isinstance(operation, Field | HamiltonianDerivatives):
+            f, dim = self._field(assign.args, args), self.problem.group.dim
+            results = (f[:dim], f[dim:]) if self.problem.paired else (f,)
         else:
             results = operation.evaluate(self.problem, self.domain, args)
         for target, value in zip(assign.targets, results, strict=True):
@@ -84,21 +95,31 @@ class Execution:
             for k, x in enumerate(flatten(target.kind, value)):
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
-    def _field(self, var: Var, point: tuple[Expr, ...], *time: Expr) -> tuple[Expr, ...]:
-        """Return the field at a point whose values at all sites are stored."""
-        values = self.problem.values(self.domain, point, *time)
-        names = self._names(var)
-        for number, (offset, symbols) in enumerate(zip(self.sites.offsets, self.sites.symbols, strict=True)):
-            loaded = [f"{name}_{offset_text(offset)}" for name in names]
-            if var not in self.given:
-                loaded = [self._fresh(name) for name in loaded]
-            for symbol, own, row in zip(symbols, loaded, self.rows[var], strict=True):
-                values[symbol] = self.domain.space.sym(own)
-                self.loads[own] = Load(own, row, number)
+    def _field(self, variables: tuple[Var, ...], args: tuple[Any, ...]) -> tuple[Expr, ...]:
+        """Return the field at a point. The values of the point that neighbours need are stored at all
+        sites."""
+        number = len(self.problem.state)
+        point = tuple(x for block in args[:number] for x in block)
+        values = self.problem.values(self.domain, point, *args[number:])
+        for offset in range(len(self.sites.offsets)):
+            ghosts: list[Expr] = []
             if self.sites.outside:
-                formulas = evaluate(list(self.sites.outside[number]), self.domain, values)
-                self.ghosts |= dict(zip(loaded, formulas, strict=True))
+                ghosts = evaluate(list(self.sites.outside[offset]), self.domain, values)
+            for k, place in enumerate(blocks_of(self.problem)):
+                if k in self.coupled:
+                    loaded = self._neighbour(variables[k], offset)
+                    symbols = self.sites.symbols[offset][place]
+                    values |= dict(zip(symbols, map(self.domain.space.sym, loaded), strict=True))
+                    self.ghosts |= dict(zip(loaded, ghosts[place], strict=False))
         return tuple(evaluate(list(self.problem.roots), self.domain, values))
+
+    def _neighbour(self, var: Var, offset: int) -> list[str]:
+        """Return the symbols of a variable at a neighbour, and record their loads."""
+        loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
+        if var not in self.given:
+            loaded = [self._fresh(name) for name in loaded]
+        self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
+        return loaded
 
     def _fresh(self, base: str) -> str:
         candidate = base if base not in self.taken else base + "_"

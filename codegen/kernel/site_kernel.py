@@ -14,9 +14,8 @@ from codegen.errors import MethodError
 from codegen.ir.kernel import Field as StateBlock
 from codegen.ir.kernel import Kernel
 from codegen.ir.program import Program
-from codegen.ir.scene_operations import Field
 from codegen.kernel.site_flows import flow_program
-from codegen.kernel.site_plan import Planner
+from codegen.kernel.site_plan import EVALUATED, Planner
 from codegen.lower import lower, problem_for
 from codegen.lower import lowering as lowering_of
 from codegen.lower.flow_words import FlowLowering
@@ -29,7 +28,8 @@ from codegen.scene.site_scene import with_frozen_neighbours
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method whose step cannot be computed by sweeps over sites."""
     hint = "methods of the families rkmk, cf, cg, rk and ambient are possible, for example cf:cf4, "
-    hint += "and splittings of a scene with parts"
+    hint += "splittings of a scene with parts, and methods of the families vcg, vcf, vrkmk and slgi on a "
+    hint += "HamiltonianSiteScene"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
@@ -58,10 +58,10 @@ def site_method(scene: Problem, method: Method) -> SiteMethod:
     problem, lowered = problem_for(frozen, method), lower(frozen, method)
     program, trace = optimise(lowered, problem)
     operations = [assign.operation for assign in program.assigns()]
-    other = [x for x in operations if x.evaluates_scene and not isinstance(x, Field)]
+    other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
         what = f"{method.label} on a lattice, with the operation {other[0].name}"
-        raise refused(scene, what, "a method that evaluates only the field")
+        raise refused(scene, what, "a method that evaluates only the field, or the derivatives of H")
     return SiteMethod(problem, lowered, program, trace, site_kernel(program, problem))
 
 
@@ -70,8 +70,8 @@ def site_kernel(program: Program, problem: Problem) -> Kernel:
     (:func:`codegen.scene.site_scene.with_frozen_neighbours`)."""
     assert problem.sites is not None
     step = Planner(program, problem, problem.sites).step()
-    (block,) = problem.state
-    about = "state of one site; row k of an array of states contains number k of all sites"
     known = tuple(s for s in problem.runtime if s not in problem.sites.names)
-    state = (StateBlock(block.name, block.symbols, about),)
+    about = "state of one site; row k of an array of states contains number k of all sites"
+    name = "y" if problem.paired else problem.state[0].name
+    state = (StateBlock(name, problem.symbols, about),)
     return Kernel(program.name, state, (TIME, "h", *known), (), (), sites=step)

@@ -11,19 +11,23 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from codegen.ir.expr import walk
 from codegen.ir.operations import Advance, Linear, Zero
 from codegen.ir.program import Assign, Program, Solve
-from codegen.ir.scene_operations import Field
+from codegen.ir.scene_operations import Field, HamiltonianDerivatives
 from codegen.ir.site_step import RESULT, STATE, WORK, Row, SiteBlock, SiteStep, Sweep
 from codegen.ir.values import Kind, Var
-from codegen.kernel.site_execution import Content, Execution
+from codegen.kernel.site_execution import Content, Execution, blocks_of
 from codegen.scene.problem import Problem
 from codegen.scene.sites import Sites
 
 RECOMPUTED = (Linear, Zero, Advance)
 """Operations whose results are computed again in each sweep that reads them, except stored sums."""
+
+EVALUATED = (Field, HamiltonianDerivatives)
+"""Operations that read the states of neighbours."""
 
 MEASURED = 2
 """The number of rows with the changes and the sizes of unknowns."""
@@ -96,10 +100,21 @@ class Planner:
         )
         return replace(step, blocks=blocks)
 
-    @property
-    def _reads_neighbours(self) -> bool:
-        names = set(self.sites.names)
-        return any(n.op == "sym" and n.payload in names for n in walk(self.problem.roots))
+    @cached_property
+    def coupled(self) -> tuple[int, ...]:
+        """The indices of the blocks of the state that the field reads at neighbours."""
+        read = {n.payload for n in walk(self.problem.roots) if n.op == "sym"}
+        return tuple(
+            k
+            for k, block in enumerate(blocks_of(self.problem))
+            if any(read.intersection(column[block]) for column in self.sites.symbols)
+        )
+
+    def _points(self, assign: Assign) -> tuple[Var, ...]:
+        """Return the arguments that an assignment reads at neighbours, too."""
+        if not isinstance(assign.operation, EVALUATED):
+            return ()
+        return tuple(assign.args[k] for k in self.coupled)
 
     def _place(self) -> None:
         """Find for each variable the first sweep that can compute it."""
@@ -120,7 +135,7 @@ class Planner:
             for assign in solve.body:
                 self._place_one(assign, first)
             last = max(first, *(self.sweep_of[v] for v in solve.images))
-            points = {a.args[0] for a in solve.body if isinstance(a.operation, Field)}
+            points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
                 # Sites read the unknowns of their neighbours. A sweep of its own replaces the unknowns after
                 # all sites have read them.
@@ -141,10 +156,9 @@ class Planner:
         assign = self._rename(statement)
         self.order.append(assign)
         places = [self.sweep_of[arg] for arg in assign.args]
-        if isinstance(assign.operation, Field) and self._reads_neighbours:
-            point = assign.args[0]
-            # Unknowns and the old state are stored already.
-            places[0] += point in self.makers and places[0] >= least
+        # Unknowns and the old state are stored already.
+        points = [v for v in self._points(assign) if v in self.makers]
+        places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         for target in assign.targets:
             self.sweep_of[target] = max([least, *places])
             self.makers[target] = assign
@@ -182,8 +196,7 @@ class Planner:
                 need.loaded.add(var)
                 continue
             need.computed |= set(maker.targets)
-            if isinstance(maker.operation, Field):
-                need.around.add(maker.args[0])
+            need.around |= set(self._points(maker))
             waiting += maker.args
 
     def _last_uses(self, needs: list[_Needs]) -> dict[Var, int]:
@@ -200,10 +213,8 @@ class Planner:
 
     def _store(self, needs: list[_Needs]) -> int:
         """Assign rows of the workspace to stored variables; return the number of rows."""
-        size = len(self.problem.symbols)
-        for var in self.program.inputs:
-            if var.kind is not Kind.REAL:
-                self.rows[var] = tuple(Row(STATE, k) for k in range(size))
+        for var in self._given():
+            self.rows[var] = tuple(Row(STATE, k) for k in self._numbers(var.name))
         used = self._last_uses(needs)
         around = [need.around for need in needs]
         free: list[int] = []
@@ -223,6 +234,15 @@ class Planner:
                 count = max(count, max(chosen) + 1)
                 self.rows[var] = tuple(Row(WORK, k) for k in chosen)
         return count
+
+    def _given(self) -> tuple[Var, ...]:
+        """Return the variables of the old state."""
+        return tuple(var for var in self.program.inputs if var.kind is not Kind.REAL)
+
+    def _numbers(self, name: str) -> range:
+        """Return the indices of a block of the state."""
+        places = zip(self.problem.state, blocks_of(self.problem), strict=True)
+        return next(range(place.start, place.stop) for block, place in places if block.name == name)
 
     def _ordered(self, variables: Iterable[Var]) -> list[Var]:
         """Return variables in the order of the program."""
@@ -253,8 +273,7 @@ class Planner:
             if self.sweep_of[v] == number and v in self.rows and v in read
         ]
         executed = [a for a in self.order if set(a.targets) & need.computed]
-        given = tuple(var for var in self.program.inputs if var.kind is not Kind.REAL)
-        run = Execution(self.program.name, self.problem, self.sites, self.rows, given)
+        run = Execution(self.program.name, self.problem, self.sites, self.rows, self._given(), self.coupled)
         run.begin(self._ordered(need.loaded | need.around))
         for assign in executed:
             run.execute(assign)
@@ -262,8 +281,8 @@ class Planner:
         ending = tuple(u for block in self.blocks if block.last == number for u in block.solve.unknowns)
         stored = [(self.rows[unknown], value) for unknown, value in copies]
         stored += [(self.rows[v], v) for v in kept]
-        size = len(self.problem.symbols)
-        stored += [(tuple(Row(RESULT, k) for k in range(size)), v) for v in outputs]
+        named = zip((name for name, _ in self.program.outputs), outputs, strict=False)
+        stored += [(tuple(Row(RESULT, k) for k in self._numbers(name)), v) for name, v in named]
         shown = [a.text() for a in executed if not isinstance(a.operation, RECOMPUTED)]
         shown += [f"{unknown.name} = {value.name}" for unknown, value in copies]
         own = measured if ending else ()

@@ -1,12 +1,14 @@
 """The report: measure scenes, then write a page for each scene and an overview page. Each file is written
-atomically.
+atomically. Several scenes are measured at the same time, each in its own process.
 """
 
 from __future__ import annotations
 
+import os
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 from codegen import scenes
@@ -15,18 +17,23 @@ from codegen.build import find_compiler
 from codegen.command_names import bare, quoted
 from codegen.lab.default_methods import REPORT_SCENES
 from codegen.lab.measurement_cache import FOLDER, MeasurementCache
-from codegen.lab.page.documents import OVERVIEW, page_name, render, render_overview
+from codegen.lab.page.documents import OVERVIEW, Summary, page_name, render, render_overview, summary
 from codegen.lab.progress import Progress
 from codegen.lab.registry import selected
-from codegen.lab.scene_results import SceneResults, measure_scene
+from codegen.lab.scene_results import measure_scene
 from codegen.lab.subject import EFFORTS, Subject, subject
 from orderconds.errors import InputError
 from orderconds.input_file import reason
+from orderconds.processes import in_processes
 
 
 @dataclass(frozen=True)
 class Request:
-    """A report as the user requests it: names of scenes, methods, peers, measurements and effort."""
+    """A report as the user requests it: names of scenes, methods, peers, measurements and effort.
+
+    ``processes`` is the number of scenes that are measured at the same time, by default the number of
+    processors.
+    """
 
     scenes: tuple[str, ...] = ()
     methods: tuple[str, ...] = ()
@@ -34,15 +41,26 @@ class Request:
     parts: tuple[str, ...] = ()
     effort: str = "usual"
     adaptive: tuple[str, ...] = ()
+    processes: int | None = None
 
-    def subjects(self) -> tuple[Subject, ...]:
-        """Return the subject of each page. An unknown name raises InputError before the first measurement."""
-        chosen = [(name, scenes.load(name)) for name in dict.fromkeys(self.scenes or REPORT_SCENES)]
+    def names(self) -> tuple[str, ...]:
+        """Return the names of the scenes, each once."""
+        return tuple(dict.fromkeys(self.scenes or REPORT_SCENES))
+
+    def together(self) -> int:
+        """Return the number of scenes that are measured at the same time."""
+        return min(len(self.names()), self.processes or os.cpu_count() or 1)
+
+    def subject(self, name: str) -> Subject:
+        """Return the subject of the page of one scene. An unknown name raises InputError."""
+        effort = EFFORTS[self.effort].shared(len(self.names()), self.together())
+        return subject(name, scenes.load(name), self.methods, self.peers, effort, self.adaptive)
+
+    def check(self) -> None:
+        """Raise InputError if the name of a scene, method, peer or measurement is unknown."""
         selected(self.parts)
-        effort = EFFORTS[self.effort].shared(len(chosen))
-        return tuple(
-            subject(name, scene, self.methods, self.peers, effort, self.adaptive) for name, scene in chosen
-        )
+        for name in self.names():
+            self.subject(name)
 
     def command(self) -> str:
         """Return the command line that writes this report."""
@@ -55,31 +73,59 @@ class Request:
         return " ".join([*words, "-o DIR"])
 
 
-def report(
-    request: Request, directory: str | Path, progress: Progress
-) -> tuple[Path, tuple[SceneResults, ...]]:
-    """Measure all scenes, write the pages into a folder, and return the path of the overview and the results.
+@dataclass(frozen=True)
+class ScenePage:
+    """The results of one scene: the part of the overview, the lines for the terminal, the JSON, and ``held``,
+    which is True if all measurements succeeded and passed their checks.
 
-    The page of a scene is written as soon as it is complete. A hidden folder stores the results until the
-    report is complete, so that an interrupted report can continue. :class:`InputError` is raised before the
-    first measurement if a name is unknown, if there is no C compiler, or if the folder cannot be written to.
+    Worker processes return objects of this class, so it contains only plain data.
+    """
+
+    summary: Summary
+    lines: tuple[str, ...]
+    json: object
+    held: bool
+
+
+def report(request: Request, directory: str | Path, progress: Progress) -> tuple[Path, tuple[ScenePage, ...]]:
+    """Measure all scenes, write the pages into a folder, and return the path of the overview and the pages.
+
+    The page of a scene is written as soon as it is complete. A hidden folder stores the results
+    until the report is complete, so that an interrupted report can continue. ``progress`` receives each
+    measurement of a single scene, or the name of each finished scene. :class:`InputError` is raised before
+    the first measurement if a name is unknown, if there is no C compiler, or if the folder cannot be written
+    to.
     """
     folder = Path(directory)
-    subjects = request.subjects()
+    request.check()
     find_compiler()
     write_file(folder / OVERVIEW, None)
     cache = MeasurementCache(folder / FOLDER)
-    results: list[SceneResults] = []
-    for planned in subjects:
-        page = measure_scene(replace(planned, cache=cache, progress=progress), selected(request.parts))
-        results.append(page)
-        write_file(folder / page_name(page), render(page, request.command()))
-        for measured in page.measured:
-            for name, text in measured.files().items():
-                write_file(folder / name, text)
-    overview = write_file(folder / OVERVIEW, render_overview(results, request.command()))
+    names = request.names()
+    alone = len(names) == 1
+    jobs = [(request, name, str(folder)) for name in names]
+    pages: list[ScenePage] = []
+    work = partial(_page, progress=progress) if alone else _page
+    for name, page in zip(names, in_processes(work, jobs, request.together()), strict=True):
+        if not alone:
+            progress(name)
+        pages.append(page)
+    overview = write_file(folder / OVERVIEW, render_overview([p.summary for p in pages], request.command()))
     cache.remove()
-    return overview, tuple(results)
+    return overview, tuple(pages)
+
+
+def _page(job: tuple[Request, str, str], progress: Progress = str) -> ScenePage:
+    """Measure one scene and write its page. A job is the request, the name of the scene and the folder."""
+    request, name, folder = job[0], job[1], Path(job[2])
+    planned = replace(request.subject(name), cache=MeasurementCache(folder / FOLDER), progress=progress)
+    results = measure_scene(planned, selected(request.parts))
+    write_file(folder / page_name(results), render(results, request.command()))
+    for measured in results.measured:
+        for file, text in measured.files().items():
+            write_file(folder / file, text)
+    lines = tuple(line for measured in results.measured for line in measured.lines())
+    return ScenePage(summary(results), lines, results.as_json(), results.held)
 
 
 def write_file(path: Path, text: str | None) -> Path:

@@ -53,19 +53,22 @@ class Effort:
     endurance: bool
     search: float = 25.0
 
-    def shared(self, scenes: int) -> Effort:
+    def shared(self, scenes: int, processes: int = 1) -> Effort:
         """Return the effort for each of several scenes.
 
         If there are more than :data:`MANY` scenes, all searches together take MANY times the time of one
-        search. The growth of rounding errors is then measured only if endurance runs are made.
+        search. The growth of rounding errors is then measured only if endurance runs are made. ``processes``
+        is the number of scenes that are measured at the same time. A search then uses one processor instead
+        of all processors, so it takes longer by this factor.
 
         >>> few, many = USUAL.shared(4), USUAL.shared(16)
-        >>> few == USUAL, many.search, many.rounding
-        (True, 12.5, False)
+        >>> few == USUAL, many.search, many.rounding, USUAL.shared(16, processes=2).search
+        (True, 12.5, False, 25.0)
         """
+        search = self.search * processes
         if scenes <= MANY:
-            return self
-        return replace(self, search=self.search * MANY / scenes, rounding=self.rounding and self.endurance)
+            return replace(self, search=search)
+        return replace(self, search=search * MANY / scenes, rounding=self.rounding and self.endurance)
 
 
 QUICK = Effort(

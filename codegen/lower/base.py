@@ -36,9 +36,11 @@ class Objection:
 
 def without_formulas(scene: Problem) -> Objection | None:
     """Return the objection of a family that needs formulas of the field in coordinates. A scene with large
-    matrices has no such formulas. The result is None for any other scene."""
+    matrices and a semilinear scene have no such formulas. The result is None for any other scene."""
     if scene.roots:
         return None
+    if scene.semilinear is not None:
+        return Objection(", a semilinear equation", "a scene with formulas in coordinates")
     families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
     return Objection(
         ", whose field is given by formulas of large matrices",

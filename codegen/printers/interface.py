@@ -18,6 +18,9 @@ LISTS = ("parameters", "blocks", "inputs", "solvers")
 LATTICE = ("dimension", "workspace")
 """The fields that describe a lattice."""
 
+MODES = ("modes",)
+"""The fields that describe a step on Fourier modes."""
+
 RUN = ("integrated", "controlled", "events", "dense")
 """The fields that describe the run to a given end time."""
 
@@ -36,7 +39,8 @@ class Interface:
     time, ``controlled`` if step control chooses the steps of this run. ``events`` is the number of event
     functions of this run. ``dense`` is the order of the continuous extension, or 0 if there is none.
     ``dimension`` is the dimension of the lattice, or 0 for a single system. ``workspace`` is the length of
-    the workspace for each site, in numbers.
+    the workspace for each site, in numbers. ``modes`` is true for a step on Fourier modes, whose state is an
+    array of any length.
     """
 
     prefix: str
@@ -56,6 +60,7 @@ class Interface:
     dense: int = 0
     dimension: int = 0
     workspace: int = 0
+    modes: bool = False
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
@@ -83,6 +88,7 @@ class Interface:
             dense=_order_of_extension(kernel),
             dimension=0 if kernel.sites is None else kernel.sites.dimension,
             workspace=0 if kernel.sites is None else kernel.sites.workspace,
+            modes=kernel.modes is not None,
         )
 
     @property
@@ -105,8 +111,10 @@ class Interface:
         # Tuples become lists, so that the data equal the data read from a JSON file.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
         # The manifest of a module without a run to a given end time omits the fields RUN, and the manifest of
-        # a module for a single system omits the fields LATTICE.
+        # a module for a single system omits the fields LATTICE. Only the manifest of a step on Fourier modes
+        # has the fields MODES.
         hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
+        hidden += () if self.modes else MODES
         return {k: x for k, x in data.items() if k not in hidden}
 
     @classmethod

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from codegen.lattice import Lattice
     from codegen.printers.interface import Interface
     from codegen.printers.recipe import Recipe
+    from codegen.spectral import Spectral
 
 Files: TypeAlias = Mapping[str, str]
 """The files of an emitted module: a map from file names to texts."""
@@ -21,6 +22,7 @@ Files: TypeAlias = Mapping[str, str]
 PrintModule: TypeAlias = "Callable[[Kernel, Interface, Recipe], dict[str, str]]"
 Load: TypeAlias = "Callable[[Interface, Mapping[str, float], Files], Integrator]"
 LoadLattice: TypeAlias = "Callable[[Interface, Mapping[str, float], Files], Lattice]"
+LoadSpectral: TypeAlias = "Callable[[Interface, Mapping[str, float], Files], Spectral]"
 CompileSeconds: TypeAlias = Callable[[Files], float]
 Solutions: TypeAlias = "Callable[[Integrator, Sequence[float], float, float], list[list[float]]]"
 
@@ -41,6 +43,7 @@ class Target:
     ``stack`` is a regular expression; its first group is the stack of a call in bytes, as stated in the file
     that contains the step. ``batches`` is true if modules can have a function for many systems.
     ``lattice_loader`` is the loader of modules for lattices; without it the target has no lattices.
+    ``spectral_loader`` is the loader of modules for semilinear equations; without it the target has none.
     """
 
     name: str
@@ -55,6 +58,7 @@ class Target:
     stack: str = ""
     batches: bool = False
     lattice_loader: str = ""
+    spectral_loader: str = ""
 
     @property
     def print_module(self) -> PrintModule:
@@ -73,6 +77,12 @@ class Target:
         """The function that loads the files of a module for a lattice; ValueError if ``lattice_loader`` is
         empty."""
         return cast("LoadLattice", resolve_name(self.lattice_loader))
+
+    @property
+    def load_spectral(self) -> LoadSpectral:
+        """The function that loads the files of a module for a semilinear equation; ValueError if
+        ``spectral_loader`` is empty."""
+        return cast("LoadSpectral", resolve_name(self.spectral_loader))
 
     @property
     def compile_seconds(self) -> CompileSeconds | None:

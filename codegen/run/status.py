@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from codegen.run.language import RAISES_STATUS, Unit, terms
 from codegen.run.terms import (
     BAD_EVENT,
+    BAD_OPERATOR,
     BAD_SHAPE,
     BAD_STEP,
     BAD_TIMES,
@@ -36,6 +37,7 @@ MEANINGS = {
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is an infinity or a NaN",
     BAD_SHAPE: "a lattice with too few sites, or, for pairs, an odd number of sites in a periodic dimension",
+    BAD_OPERATOR: "exp(c h L) or another function of h L is infinite or NaN",
 }
 """The comment on each status code in the header of emitted code."""
 
@@ -51,6 +53,7 @@ REASONS = {
     LEAST_STEP: "the end is not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is not finite",
     BAD_SHAPE: "a lattice with too few sites, or, for pairs, an odd number of sites in a periodic dimension",
+    BAD_OPERATOR: "exp(c h L) or another function of h L is not finite for h = {h}",
 }
 """The reason for each failure in error messages of both targets. It may contain the label of the implicit
 block and the step size."""
@@ -67,6 +70,16 @@ class StatusCode:
     number: int
     meaning: str
     reason: str
+
+
+MODE_STATUSES = {name: STATUSES.index(name) for name in (OK, NOT_FINITE, BAD_STEP, BAD_SHAPE, BAD_OPERATOR)}
+"""The statuses of modules for steps on Fourier modes, with their numbers."""
+
+MODE_MEANINGS = {
+    **{name: MEANINGS[name] for name in (OK, NOT_FINITE, BAD_STEP, BAD_OPERATOR)},
+    BAD_SHAPE: "n is zero, odd, or not the number of points for which the tables were prepared",
+}
+"""The comments on these statuses in the header of emitted code."""
 
 
 def reason(status: str, block: str, h: float) -> str:

@@ -5,6 +5,7 @@ A scene file imports its names from this package:
 ``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``. Scenes with
 large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and ``full``; chains
 and lattices use ``SiteScene`` or ``HamiltonianSiteScene``, with ``neighbour``, ``left`` and ``right``.
+Semilinear partial differential equations use ``SemilinearScene`` and ``Dx``.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
+    from codegen.scene.derivative import Dx as Dx
     from codegen.scene.field_scene import FieldScene as FieldScene
     from codegen.scene.hamiltonian_scene import HamiltonianScene as HamiltonianScene
     from codegen.scene.hamiltonian_sites import Bond as Bond
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from codegen.scene.parameters import param as param
     from codegen.scene.parameters import signal as signal
     from codegen.scene.problem import Problem as Problem
+    from codegen.scene.semilinear_scene import SemilinearScene as SemilinearScene
     from codegen.scene.site_parts import Pair as Pair
     from codegen.scene.site_scene import SiteScene as SiteScene
     from codegen.scene.sites import left as left
@@ -38,6 +41,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Bond",
+    "Dx",
     "FieldScene",
     "HamiltonianScene",
     "HamiltonianSiteScene",
@@ -45,6 +49,7 @@ __all__ = [
     "LinearScene",
     "Pair",
     "Problem",
+    "SemilinearScene",
     "SiteScene",
     "StiefelScene",
     "banded",
@@ -60,6 +65,7 @@ __all__ = [
 
 lazy(
     __name__,
+    derivative=("Dx",),
     field_scene=("FieldScene",),
     hamiltonian_scene=("HamiltonianScene",),
     hamiltonian_sites=("Bond", "HamiltonianSiteScene"),
@@ -68,6 +74,7 @@ lazy(
     matrix_formula=("banded", "full", "unknown"),
     parameters=("Parameter", "Signal", "param", "signal"),
     problem=("Problem",),
+    semilinear_scene=("SemilinearScene",),
     site_parts=("Pair",),
     site_scene=("SiteScene",),
     sites=("left", "neighbour", "right"),

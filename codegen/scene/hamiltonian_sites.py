@@ -135,7 +135,7 @@ def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
         )
     if len({len(offset) for offset in given}) > 1:
         raise SceneError(
-            f"bonds with the offsets {', '.join(map(str, given))}",
+            f"bonds with offsets of different lengths: {', '.join(map(str, given))}",
             where=name,
             expected="offsets with one entry for each dimension of the lattice",
         )
@@ -200,5 +200,5 @@ def _check_parts(problem: Problem, hamiltonian: Expr) -> None:
                 f"the parts {', '.join(problem.parts)} add up to {orbit.text(sum(values[1:]))}",
                 where=problem.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
-                hint="list all summands of H in parts, and no energy of a bond",
+                hint="list all summands of H in parts, but not the energies of bonds",
             )

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from codegen.scene.figure import Figure
     from codegen.scene.matrix_field import MatrixField
     from codegen.scene.matrix_step import MatrixStep
+    from codegen.scene.semilinear import Semilinear
     from codegen.scene.sites import Sites
 
 TIME = "t"
@@ -68,21 +69,23 @@ class Problem:
     summands of the Hamiltonian, and ``flows`` are the exact flows that a splitting composes. The scene may
     state the flow of a part itself: ``stated`` then contains the formulas of (q, mu) after the time tau.
 
-    ``runtime`` names the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value is
-    not the default. ``roots`` contain the formulas of the signals; ``open_roots`` are the same components
-    with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that emitted code
-    reads at run time. ``forced`` is True if n contains a force that is not a derivative of the Hamiltonian.
-    If emitted code reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution``
-    contains the coordinates in which a step of Taylor's method computes. ``coordinates`` is the map with
-    which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential map. ``matrices``
-    is the field if it is given by formulas of whole matrices; for large matrices ``roots`` is then empty. If
-    ``carries_momentum`` is true, the problem is linear in (q, p), and the last coordinate is the momentum
-    conjugate to the time (:mod:`codegen.scene.linear_extension`). ``steps`` are the steps that the scene
-    states as functions of matrices (:mod:`codegen.scene.matrix_step`). If ``sites`` is given, the problem is
-    the equation of one site of a lattice, and ``roots`` also contain the coordinates of neighbours
-    (:mod:`codegen.scene.sites`). ``figures`` are the figures that the file of the scene declares
-    (:mod:`codegen.scene.figure`). ``derived`` is a cache of the problems that families derive from this
-    problem; the key is the kind of the family. A search uses each of them for hundreds of methods.
+    ``runtime`` names the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value
+    is not the default. ``roots`` contain the formulas of the signals; ``open_roots`` are the same
+    components with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that
+    emitted code reads at run time. ``forced`` is True if n contains a force that is not a derivative of the
+    Hamiltonian. If emitted code reads and returns momenta in the body frame, ``body_group`` is the group.
+    ``evolution`` contains the coordinates in which a step of Taylor's method computes. ``coordinates`` is
+    the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential
+    map. ``matrices`` is the field if it is given by formulas of whole matrices; for large matrices
+    ``roots`` is then empty. If ``carries_momentum`` is true, the problem is linear in (q, p), and the last
+    coordinate is the momentum conjugate to the time (:mod:`codegen.scene.linear_extension`). ``steps`` are
+    the steps that the scene states as functions of matrices (:mod:`codegen.scene.matrix_step`). If
+    ``sites`` is given, the problem is the equation of one site of a lattice, and ``roots`` also contain the
+    coordinates of neighbours (:mod:`codegen.scene.sites`). If ``semilinear`` is given, the problem is u' =
+    L u + N(u) on a periodic interval, and ``roots`` is empty (:mod:`codegen.scene.semilinear`). ``figures``
+    are the figures that the file of the scene declares (:mod:`codegen.scene.figure`). ``derived`` is a
+    cache of the problems that families derive from this problem; the key is the kind of the family. A
+    search uses each of them for hundreds of methods.
     """
 
     name: str
@@ -112,6 +115,7 @@ class Problem:
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     steps: Mapping[str, MatrixStep] = field(default_factory=dict)
     sites: Sites | None = None
+    semilinear: Semilinear | None = None
     figures: tuple[Figure, ...] = field(default=(), repr=False, compare=False)
     derived: dict[str, Problem] = field(default_factory=dict, init=False, repr=False, compare=False)
 
@@ -126,6 +130,8 @@ class Problem:
         lattice, the states outside an open boundary belong to the field."""
         if self.matrices is not None:
             return not self.matrices.reads(TIME)
+        if self.semilinear is not None:
+            return not self.semilinear.timed
         ends = () if self.sites is None else [x for column in self.sites.outside for x in column]
         timed = any(n.op == "sym" and n.payload == TIME for n in walk([*self.roots, *ends]))
         return not self.inputs and not timed
@@ -136,6 +142,8 @@ class Problem:
         # A field that is given by formulas of whole matrices may have no formulas in coordinates.
         if self.matrices is not None:
             return self.matrices.linear
+        if self.semilinear is not None:
+            return False
         state = set(self.symbols)
         return not any(n.op == "sym" and n.payload in state for n in walk(self.roots))
 
@@ -150,6 +158,13 @@ class Problem:
 
     def require_formulas(self) -> None:
         """Raise :class:`codegen.errors.SceneError` if the field has no formulas in coordinates."""
+        if self.semilinear is not None:
+            raise SceneError(
+                "a semilinear equation, which has no formulas in coordinates",
+                where=self.name,
+                expected="a scene with formulas in coordinates",
+                hint="use emit here, and codegen.load_spectral to run the emitted module",
+            )
         if not self.roots:
             raise SceneError(
                 f"a field without formulas in coordinates, because {self.group.name} has {self.group.dim} "

@@ -235,8 +235,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
     as_products: ClassVar[bool] = True
 
     def verify(self, where: str) -> None:
-        """Check that the file has exactly one of the two forms, and that every stage starts from y0 or from
-        an earlier stage."""
+        """Check that the file contains either stages and an update, or a low-storage scheme, and that every
+        stage starts from y0 or from an earlier stage."""
         if self.low_storage:
             if self.stage or self.update:
                 raise TableauError(

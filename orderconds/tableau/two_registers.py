@@ -2,8 +2,8 @@
 
 The state Y and one element K of the Lie algebra are all that a step stores (Williamson, J. Comput. Phys. 35
 (1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). As a commutator-free method a 2N scheme
-has one exponential for each stage, and each stage begins where the last one ended. On a vector space, a 2N
-scheme is a Runge-Kutta method. The rows i and i + 1 of A differ by B_i K_i, where b counts as row s + 1.
+has one exponential for each stage, and each stage begins where the previous stage ended. On a vector space, a
+2N scheme is a Runge-Kutta method. The rows i and i + 1 of A differ by B_i K_i, where b counts as row s + 1.
 
 The recognition compares the increment from each stage to the next, or to the update, with B_i K_i, where K_i
 = F_i + sum_{j < i} A_{j+1} ... A_i F_j. The coefficient of F_i in an increment is B_i, and A_i is the
@@ -59,9 +59,9 @@ class TwoRegisters:
 
 @dataclass(frozen=True)
 class Rewriting:
-    """The result of a recognition: ``holds`` is None if balls are too wide to decide. ``scheme`` is the 2N
-    scheme. It is None if the method is not a 2N scheme, and if a rounded denominator may be zero; in these
-    cases ``reason`` says why."""
+    """The answer to the question whether a method is a 2N scheme. ``holds`` is None if balls are too wide to
+    decide. ``scheme`` is the 2N scheme. If the method is not a 2N scheme, or if a rounded denominator may be
+    zero, ``scheme`` is None and ``reason`` contains the reason."""
 
     holds: Verdict
     scheme: TwoRegisters | None = None

@@ -171,3 +171,11 @@ def test_a_check_of_a_folder_that_is_stopped_leaves_no_workers_and_one_document(
     assert err.count("\n") == 1
     if words:
         assert json.loads(out)["error"]["status"] == status
+
+
+def nested(job: str) -> list[int]:
+    return list(in_processes(len, [job, 2 * job], 2))
+
+
+def test_a_job_may_start_jobs_which_run_in_its_worker() -> None:
+    assert list(in_processes(nested, ["a", "bb"], 2)) == [[1, 2], [2, 4]]

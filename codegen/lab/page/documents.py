@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -59,22 +60,35 @@ def render(results: SceneResults, command: str) -> str:
     return _filled("scene.html.j2", command, s=values, sections=sections, overview=OVERVIEW)
 
 
-def render_overview(every: Sequence[SceneResults], command: str) -> str:
-    """Return the overview page of several scenes."""
-    summaries = [
-        {
-            "title": _title(results.scene),
-            "page": page_name(results),
-            "name": results.scene.name,
-            "about": _formatted(scenes.about(results.subject.name).partition("\n\n")[0]),
-            "sections": [
-                _html(body, results.subject.styles)
-                for m in results.measured
-                if (body := m.overview()) is not None
-            ],
-        }
-        for results in every
-    ]
+@dataclass(frozen=True)
+class Summary:
+    """The part of the overview that shows one scene.
+
+    ``about`` is the first paragraph of the description of the scene, and ``sections`` are the results of the
+    measurements; both are HTML. ``page`` is the file name of the page of the scene.
+    """
+
+    title: str
+    page: str
+    name: str
+    about: Markup
+    sections: tuple[Markup, ...]
+
+
+def summary(results: SceneResults) -> Summary:
+    """Return the part of the overview that shows one scene."""
+    sections = (m.overview() for m in results.measured)
+    return Summary(
+        title=_title(results.scene),
+        page=page_name(results),
+        name=results.scene.name,
+        about=_formatted(scenes.about(results.subject.name).partition("\n\n")[0]),
+        sections=tuple(_html(body, results.subject.styles) for body in sections if body is not None),
+    )
+
+
+def render_overview(summaries: Sequence[Summary], command: str) -> str:
+    """Return the overview page of several scenes; ``command`` is the command line that writes the report."""
     return _filled("overview.html.j2", command, scenes=summaries, needs=REQUIREMENTS)
 
 

@@ -1,4 +1,9 @@
-"""heyoka: the Taylor series method with compiled recurrences, adaptive order and adaptive step size."""
+"""heyoka: the Taylor series method with compiled recurrences, adaptive order and adaptive step size.
+
+heyoka compiles the recurrences as one unrolled function, or in its compact mode as loops and functions. The
+unrolled function is about twice as fast. At tolerance 1e-12 its compilation takes 17 seconds for a field with
+900 operations, and more than four minutes for 3000 operations.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +12,9 @@ from codegen.ir.elementary import MATHEMATICAL
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
+
+LONG = 1000
+"""The compact mode is used for fields with more than LONG operations."""
 
 
 def peer(name: str) -> Peer:
@@ -19,14 +27,16 @@ def peer(name: str) -> Peer:
 def _prepare(scene: Problem, tolerance: float) -> Prepared:
     import heyoka
 
+    field = velocity(scene)
+    compact = len(field.lines) > LONG
     variables = heyoka.make_vars(*scene.symbols)
     functions = {name: getattr(heyoka, name) for name in MATHEMATICAL}
     constants = lambda x: heyoka.expression(float(x))  # noqa: E731
-    roots = velocity(scene).python(constants, functions)(list(variables), heyoka.time)
+    roots = field.python(constants, functions)(list(variables), heyoka.time)
     start = list(scene.initial(FloatDomain(0.0)))
     first, last = map(float, scene.span)
     solver = heyoka.taylor_adaptive(
-        list(zip(variables, roots, strict=True)), start, time=first, tol=tolerance
+        list(zip(variables, roots, strict=True)), start, time=first, tol=tolerance, compact_mode=compact
     )
 
     def run(spans: int = 1) -> Outcome:

@@ -11,6 +11,7 @@ from codegen.ir.precision import DOUBLE
 from codegen.kernel.operations import costs
 from codegen.printers.c.functions import FunctionPrinter
 from codegen.printers.c.lattice import lattice_usage
+from codegen.printers.c.modes import print_modes
 from codegen.printers.c.terms import literal
 from codegen.printers.c.text import comment
 from codegen.printers.c.words import RESERVED
@@ -64,6 +65,8 @@ MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
     """Return the texts of PREFIX.h and PREFIX.c for one step."""
+    if kernel.modes is not None:
+        return print_modes(kernel, interface, recipe)
     plan = Plan(kernel, interface.format)
     unit = unit_of(plan)
     identifiers = identify(unit, RESERVED | own_names(interface, unit))

@@ -16,4 +16,5 @@ TARGET = Target(
     stack=r"stack: +at most (\d+) bytes",
     batches=True,
     lattice_loader="codegen.loader:load_compiled_lattice",
+    spectral_loader="codegen.loader:load_compiled_spectral",
 )

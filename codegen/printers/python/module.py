@@ -12,6 +12,7 @@ from codegen.kernel.operations import costs
 from codegen.printers.interface import Interface
 from codegen.printers.needs import functions_of
 from codegen.printers.python.functions import FunctionPrinter, class_of
+from codegen.printers.python.modes import print_modes
 from codegen.printers.python.terms import Constants
 from codegen.printers.python.text import quoted
 from codegen.printers.python.words import INTEGRATION, PUBLIC, RESERVED
@@ -35,6 +36,8 @@ LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
     """Return the text of PREFIX.py for one step."""
+    if kernel.modes is not None:
+        return print_modes(kernel, interface, recipe)
     return {f"{interface.module}.py": _Module(kernel, interface, recipe).text()}
 
 

@@ -7,10 +7,11 @@ from codegen.printers.target import Target
 TARGET = Target(
     name="python",
     title="Python",
-    about="a Python module without dependencies (in single precision: NumPy)",
+    about="a Python module without dependencies (in single precision, and for semilinear equations: NumPy)",
     printer="codegen.printers.python.module:print_module",
     loader="codegen.loader:load_interpreted",
     suffix=".py",
     most_steps=10240,
+    spectral_loader="codegen.loader:load_interpreted_spectral",
     observer="codegen.printers.python.solutions:solutions",
 )

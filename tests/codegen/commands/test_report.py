@@ -150,3 +150,16 @@ def test_the_gallery_is_all_or_named(tmp_path: Path) -> None:
     result = run("dipole", "--all", "-o", str(tmp_path))
     assert result.exit_code == 2
     assert "name SCENEs, or give --all" in result.output
+
+
+@pytest.mark.slow
+def test_scenes_measured_at_the_same_time_have_the_same_pages(tmp_path: Path) -> None:
+    words = ("free_rigid_body", "driven_spin", "-m", "cg:cg3", "--only", "conditions", "--quick", "--json")
+    results = [run(*words, "-o", str(tmp_path / n), "--processes", n) for n in ("1", "2")]
+    first, second = (json.loads(result.stdout)["scenes"] for result in results)
+    assert first == second
+    pages = [sorted((tmp_path / n).iterdir()) for n in ("1", "2")]
+    assert [p.name for p in pages[0]] == [p.name for p in pages[1]]
+    assert [p.name for p in pages[0]] == ["driven_spin.html", "free_rigid_body.html", "index.html"]
+    for one, two in zip(*pages, strict=True):
+        assert one.read_text(encoding="utf-8") == two.read_text(encoding="utf-8")

@@ -19,7 +19,7 @@ from codegen.lab.measurements.orders import Orders, agreement
 from codegen.lab.measurements.stability import StabilityTests
 from codegen.lab.orders import order_study
 from codegen.lab.page import documents
-from codegen.lab.page.documents import page_name, render, render_overview
+from codegen.lab.page.documents import page_name, render, render_overview, summary
 from codegen.lab.registry import selected
 from codegen.lab.scene_results import Measured, SceneResults, measure_scene
 from codegen.lab.stability.endurance import Endurance
@@ -86,7 +86,7 @@ def found() -> SceneResults:
 
 @pytest.fixture(scope="module")
 def overview(found: SceneResults) -> str:
-    return render_overview([found], "orderconds report free_rigid_body -o DIR")
+    return render_overview([summary(found)], "orderconds report free_rigid_body -o DIR")
 
 
 @pytest.fixture(scope="module", params=["scene", "overview"])
@@ -166,7 +166,7 @@ def test_the_page_is_the_same_when_the_times_are(page: str, found: SceneResults)
 def test_text_of_a_scene_cannot_become_markup(found: SceneResults) -> None:
     wild = replace(found.scene, title="<script>alert(1)</script> & (x)")
     spoilt = replace(found, subject=replace(found.subject, scene=wild))
-    for document in (render(spoilt, "x"), render_overview([spoilt], "x")):
+    for document in (render(spoilt, "x"), render_overview([summary(spoilt)], "x")):
         assert "<script>alert" not in document
         assert document.count("<script") == 1
 

@@ -1,0 +1,291 @@
+"""Steps of semilinear equations u' = L u + N(u) on Fourier modes.
+
+L multiplies each mode by a number lambda. A step of size h is a sequence of evaluations of N. Each of them is
+evaluated at a linear combination of the old state and of earlier values of N, and the new state is a linear
+combination, too. The coefficients are functions of z = h lambda (:class:`Multiplier`). Emitted code computes
+them once for each step size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from codegen.ir.expr import Expr
+from codegen.ir.number import Number
+
+if TYPE_CHECKING:
+    from codegen.ir.kernel import Kernel
+
+EXP, PHI, BERNOULLI, POWER = "exp", "phi1", "bernoulli", "z"
+"""The functions in multipliers: exp(w), phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w itself."""
+
+WIDTH = 100
+"""Formulas with more characters are written term by term."""
+
+STATE = -1
+"""The source of a term that multiplies the old state."""
+
+
+@dataclass(frozen=True)
+class Factor:
+    """A function of ``scale`` z, where z is the product of h and the eigenvalue of L."""
+
+    function: str
+    scale: Number
+
+    def text(self) -> str:
+        """Return the text of the factor, for example ``phi1(1/2 z)``."""
+        argument = "z" if self.scale.is_one else "-z" if self.scale.is_minus_one else f"{self.scale.text()} z"
+        return argument if self.function == POWER else f"{self.function}({argument})"
+
+    @property
+    def order(self) -> tuple[str, float, str]:
+        """A key for sorting."""
+        return self.function, float(self.scale), self.scale.text()
+
+
+Monomial = tuple[tuple[Factor, int], ...]
+"""Factors with positive exponents, sorted."""
+
+ONE = Number.rational(1)
+
+
+@dataclass(frozen=True)
+class Multiplier:
+    """A sum of products of factors with exact coefficients, as a polynomial in the factors."""
+
+    terms: Mapping[Monomial, Number] = field(default_factory=dict)
+
+    @classmethod
+    def constant(cls, value: Number) -> Multiplier:
+        """Return a constant."""
+        return cls({} if value.is_zero else {(): value})
+
+    @classmethod
+    def of(cls, function: str, scale: Number) -> Multiplier:
+        """Return function(scale z). The values at scale 0 are constants."""
+        if scale.is_zero:
+            return cls.constant(Number.rational(0) if function == POWER else ONE)
+        if function == POWER:
+            return cls({((Factor(POWER, ONE), 1),): scale})
+        return cls({((Factor(function, scale), 1),): ONE})
+
+    def __add__(self, other: Multiplier) -> Multiplier:
+        total = dict(self.terms)
+        for monomial, value in other.terms.items():
+            total[monomial] = total[monomial] + value if monomial in total else value
+        return Multiplier({m: x for m, x in total.items() if not x.is_zero})
+
+    def __mul__(self, other: Multiplier) -> Multiplier:
+        total = Multiplier()
+        for a, x in self.terms.items():
+            for b, y in other.terms.items():
+                total = total + Multiplier({_product(a, b): x * y})
+        return total
+
+    def scaled(self, value: Number) -> Multiplier:
+        """Return the product with a number."""
+        return self * Multiplier.constant(value)
+
+    @property
+    def is_one(self) -> bool:
+        """True if this is provably the constant 1."""
+        return list(self.terms) == [()] and self.terms[()].is_one
+
+    @property
+    def key(self) -> tuple[tuple[Monomial, Number], ...]:
+        """A value that identifies the multiplier."""
+        return tuple(sorted(self.terms.items(), key=lambda term: [(f.order, n) for f, n in term[0]]))
+
+    @property
+    def factors(self) -> tuple[Factor, ...]:
+        """The factors of all terms, each once."""
+        return tuple(dict.fromkeys(f for monomial, _ in self.key for f, _ in monomial))
+
+    def text(self) -> str:
+        """Return the text of the polynomial.
+
+        >>> half = Number.rational(1, 2)
+        >>> m = Multiplier.of(PHI, half) * (Multiplier.of(EXP, half) + Multiplier.constant(-ONE))
+        >>> m.scaled(half).text()
+        '1/2 exp(1/2 z) phi1(1/2 z) - 1/2 phi1(1/2 z)'
+        """
+        words: list[str] = []
+        for monomial, value in self.key:
+            factors = " ".join(f.text() if n == 1 else f"{f.text()}^{n}" for f, n in monomial)
+            minus = value.text().startswith("-")
+            size = -value if minus else value
+            shown = factors if size.is_one and factors else f"{size.text()} {factors}".strip()
+            words.append(
+                (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
+            )
+        return " ".join(words) or "0"
+
+
+def _product(a: Monomial, b: Monomial) -> Monomial:
+    """Return the product of two monomials, with one exponential at most."""
+    powers: dict[Factor, int] = {}
+    exponent = Number.rational(0)
+    for factor, n in (*a, *b):
+        if factor.function == EXP:
+            for _ in range(n):
+                exponent = exponent + factor.scale
+        else:
+            powers[factor] = powers.get(factor, 0) + n
+    if not exponent.is_zero:
+        powers[Factor(EXP, exponent)] = 1
+    return tuple(sorted(powers.items(), key=lambda item: item[0].order))
+
+
+@dataclass(frozen=True)
+class Table:
+    """The values of h^``power`` times a multiplier at all modes, which emitted code stores for one step
+    size."""
+
+    multiplier: Multiplier
+    power: int
+
+    def text(self) -> str:
+        """Return the text of the formula."""
+        inner = self.multiplier.text()
+        several = len(self.multiplier.terms) > 1
+        return (
+            inner if not self.power else f"h ({inner})" if several else "h" if inner == "1" else f"h {inner}"
+        )
+
+
+@dataclass(frozen=True)
+class Term:
+    """One term of a linear combination: the values of a table times the old state (:data:`STATE`) or times
+    the value ``source`` of N. Without a ``table`` the factor is 1."""
+
+    source: int
+    table: int | None
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """An evaluation of N at a linear combination of spectra, at the time t + ``time`` h."""
+
+    point: tuple[Term, ...]
+    time: Number
+
+
+@dataclass(frozen=True)
+class Nonlinearity:
+    """N(u) as a sum of derivatives of pointwise formulas.
+
+    ``inner`` are the orders of the derivatives of u that the formulas read, with their symbols. Output j of
+    ``formulas`` is a function of these derivatives, of x, t and parameters. N is the sum of the derivatives
+    of the outputs with the orders ``outer``. If the fraction ``kept`` is less than one, only this fraction
+    of the n/2 + 1 modes is kept in the values of N, and all others are set to zero (against aliasing).
+    """
+
+    inner: tuple[tuple[int, str], ...]
+    outer: tuple[int, ...]
+    formulas: Kernel
+    kept: Fraction
+
+
+@dataclass(frozen=True)
+class ModeStep:
+    """One step: tables, evaluations of N, and the new state.
+
+    The outputs of ``symbol`` are the real part of lambda as a function of the wave number, whose symbol is
+    ``wave``, and the imaginary part if L has one. ``length`` has one output, the period of the domain, and
+    ``initial`` one output, the initial state as a function of x, whose symbol is ``space``.
+    """
+
+    tables: tuple[Table, ...]
+    evaluations: tuple[Evaluation, ...]
+    result: tuple[Term, ...]
+    nonlinearity: Nonlinearity
+    wave: str
+    space: str
+    symbol: Kernel
+    length: Kernel
+    initial: Kernel
+
+    @property
+    def complex(self) -> bool:
+        """True if L has eigenvalues that are not real."""
+        return len(self.symbol.outputs) > 1
+
+    @property
+    def transforms(self) -> int:
+        """The number of Fourier transforms of one step."""
+        return len(self.evaluations) * (len(self.nonlinearity.inner) + len(self.nonlinearity.outer))
+
+    @property
+    def factors(self) -> tuple[Factor, ...]:
+        """The functions of z that the tables contain, each once, sorted."""
+        factors = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
+        return tuple(sorted(factors, key=lambda f: f.order))
+
+    @property
+    def backwards(self) -> bool:
+        """True if the step contains exp(c h L) with c < 0, which integrates a dissipative L backwards in
+        time."""
+        return any(f.function in (EXP, PHI) and float(f.scale) < 0 for f in self.factors)
+
+    @property
+    def growth(self) -> int:
+        """A bound p on the growth of the tables: they are at most a constant times (1 + |z|)^p for Re z < 0.
+
+        The bound holds for tables without exp(c z) and c < 0. Such a step is :attr:`backwards`.
+        """
+        degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
+        products = [m for table in self.tables for m in table.multiplier.terms]
+        return max((sum(degrees[f.function] * n for f, n in m) for m in products), default=0)
+
+    def kernels(self) -> tuple[Kernel, ...]:
+        """Return the kernels of all formulas."""
+        return self.symbol, self.length, self.nonlinearity.formulas, self.initial
+
+    def expressions(self) -> Iterator[Expr]:
+        """Yield every expression that the run of emitted code evaluates."""
+        for kernel in (self.symbol, self.length, self.nonlinearity.formulas):
+            yield from kernel.expressions()
+
+    def explanation(self) -> list[str]:
+        """Return lines with the stages and the new state, as formulas in z, where N_i is N at U_i."""
+        lines = []
+        for number, evaluation in enumerate(self.evaluations, 1):
+            time = "" if evaluation.time.is_zero else f", at t + {evaluation.time.text()} h"
+            lines += self._sum(f"U{number}", evaluation.point, time)
+        lines += self._sum("new u", self.result, "")
+        lines.append("z is h times the eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
+        if any(f.function == BERNOULLI for f in self.factors):
+            lines.append("bernoulli(z) = z/(exp(z) - 1)")
+        lines.append(f"tables for Re z < 0: {self.bound()}")
+        lines.append(
+            f"a step: {len(self.evaluations)} evaluations of N, {self.transforms} Fourier transforms"
+        )
+        return lines
+
+    def bound(self) -> str:
+        """Describe the size of the tables for stiff operators."""
+        if self.backwards:
+            return "some contain exp(-c z) with c > 0 and grow exponentially, so short steps are required"
+        if self.growth > 0:
+            power = "|z|" if self.growth == 1 else f"|z|^{self.growth}"
+            return f"some grow like {power}, which may require short steps"
+        return "all are bounded"
+
+    def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:
+        """Return the formula of a linear combination, on one line if it is short, else term by term."""
+        words = []
+        for term in terms:
+            source = "u" if term.source == STATE else f"N{term.source + 1}"
+            factor = "" if term.table is None else self.tables[term.table].text()
+            several = term.table is not None and len(self.tables[term.table].multiplier.terms) > 1
+            shown = f"({factor})" if several and not factor.startswith("h (") else factor
+            words.append(f"{shown} {source}".strip())
+        line = f"{name} = {' + '.join(words) or '0'}{remark}"
+        if len(line) <= WIDTH:
+            return [line]
+        first, *rest = words
+        return [f"{name} = {first}", *(f"+ {word}" for word in rest[:-1]), f"+ {rest[-1]}{remark}"]

@@ -1,0 +1,306 @@
+"""From programs to steps on Fourier modes (:mod:`codegen.ir.mode_step`).
+
+On one mode, L is a number lambda, and the affine maps u -> exp(t lambda) u + c form a group. Its algebra has
+the elements (a, b) with the velocity a lambda u + b. Here a program is executed with formulas: a is a number,
+and b a linear combination of the values of N whose coefficients are functions of z = h lambda. Three formulas
+are sufficient:
+
+- exp(h (a, b)).u = exp(a z) u + h phi_1(a z) b;
+- [(a, b), (c, d)] = (0, lambda (a d - c b));
+- dexp^{-1}_{h (a, b)} (c, d) = (c, beta d + (1 - beta) c b/a), where beta = a z/(exp(a z) - 1).
+
+The first and the last follow from the second: f(ad) = f(0) + (f(a z) - f(0))/(a z) ad for the power series f.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+from codegen.errors import MethodError
+from codegen.groups.bernoulli import bernoulli_over_factorial, last_term
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.kernel import Field as StateBlock
+from codegen.ir.kernel import Kernel
+from codegen.ir.mode_step import (
+    BERNOULLI,
+    EXP,
+    ONE,
+    PHI,
+    POWER,
+    STATE,
+    Evaluation,
+    ModeStep,
+    Multiplier,
+    Nonlinearity,
+    Table,
+    Term,
+)
+from codegen.ir.number import Number
+from codegen.ir.operations import (
+    Act,
+    ActExp,
+    Advance,
+    Bracket,
+    ElementAt,
+    Exp,
+    InverseDexp,
+    InverseDifferential,
+    Linear,
+    Multiply,
+    Zero,
+)
+from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import Field
+from codegen.ir.values import Kind, Var
+from codegen.kernel.assignments import Assignments
+from codegen.lower import lower, problem_for
+from codegen.method import Method
+from codegen.passes import PassReport, optimise
+from codegen.scene.problem import TIME, Problem
+from codegen.scene.semilinear import Semilinear, model_of
+
+Sum: TypeAlias = dict[int, Multiplier]
+"""A linear combination of the old state and of values of N, by source."""
+
+ZERO = Number.rational(0)
+
+
+@dataclass(frozen=True)
+class _Element:
+    """The element h^power (a, b) of the algebra, where b is a linear combination of values of N. The zero
+    element has every power."""
+
+    a: Number
+    b: Sum
+    power: int
+
+    @property
+    def is_zero(self) -> bool:
+        return self.a.is_zero and not self.b
+
+
+@dataclass(frozen=True)
+class _Map:
+    """The affine map u -> exp(a z) u + h b."""
+
+    a: Number
+    b: Sum
+
+
+@dataclass(frozen=True)
+class ModeMethod:
+    """A method on a semilinear scene: the model problem of one mode, the program before and after each pass,
+    the kernel."""
+
+    problem: Problem
+    lowered: Program
+    program: Program
+    trace: tuple[PassReport, ...]
+    kernel: Kernel
+
+
+def mode_method(scene: Problem, method: Method) -> ModeMethod:
+    """Return the compiled method; MethodError is raised for implicit methods.
+
+    The passes do not read formulas of the field, so they are verified on a model problem with one mode.
+    """
+    model = model_of(scene)
+    problem, lowered = problem_for(model, method), lower(model, method)
+    program, trace = optimise(lowered, problem)
+    if any(not isinstance(statement, Assign) for statement in program.body):
+        raise _refused(scene, f"the implicit stages of {method.label}")
+    assert scene.semilinear is not None
+    step = _Execution(scene, scene.semilinear).step(program)
+    (block,) = scene.state
+    about = "values at the points x = i length/n, i = 0, ..., n - 1"
+    state = (StateBlock(block.name, block.symbols, about),)
+    known = (TIME, "h", *scene.runtime)
+    return ModeMethod(
+        problem, lowered, program, trace, Kernel(program.name, state, known, (), (), modes=step)
+    )
+
+
+def _refused(scene: Problem, what: str) -> MethodError:
+    """Return the error for a method whose step is not a sequence of explicit affine maps."""
+    hint = "explicit methods of the families rkmk, cf and cg are possible, for example cf:cf4"
+    return MethodError(
+        f"{what} on a semilinear scene", where=scene.name, expected="an explicit method", hint=hint
+    )
+
+
+def _sum(parts: Iterable[tuple[Multiplier, Sum]]) -> Sum:
+    """Return the sum of products of multipliers and linear combinations."""
+    total: Sum = {}
+    for factor, terms in parts:
+        for source, multiplier in terms.items():
+            total[source] = total.get(source, Multiplier()) + factor * multiplier
+    return {source: m for source, m in sorted(total.items()) if m.terms}
+
+
+def _constant(value: Number) -> Multiplier:
+    return Multiplier.constant(value)
+
+
+@dataclass
+class _Execution:
+    """The execution of a program with formulas in z."""
+
+    scene: Problem
+    semilinear: Semilinear
+    elements: dict[Var, _Element] = field(default_factory=dict)
+    maps: dict[Var, _Map] = field(default_factory=dict)
+    points: dict[Var, Sum] = field(default_factory=dict)
+    times: dict[Var, Number] = field(default_factory=dict)
+    evaluations: list[Evaluation] = field(default_factory=list)
+    tables: dict[tuple[object, ...], int] = field(default_factory=dict)
+    listed: list[Table] = field(default_factory=list)
+
+    def step(self, program: Program) -> ModeStep:
+        """Return the step of an explicit program."""
+        for var in program.inputs:
+            if var.kind is Kind.REAL:
+                self.times[var] = ZERO
+            else:
+                self.points[var] = {STATE: _constant(ONE)}
+        for assign in program.assigns():
+            self._execute(assign)
+        ((_, result),) = program.outputs
+        own = self.semilinear
+        terms = self._terms(self.points[result])
+        return ModeStep(
+            *(tuple(self.listed), tuple(self.evaluations), terms),
+            Nonlinearity(own.inner, own.outer, self._kernel(own.formulas), own.kept),
+            *(own.wave, own.space),
+            *(self._kernel(own.symbol), self._kernel((own.length,)), self._kernel((own.initial,))),
+        )
+
+    def _kernel(self, formulas: tuple[Expr, ...]) -> Kernel:
+        """Return formulas as assignments, in which common subexpressions are computed once. Parameters that
+        are not arguments at run time become constants."""
+        domain = ExprDomain(formulas[0].space)
+        symbols = sorted({n.payload for n in walk(formulas) if n.op == "sym"})
+        values = {s: domain.space.sym(s) for s in symbols} | {
+            name: domain.number(number)
+            for name, number in self.scene.parameters.items()
+            if name not in self.scene.runtime
+        }
+        roots = evaluate(list(formulas), domain, values)
+        read = tuple(sorted({n.payload for n in walk(roots) if n.op == "sym"}))
+        taken = set(read)
+
+        def fresh(name: str) -> str:
+            while name in taken:
+                name += "_"
+            taken.add(name)
+            return name
+
+        schedule = Assignments((), roots, {}, fresh)
+        body = schedule.run()
+        return Kernel("formulas", (), read, body, schedule.outputs)
+
+    def _execute(self, assign: Assign) -> None:
+        (target,), operation, args = assign.targets, assign.operation, assign.args
+        match operation:
+            case Zero():
+                self.elements[target] = _Element(ZERO, {}, 1)
+            case Linear():
+                self.elements[target] = self._combination(assign)
+            case Advance():
+                assert operation.coefficient.power == 1
+                self.times[target] = self.times[args[0]] + operation.coefficient.value
+            case Field():
+                self.elements[target] = self._evaluated(*args)
+            case Exp() | ElementAt():
+                self.maps[target] = self._exponential(self.elements[args[0]])
+            case Multiply():
+                self.maps[target] = self._product(self.maps[args[0]], self.maps[args[1]])
+            case Act():
+                self.points[target] = self._moved(self.maps[args[0]], self.points[args[1]])
+            case ActExp():
+                moved = self._exponential(self.elements[args[0]])
+                self.points[target] = self._moved(moved, self.points[args[1]])
+            case Bracket(dual=False):
+                x, y = (self.elements[v] for v in args)
+                self.elements[target] = self._bracket(x, y)
+            case InverseDexp(dual=False):
+                x, y = (self.elements[v] for v in args)
+                self.elements[target] = self._truncated(x, y, operation.order)
+            case InverseDifferential():
+                x, y = (self.elements[v] for v in args)
+                self.elements[target] = self._exact(x, y)
+            case _:
+                raise _refused(self.scene, f"the operation {operation.text()}")
+
+    def _combination(self, assign: Assign) -> _Element:
+        parts = [(c, self.elements[v]) for c, v in assign.terms]
+        parts = [(c, x) for c, x in parts if not x.is_zero]
+        powers = {c.power + x.power for c, x in parts}
+        if not powers:
+            return _Element(ZERO, {}, 1)
+        # All terms of a sum have the same power of h, because h and L occur in products h L only.
+        (power,) = powers
+        total = ZERO
+        for c, x in parts:
+            total = total + c.value * x.a
+        return _Element(total, _sum((_constant(c.value), x.b) for c, x in parts), power)
+
+    def _evaluated(self, point: Var, *time: Var) -> _Element:
+        """Return (1, N_j), the field at a point, and append the evaluation N_j."""
+        at = self.times[time[0]] if time else ZERO
+        self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
+        return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
+
+    def _exponential(self, x: _Element) -> _Map:
+        assert x.is_zero or x.power == 1
+        return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
+
+    def _product(self, g: _Map, k: _Map) -> _Map:
+        return _Map(g.a + k.a, _sum([(_constant(ONE), g.b), (Multiplier.of(EXP, g.a), k.b)]))
+
+    def _moved(self, g: _Map, point: Sum) -> Sum:
+        return _sum([(Multiplier.of(EXP, g.a), point), (_constant(ONE), g.b)])
+
+    def _bracket(self, x: _Element, y: _Element) -> _Element:
+        z = Multiplier.of(POWER, ONE)
+        b = _sum([(z.scaled(x.a), y.b), (z.scaled(-y.a), x.b)])
+        # lambda is z/h, so the power of h is one less than in the product of the elements.
+        return _Element(ZERO, b, x.power + y.power - 1)
+
+    def _truncated(self, x: _Element, y: _Element, order: int) -> _Element:
+        assert x.is_zero or x.power == 1
+        total, power = y, y
+        for k in range(1, last_term(order) + 1):
+            power = self._bracket(x, power)
+            factor = bernoulli_over_factorial(k)
+            if factor:
+                term = _constant(Number.rational(*factor.as_integer_ratio()))
+                total = replace(total, b=_sum([(_constant(ONE), total.b), (term, power.b)]))
+        return total
+
+    def _exact(self, x: _Element, y: _Element) -> _Element:
+        if x.is_zero:
+            return y
+        assert x.power == 1
+        if x.a.is_zero:
+            # In the limit a -> 0 the result is d - [(0, b), (c, d)]/2.
+            half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
+            return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
+        beta = Multiplier.of(BERNOULLI, x.a)
+        rest = (_constant(ONE) + beta.scaled(Number.rational(-1))).scaled(y.a / x.a)
+        return _Element(y.a, _sum([(beta, y.b), (rest, x.b)]), y.power)
+
+    def _terms(self, point: Sum) -> tuple[Term, ...]:
+        """Return a linear combination whose coefficients are tables."""
+        return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
+
+    def _table(self, multiplier: Multiplier, power: int) -> int | None:
+        if multiplier.is_one and not power:
+            return None
+        key = (multiplier.key, power)
+        if key not in self.tables:
+            self.tables[key] = len(self.listed)
+            self.listed.append(Table(multiplier, power))
+        return self.tables[key]

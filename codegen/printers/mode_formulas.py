@@ -1,0 +1,91 @@
+"""The formulas of a step on Fourier modes, as texts of a target."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+
+from codegen.ir.kernel import Kernel
+from codegen.ir.mode_step import POWER, STATE, Factor, ModeStep, Table, Term
+from codegen.kernel.schedule import Assignment, arrange
+from codegen.printers.expression import Style, render
+
+
+@dataclass(frozen=True)
+class Lines:
+    """A formula with several outputs: named values, computed in order, and the texts of the outputs."""
+
+    assignments: tuple[tuple[str, str], ...]
+    outputs: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class ModeFormulas:
+    """Writes the formulas of a step.
+
+    ``style`` contains the constants and function names of the target. ``names`` maps symbols of the scene to
+    identifiers, and no named value has an identifier in ``reserved``.
+    """
+
+    step: ModeStep
+    style: Style
+    names: Mapping[str, str]
+    reserved: Collection[str]
+
+    def lines(self, kernel: Kernel, **more: str) -> Lines:
+        """Return the text of a kernel; ``more`` are identifiers of further symbols."""
+        arranged = arrange(kernel)
+        names = {**self.names, **more}
+        taken = {*self.reserved, *names.values()}
+        assignments = []
+        for statement in arranged.statements:
+            # The scene has checked that the formulas call scalar functions only.
+            assert isinstance(statement, Assignment)
+            own = identifier(statement.name, taken)
+            taken.add(own)
+            assignments.append((own, " ".join(render(statement.value, names, self.style))))
+            names[statement.name] = own
+        outputs = tuple(" ".join(render(x, names, self.style)) for x in arranged.outputs)
+        return Lines(tuple(assignments), outputs)
+
+    def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
+        """Return the text of a function of z; ``call`` writes the call of a function of the module."""
+        scale = self.style.constant(factor.scale)
+        argument = "z" if factor.scale.is_one else f"{scale} * z"
+        return argument if factor.function == POWER else call(factor.function, argument)
+
+    def table(self, table: Table) -> str:
+        """Return the text of the values of a table, where ``f0``, ``f1``, ... are the factors of the step."""
+        number = {factor: f"f{k}" for k, factor in enumerate(self.step.factors)}
+        words: list[str] = []
+        for monomial, value in table.multiplier.key:
+            factors = [number[f] for f, n in monomial for _ in range(n)]
+            text = self.style.constant(value)
+            minus, size = text.startswith("-"), text.removeprefix("-")
+            unit = value.is_one or value.is_minus_one
+            shown = " * ".join([*([] if unit and factors else [size]), *factors])
+            words.append(
+                (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
+            )
+        inner = " ".join(words)
+        if not table.power:
+            return inner
+        return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
+
+    def spectrum(self, term: Term) -> str:
+        """Return the name of the spectrum of a term."""
+        return "spectrum" if term.source == STATE else f"value{term.source + 1}"
+
+    def time(self, number: int, start: str) -> str:
+        """Return the text of the time of an evaluation in a step that begins at the time ``start``."""
+        c = self.step.evaluations[number].time
+        if c.is_zero:
+            return start
+        return f"{start} + h" if c.is_one else f"{start} + {self.style.constant(c)} * h"
+
+
+def identifier(name: str, taken: Collection[str]) -> str:
+    """Return a name that is not taken, made from a name by appended underscores."""
+    while name in taken:
+        name += "_"
+    return name

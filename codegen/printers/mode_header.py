@@ -1,0 +1,15 @@
+"""The header of a module for a step on Fourier modes."""
+
+from __future__ import annotations
+
+from codegen.ir.kernel import Kernel
+from codegen.printers.recipe import Recipe, header
+
+
+def mode_header(kernel: Kernel, recipe: Recipe, width: int) -> list[str]:
+    """Return the lines of the header up to the usage example."""
+    step = kernel.modes
+    assert step is not None
+    (state,) = kernel.state
+    layout = [f"n {state.meaning}; n is even"]
+    return header(recipe, layout, step.explanation(), width)

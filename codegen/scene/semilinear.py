@@ -1,0 +1,96 @@
+"""Semilinear problems u' = L u + N(u) on a periodic interval, and the model problem of one mode."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from codegen.groups.base import LieGroup
+from codegen.groups.coordinate_maps.base import CoordinateMap
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+from codegen.ir.expr import Expr, Space
+from codegen.ir.number import Number
+from codegen.scene.problem import TIME, Problem
+
+TERMS = 20
+"""The number of brackets after which the model problem truncates dexp^{-1}. The product of h and the
+eigenvalue of the model is below 1/4, so the omitted terms are below (1/4 / 2 pi)^21 = 4e-30."""
+
+
+@dataclass(frozen=True)
+class Semilinear:
+    """The operator and the nonlinear term of a semilinear problem, as formulas.
+
+    ``symbol`` contains the real part of the eigenvalue of L as a formula in the wave number, and its
+    imaginary part if L has one. ``wave`` and ``space`` are the symbols of the wave number and of x.
+    ``length`` is the period and ``initial`` the initial state as a formula in x.
+
+    N is a sum of derivatives of pointwise formulas. ``inner`` are the orders of the derivatives of u that
+    these formulas read, with their symbols. N is the sum of the derivatives of ``formulas`` with the orders
+    ``outer``. If ``kept`` is less than one, only this fraction of the modes is kept in the values of N.
+    ``timed`` is true if N depends on the time.
+    """
+
+    wave: str
+    space: str
+    symbol: tuple[Expr, ...]
+    length: Expr
+    initial: Expr
+    inner: tuple[tuple[int, str], ...]
+    outer: tuple[int, ...]
+    formulas: tuple[Expr, ...]
+    kept: Fraction
+    timed: bool
+
+    def text(self) -> str:
+        """Describe the operator in a header."""
+        kind = "complex" if len(self.symbol) > 1 else "real"
+        return f"L multiplies the Fourier mode with the wave number k by a {kind} function of k"
+
+
+class ExactExponential(CoordinateMap):
+    """The exponential map of affine maps, with its exact inverse differential.
+
+    Emitted code uses the closed form (:mod:`codegen.kernel.mode_kernel`). The model problem of one mode uses
+    the series, truncated after :data:`TERMS` brackets.
+    """
+
+    name = "exp"
+    text = "exponential map, with its exact inverse differential in closed form"
+
+    def check(self, group: LieGroup, where: str = "") -> None:
+        """Do nothing: every group has the exponential map."""
+
+    def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:
+        """Return exp(x)."""
+        return group.exp(d, x)
+
+    def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return dexp^{-1}_x y."""
+        return group.dexpinv(d, x, y, TERMS)
+
+
+def model_of(scene: Problem) -> Problem:
+    """Return the problem of one mode with the eigenvalue -1/2 and N(u) = u^2, or u^2 + t if N depends on the
+    time.
+
+    A program does not depend on the eigenvalue and on N. So the model serves to verify programs.
+    """
+    assert scene.semilinear is not None
+    (block,) = scene.state
+    space = Space()
+    u = space.sym(block.symbols[0])
+    value = u * u + space.sym(TIME) if scene.semilinear.timed else u * u
+    return replace(
+        scene,
+        roots=(space.one, value),
+        state=(replace(block, initial=(space.const(Number.rational(1, 2)),)),),
+        parameters={},
+        runtime=(),
+        semilinear=None,
+    )
+
+
+EIGENVALUE = Fraction(-1, 2)
+"""The eigenvalue of the model problem."""

@@ -1,0 +1,267 @@
+"""Semilinear scenes: u_t = L u + N(u) on a periodic interval, where L is given by its symbol."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from codegen.errors import SceneError
+from codegen.groups.actions import AffineAction
+from codegen.groups.matrix import MatrixGroup
+from codegen.ir.decimals import exact
+from codegen.ir.domain import FloatDomain
+from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, selects
+from codegen.ir.values import Kind
+from codegen.scene.arguments import read_span
+from codegen.scene.derivative import Dx
+from codegen.scene.formulas import Reader
+from codegen.scene.problem import TIME, Problem, StateField
+from codegen.scene.semilinear import EIGENVALUE, ExactExponential, Semilinear
+
+if TYPE_CHECKING:
+    import sympy
+
+TWO_THIRDS = Fraction(2, 3)
+"""The fraction of the modes that ``dealias=True`` keeps. The quadratic terms of these modes have no aliases
+among them."""
+
+SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
+"""Wave numbers at which the symbol is compared with its complex conjugate."""
+
+
+DIGITS_OF_PI = 60
+"""The number of digits to which formulas contain pi. Printers round its products to doubles."""
+
+
+def SemilinearScene(
+    *,
+    u: sympy.Symbol,
+    k: sympy.Symbol,
+    x: sympy.Symbol,
+    L: sympy.Expr,
+    N: sympy.Expr,
+    length: sympy.Expr,
+    u0: sympy.Expr,
+    span: tuple[sympy.Expr, sympy.Expr],
+    dealias: bool | Fraction = False,
+    name: str = "scene",
+    title: str = "",
+) -> Problem:
+    """Return the scene u_t = L u + N(u) for a function u of x and t that is periodic in x.
+
+    ``L`` is the symbol of a linear operator with constant coefficients: a formula in the wave number ``k``
+    and parameters, by which L multiplies exp(i k x). It may be complex; for example, d/dx has the symbol
+    I*k. ``N`` is a formula in ``u``, ``x``, t and parameters. It may contain derivatives of u, written
+    Dx(u) or Dx(u, m), and sums of multiples of derivatives Dx(g) of such formulas (:class:`Dx`). ``length``
+    is the period, ``u0`` the initial state as a formula in ``x``, and ``span`` the rational time interval.
+    With ``dealias`` only two thirds of the modes, or the given fraction, are kept in the values of N.
+
+    Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
+    Explicit methods of the families rkmk, cf and cg are possible. They use the action of affine maps
+    exp(t L) u + c, and so they are exponential integrators. :class:`SceneError` is raised for an operator
+    that does not map real functions to real functions, for nested derivatives, and for formulas that contain
+    other symbols or a choice between formulas.
+    """
+    parser = _Parser(name, u, k, x)
+    reader, symbol = parser.reader, parser.symbol(L)
+    period, start = parser.constant(length, "length"), parser.start(u0)
+    inner, terms = parser.nonlinear(N)
+    if reader.signals:
+        raise SceneError("a signal in the formulas", where=name, expected="formulas in t and parameters")
+    parameters = reader.parameters()
+    _check(reader, parser, symbol, period, parameters)
+    formulas = tuple(terms.values())
+    timed = any(n.op == "sym" and n.payload == TIME for n in walk(formulas))
+    semilinear = Semilinear(
+        *(parser.k, parser.x, symbol, period, start),
+        *(inner, tuple(terms), formulas, _kept(name, dealias), timed),
+    )
+    shown = reader.space.const(Number.rational(0))
+    zero, one = Fraction(0), Fraction(1)
+    generators = [[[EIGENVALUE, zero], [zero, zero]], [[zero, one], [zero, zero]]]
+    group = MatrixGroup("affine maps exp(t L) u + c", generators)
+    return Problem(
+        *(name, title or name, group, AffineAction()),
+        state=(StateField("y", Kind.POINT, (parser.u,), (shown,)),),
+        roots=(),
+        hamiltonian=None,
+        invariants={},
+        span=read_span(name, span),
+        parameters=parameters,
+        coordinates=ExactExponential(),
+        semilinear=semilinear,
+    )
+
+
+class _Parser:
+    """Reads the formulas of a semilinear scene."""
+
+    def __init__(self, name: str, u: sympy.Symbol, k: sympy.Symbol, x: sympy.Symbol) -> None:
+        # The constructor of the reader checks the three names.
+        self.reader = Reader(name, [u, k, x])
+        self.name = name
+        self.given = (u, k, x)
+        self.u, self.k, self.x = self.reader.coordinates
+        self.reader.coordinates = []
+
+    def symbol(self, L: sympy.Expr) -> tuple[Expr, ...]:
+        """Return the real part of the symbol, and the imaginary part unless it is zero."""
+        import sympy
+
+        real = sympy.Symbol(self.k, real=True)
+        formula = self._sympified(L, "L").subs(self.given[1], real)
+        own = {s: sympy.Symbol(s.name, real=True) for s in formula.free_symbols if s.name == self.k}
+        parts = [sympy.simplify(part) for part in formula.subs(own).as_real_imag()]
+        parts = [part.subs(real, sympy.Symbol(self.k, real=True)) for part in parts]
+        read = [self.pointwise(part, "L", (self.k,)) for part in parts[: 1 if parts[1] == 0 else 2]]
+        if any(n.op == "sym" and n.payload == TIME for n in walk(read)):
+            raise SceneError(
+                "L depends on the time",
+                where=self.name,
+                expected="constant coefficients",
+                hint="move this term to N",
+            )
+        return tuple(read)
+
+    def nonlinear(self, N: sympy.Expr) -> tuple[tuple[tuple[int, str], ...], dict[int, Expr]]:
+        """Return the derivatives of u in formulas, with their symbols, and for each outer derivative the
+        formula to which it is applied."""
+        import sympy
+
+        formula = self._sympified(N, "N")
+        u = self.given[0]
+        symbols: dict[int, sympy.Symbol] = {0: u}
+        for atom in sorted(formula.atoms(Dx), key=sympy.default_sort_key):
+            if atom.args[0] == u:
+                symbols[atom.order] = sympy.Symbol(f"{self.u}_{'x' * atom.order}", real=True)
+                formula = formula.subs(atom, symbols[atom.order])
+        dummies: dict[sympy.Symbol, Dx] = {}
+        for atom in sorted(formula.atoms(Dx), key=sympy.default_sort_key):
+            if atom.args[0].has(Dx):
+                raise SceneError(
+                    f"the nested derivative {atom}",
+                    where=self.name,
+                    expected="derivatives of formulas in u, Dx(u), Dx(u, 2) and so on",
+                )
+            dummies[sympy.Dummy()] = atom
+        linear = formula.subs({atom: dummy for dummy, atom in dummies.items()})
+        parts: dict[int, sympy.Expr] = {0: linear.subs(dict.fromkeys(dummies, 0))}
+        for dummy, atom in dummies.items():
+            factor = sympy.simplify(sympy.diff(linear, dummy))
+            local = {str(s) for s in factor.free_symbols} & {self.x, *map(str, symbols.values())}
+            if local or factor.free_symbols & set(dummies):
+                raise SceneError(
+                    f"the derivative {atom} in a product or in a function",
+                    where=self.name,
+                    expected="a sum of multiples of derivatives with constant factors",
+                    hint="write the term by Dx(u), Dx(u, 2) and so on",
+                )
+            parts[atom.order] = parts.get(atom.order, 0) + factor * atom.args[0]
+        names = {str(s): order for order, s in symbols.items()}
+        terms = {
+            order: self.pointwise(part, "N", (self.x, *names))
+            for order, part in sorted(parts.items())
+            if part != 0
+        }
+        if not terms:
+            terms = {0: self.reader.space.zero}
+        read = {n.payload for n in walk(terms.values()) if n.op == "sym"}
+        inner = tuple((order, s) for s, order in sorted(names.items(), key=lambda item: item[1]) if s in read)
+        return inner, terms
+
+    def pointwise(self, formula: sympy.Expr, what: str, more: Iterable[str]) -> Expr:
+        """Return a formula in some symbols, t and parameters, without a choice between formulas."""
+        import sympy
+
+        if isinstance(formula, sympy.Expr) and formula.has(Dx):
+            raise SceneError(f"a derivative in {what}", where=self.name, expected="a formula without Dx")
+        root = self.reader.scalar(_with_digits(formula), what, more=tuple(more))
+        for node in walk([root]):
+            if node.op == "call" and node.payload != ABSOLUTE and selects(node.payload):
+                raise SceneError(
+                    f"a choice between formulas in {what}", where=self.name, expected="one formula"
+                )
+        return root
+
+    def start(self, u0: sympy.Expr) -> Expr:
+        """Return the initial state."""
+        root = self.pointwise(u0, "u0", (self.x,))
+        if any(n.op == "sym" and n.payload == TIME for n in walk([root])):
+            raise SceneError("u0 contains t", where=self.name, expected="a formula in x and parameters")
+        return root
+
+    def constant(self, formula: sympy.Expr, what: str) -> Expr:
+        """Return a formula in parameters."""
+        return self.reader.scalar(_with_digits(self._sympified(formula, what)), what, constant=True)
+
+    def _sympified(self, formula: object, what: str) -> sympy.Expr:
+        import sympy
+
+        try:
+            result = sympy.sympify(formula, strict=True)
+        except sympy.SympifyError:
+            result = None
+        if not isinstance(result, sympy.Expr):
+            raise SceneError(f"{what} is {formula!r}", where=self.name, expected="a formula of sympy")
+        return result
+
+
+def _with_digits(formula: sympy.Expr) -> sympy.Expr:
+    """Return a formula in which pi is replaced by a rational number."""
+    import sympy
+
+    if not isinstance(formula, sympy.Basic) or not formula.has(sympy.pi):
+        return formula
+    return formula.subs(sympy.pi, sympy.Rational(str(sympy.N(sympy.pi, DIGITS_OF_PI))))
+
+
+def _kept(name: str, dealias: object) -> Fraction:
+    """Return the fraction of the modes that is kept in the values of N."""
+    if isinstance(dealias, bool):
+        return TWO_THIRDS if dealias else Fraction(1)
+    kept = exact(dealias)
+    if kept is None or not 0 < kept <= 1:
+        raise SceneError(
+            f"dealias = {dealias!r}",
+            where=name,
+            expected="True, False, or the fraction of the modes that is kept, above 0 and at most 1",
+        )
+    return kept
+
+
+def _check(
+    reader: Reader,
+    parser: _Parser,
+    symbol: tuple[Expr, ...],
+    period: Expr,
+    parameters: dict[str, Number],
+) -> None:
+    """Raise :class:`SceneError` unless the period is positive, and L maps real functions to real
+    functions: its symbol at -k is the complex conjugate of its symbol at k."""
+    domain = FloatDomain(0.0)
+    values: dict[str, float] = {name: float(number) for name, number in parameters.items()}
+    (size,) = evaluate([period], domain, values)
+    if not (math.isfinite(size) and size > 0):
+        raise SceneError(f"length = {size:g}", where=reader.name, expected="a positive number")
+    for k in SAMPLES:
+        try:
+            plus = evaluate(list(symbol), domain, {**values, parser.k: k})
+            minus = evaluate(list(symbol), domain, {**values, parser.k: -k})
+        except (ArithmeticError, ValueError):
+            raise SceneError(
+                f"L is not finite at k = {k:g}",
+                where=reader.name,
+                expected="a symbol that is finite for all k",
+            ) from None
+        expected = [plus[0], *(-y for y in plus[1:])]
+        if any(abs(a - b) > 1e-9 * (1 + abs(a)) for a, b in zip(expected, minus, strict=True)):
+            raise SceneError(
+                f"an operator L that does not map real functions to real functions, seen at k = {k:g}",
+                where=reader.name,
+                expected="a symbol whose value at -k is the complex conjugate of its value at k",
+                hint="write I*k for d/dx and abs(k) for sqrt(-d^2/dx^2)",
+            )

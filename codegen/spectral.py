@@ -1,0 +1,218 @@
+"""Emitted modules for semilinear equations, called from Python."""
+
+from __future__ import annotations
+
+import types
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from codegen import lanes
+from codegen.argument import count, described, real
+from codegen.arrival import Status
+from codegen.artifact import Artifact
+from codegen.printers.interface import Interface
+from codegen.run.status import reason
+from orderconds.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SpectralRun:
+    """The result of a run: the last good values, the status, and the number of completed steps."""
+
+    values: Floats
+    status: Status
+    completed: int
+    reason: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """True if no step failed."""
+        return self.status == Status.OK
+
+
+class Spectral(ABC):
+    """An emitted module for a semilinear equation, for any even number of points."""
+
+    artifact: Artifact
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
+        self.interface, self.defaults = interface, dict(defaults)
+
+    def points(self, n: int, **parameters: object) -> Floats:
+        """Return the coordinates x of n equally spaced points, beginning at 0."""
+        import numpy as np
+
+        n = _even(count(n, "n"))
+        return np.arange(n) * self._period(self._values(parameters)) / n
+
+    def start(self, n: int, **parameters: object) -> Floats:
+        """Return the initial values of the scene at n points."""
+        return self._initial(self.points(n, **parameters), self._values(parameters))
+
+    def run(self, u: object, h: float, steps: int, t: float = 0.0, **parameters: object) -> SpectralRun:
+        """Return the values after ``steps`` steps of size h from time t.
+
+        ``u`` contains the values at an even number of equally spaced points. If a step fails, no error is
+        raised: the result contains the status and the last good values. ValueError is raised for an array of
+        another shape, for an odd number of points, and for values that are not finite; TypeError for other
+        types and for unknown parameters.
+        """
+        import numpy as np
+
+        h, t, steps = real(h, "h"), real(t, "t"), count(steps, "steps")
+        values = self._values(parameters)
+        try:
+            given = np.asarray(u)
+        except ValueError:
+            raise ValueError("expected an array of values, found rows of different lengths") from None
+        if given.dtype.kind not in "fiub":
+            raise TypeError(f"expected real numbers, found {described(u)}")
+        if given.ndim != 1:
+            raise ValueError(f"expected an array of shape (n,), found an array of shape {given.shape}")
+        _even(given.size)
+        array = np.array(given, dtype=np.float64)
+        finite = np.isfinite(array)
+        if not finite.all():
+            place = int(np.argmin(finite))
+            raise ValueError(f"expected finite numbers, found the value {array[place]} at point {place}")
+        result, status, completed = self._call(array, (t, h, steps), values)
+        why = "" if status == Status.OK else reason(status.name, "", h)
+        return SpectralRun(result, status, completed, why)
+
+    def _values(self, parameters: Mapping[str, object]) -> list[float]:
+        pairs = lanes.chosen(self.interface.parameters, self.defaults, parameters)
+        return [real(x, name) for name, x in pairs]
+
+    @abstractmethod
+    def _period(self, values: list[float]) -> float:
+        """Return the length of the interval."""
+
+    @abstractmethod
+    def _initial(self, points: Floats, values: list[float]) -> Floats:
+        """Return the initial state at given points."""
+
+    @abstractmethod
+    def _call(
+        self, u: Floats, moment: tuple[float, float, int], values: list[float]
+    ) -> tuple[Floats, Status, int]:
+        """Return the new values, the status, and the number of completed steps."""
+
+
+def _even(n: int) -> int:
+    if n < 2 or n % 2:
+        raise ValueError(f"expected an even number of points, at least 2, found {n}")
+    return n
+
+
+class InterpretedSpectral(Spectral):
+    """An emitted Python module for a semilinear equation."""
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float], text: str) -> None:
+        super().__init__(interface, defaults)
+        self._module = types.ModuleType(interface.module)
+        exec(compile(text, f"{interface.module}.py", "exec"), self._module.__dict__)
+
+    def _period(self, values: list[float]) -> float:
+        return float(self._module.period(*values))
+
+    def _initial(self, points: Floats, values: list[float]) -> Floats:
+        result: Floats = self._module.initial(points, *values)
+        return result
+
+    def _call(
+        self, u: Floats, moment: tuple[float, float, int], values: list[float]
+    ) -> tuple[Floats, Status, int]:
+        t, h, steps = moment
+        result, status, completed = self._module.run(u, h, steps, t, *values)
+        return result, Status(status), completed
+
+
+class CompiledSpectral(Spectral):
+    """An emitted C module for a semilinear equation, in a shared object.
+
+    The transforms of the module are used if n is a power of two, and those of NumPy for all other n.
+    """
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:
+        from cffi import FFI
+
+        from codegen.printers.c.modes import mode_prototypes
+
+        super().__init__(interface, defaults)
+        self._ffi = FFI()
+        self._ffi.cdef(mode_prototypes(interface))
+        self._library = self._ffi.dlopen(str(path))
+        self._function("run")
+
+    def _function(self, name: str) -> Any:
+        return getattr(self._library, f"{self.interface.prefix}{name}")
+
+    def _pointer(self, array: Any) -> Any:
+        return self._ffi.cast("double *", self._ffi.from_buffer(array))
+
+    def _period(self, values: list[float]) -> float:
+        return float(self._function("period")(*values))
+
+    def _initial(self, points: Floats, values: list[float]) -> Floats:
+        import numpy as np
+
+        u = np.empty(points.size)
+        self._function("initial")(u.size, self._pointer(u), *values)
+        return u
+
+    def _call(
+        self, u: Floats, moment: tuple[float, float, int], values: list[float]
+    ) -> tuple[Floats, Status, int]:
+        (t, h, steps), n = moment, u.size
+        try:
+            tables, work, memory = (self._memory(name, n) for name in ("tables", "workspace", "fft_memory"))
+        except MemoryError:
+            raise InputError(
+                f"{n} points", expected="enough memory for the tables", hint="use fewer points"
+            ) from None
+        status = Status(self._function("prepare")(n, h, *values, self._pointer(tables)))
+        if status != Status.OK:
+            return u, status, 0
+        transform = self._ffi.new(f"{self.interface.prefix}transform *")
+        callbacks = self._numpy()  # the variable keeps the functions alive during the run
+        if self._function("fft_prepare")(n, self._pointer(memory)) == Status.OK:
+            transform[0] = self._function("fft")(self._pointer(memory))
+        else:
+            transform.forward, transform.backward = callbacks
+        time = [t] if self.interface.time else []
+        completed = self._ffi.new("size_t *")
+        arguments = [*values, self._pointer(tables), transform, self._pointer(work), completed]
+        status = Status(self._function("run")(n, self._pointer(u), *time, steps, *arguments))
+        return u, status, int(completed[0])
+
+    def _memory(self, name: str, n: int) -> Floats:
+        """Return an array whose length the function ``name`` of the module states."""
+        import numpy as np
+
+        return np.empty(int(self._function(name)(n)))
+
+    def _numpy(self) -> tuple[Any, Any]:
+        """Return the transforms of NumPy as functions of C."""
+        import numpy as np
+
+        def doubles(pointer: Any, n: int) -> Floats:
+            return np.frombuffer(self._ffi.buffer(pointer, 8 * n), dtype=np.float64)
+
+        def forward(n: int, values: Any, spectrum: Any, context: Any) -> None:
+            doubles(spectrum, n + 2)[:] = np.fft.rfft(doubles(values, n)).view(np.float64)
+
+        def backward(n: int, spectrum: Any, values: Any, context: Any) -> None:
+            doubles(values, n)[:] = np.fft.irfft(doubles(spectrum, n + 2).view(np.complex128), n)
+
+        kinds = ("size_t, const double *, double *, void *", "size_t, double *, double *, void *")
+        first, second = (f"void({kind})" for kind in kinds)
+        return self._ffi.callback(first, forward), self._ffi.callback(second, backward)

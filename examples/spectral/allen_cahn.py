@@ -1,0 +1,25 @@
+"""The Allen-Cahn equation u_t = eps u_xx + u - u^3 on a periodic interval of length 2 pi.
+
+The solution forms plateaus near 1 and -1, whose boundaries move slowly. The operator is L = eps d^2/dx^2, so
+that the nonlinear term contains u - u^3. Affine maps on u -> exp(t L) u + c act as in section 2.2.2 of
+H. Marthinsen's thesis; here L is given by its symbol.
+"""
+
+from sympy import Rational, cos, pi, sin, symbols
+
+from codegen.scene import SemilinearScene, param
+
+u, k, x = symbols("u k x", real=True)
+eps = param("eps", Rational(1, 100))
+
+scene = SemilinearScene(
+    title="Allen-Cahn equation",
+    u=u,
+    k=k,
+    x=x,
+    L=-eps * k**2,
+    N=u - u**3,
+    length=2 * pi,
+    u0=Rational(53, 100) * cos(x) + Rational(47, 100) * sin(2 * x),
+    span=(0, 10),
+)
