@@ -59,7 +59,7 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
     """Return the scheme with two registers that is equal to the method on every group, if there is one.
 
     With step-size control, the second item is the exponent of the exponential that leads from the update to
-    the update of the embedded method. Any other embedded method needs the values of all stages.
+    the update of the embedded method. Other embedded methods need the values of all stages.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None

@@ -88,13 +88,13 @@ class Equations:
         conditions = self._conditions(family)
         chosen = range(len(conditions) + len(self.lower)) if places is None else places
         wanted = [conditions[i] for i in chosen if i < len(conditions)]
-        found = list(family.residuals(read, ring, wanted))
+        residuals = list(family.residuals(read, ring, wanted))
         second = [self.lower[i - len(conditions)] for i in chosen if i >= len(conditions)]
         if second:
             tableau = replace(self.tableau, ring=ring, method=method, embedded=embedded).lower()
             assert tableau is not None
-            found += family.residuals(_read(family, tableau, self.proof), ring, second)
-        return found
+            residuals += family.residuals(_read(family, tableau, self.proof), ring, second)
+        return residuals
 
     def _conditions(self, family: Family) -> tuple[OrderCondition, ...]:
         if self.kept is not None:

@@ -103,6 +103,11 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
     the second update is another product.
 
     With the exponent sum_i D_i F_i, a third register E <- E + D_i F_i holds all that the second update needs.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> pair = Tableau.load(find("cf43"))
+    >>> second_exponent(pair.method, pair.embedded.update, pair.ring) is None
+    True
     """
     *path, last = method.from_start(second)
     update = list(method.from_start(method.update))
