@@ -221,7 +221,8 @@ def _orders(
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""One order to compute: a tableau in a format of the family, the family, and the claimed order."""
+"""The input of the computation of one order: a tableau in a format of the family, the family, and the claimed
+order."""
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
