@@ -17,7 +17,7 @@ from codegen.command_names import bare, quoted
 from codegen.error_estimate import order_of_estimate
 from codegen.errors import MethodError
 from codegen.header_facts import recipe_of
-from codegen.ir.kernel import Kernel
+from codegen.ir.kernel import SIMPLIFIED_NEWTON, Kernel
 from codegen.ir.precision import DOUBLE
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
@@ -255,7 +255,7 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
-    own = site_method(scene, method)
+    own = site_method(scene, method, solver == SIMPLIFIED_NEWTON)
     choices = site_choices(own.kernel, solver, scene.name)
     parts = (own.problem, own.lowered, own.program, own.trace, own.kernel)
     return Compiled(scene, method, *parts, solvers=choices, asked=solver)

@@ -81,7 +81,8 @@ class Lattice(ABC):
             raise ValueError(
                 f"expected another number of sites, found the shape {shape}: {reason(status.name, '', h)}"
             )
-        why = "" if status == Status.OK else reason(status.name, "", h)
+        block = "" if status == Status.NOT_FINITE else "the equations of the step"
+        why = "" if status == Status.OK else reason(status.name, block, h)
         return LatticeRun(np.moveaxis(table, 0, -1), status, completed, why)
 
     def _table(self, states: object) -> Any:

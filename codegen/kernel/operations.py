@@ -104,6 +104,9 @@ def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
         counted[key] = {}
         for sweep in sweeps:
             counted[key] = _plus(counted[key], operations(arrange(sweep.kernel))[STEP])
+    for block in step.blocks:
+        if block.newton is not None:
+            counted[matrix_of(block.label)] = operations(arrange(block.newton.kernel))[STEP]
     return counted
 
 
