@@ -17,7 +17,7 @@ from codegen.command_names import bare, quoted
 from codegen.error_estimate import order_of_estimate
 from codegen.errors import MethodError
 from codegen.header_facts import recipe_of
-from codegen.ir.kernel import Kernel
+from codegen.ir.kernel import SIMPLIFIED_NEWTON, Kernel
 from codegen.ir.precision import DOUBLE
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
@@ -53,8 +53,8 @@ from orderconds.tableau import Tableau
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
-"""The cost of operations in units of an addition; two forms of a step are compared by these costs. Additions
-and products cost 1, and functions that are not listed cost 12."""
+"""The cost of operations in units of an addition. The compiler compares versions of a step by these costs.
+Additions and products cost 1, and functions that are not listed cost 12."""
 
 
 @dataclass(frozen=True)
@@ -134,8 +134,7 @@ def compile_method(
     if adaptive:
         method = replace(method, adaptive=True)
     if scene.sites is not None or scene.semilinear is not None:
-        refused = {"a Jacobian": jacobian, "a run to an end time": request.any}
-        return _of_fields(scene, method, known_solver(solver), refused)
+        return _of_fields(scene, method, known_solver(solver), jacobian, request)
     problem = problem_for(scene, method)
     if scene.matrices is not None and not lowering(method.family).in_coordinates:
         return _with_arrays(scene, method, jacobian, request)
@@ -200,6 +199,10 @@ def with_batch(compiled: Compiled) -> Compiled:
     step has repeated computations in functions of their own, it is translated again without these functions.
     """
     kernel = compiled.kernel
+    if kernel.modes is not None:
+        raise MethodError(
+            "--batch for a semilinear equation", where=compiled.scene.name, expected="a run of one system"
+        )
     changed = kernel.deferred or kernel.expansion or kernel.carried or compiled.compensated
     if kernel.outlined and not kernel.loops and not changed:
         plain, own = to_kernel(compiled.program, compiled.problem, outlining=False), kernel.estimate
@@ -220,7 +223,8 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
     given = next((option for option, is_given in options.items() if is_given), None)
     if given is not None:
         raise MethodError(
-            f"{given} for {method.label} on a scene whose field is given by formulas of large matrices",
+            f"{given} is not available for {method.label} on a scene whose field is given by formulas of "
+            "large matrices",
             where=scene.name,
             expected="a scene with formulas in coordinates, such as FieldScene or LinearScene",
             hint=f"leave out {given}; the emitted run makes steps of equal size",
@@ -233,20 +237,25 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
     return Compiled(scene, method, scene, own.lowered, own.program, own.trace, kernel)
 
 
-def _of_fields(scene: Problem, method: Method, solver: str, requests: Mapping[str, bool]) -> Compiled:
+def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, request: RunRequest) -> Compiled:
     """Return a method on a chain or lattice, or on a semilinear equation."""
-    requests = {"an error estimate": method.adaptive, **requests}
+    requests = {
+        "an error estimate": method.adaptive,
+        "a Jacobian": jacobian,
+        "compensated summation": request.compensate,
+        "a run to an end time": request.any,
+    }
     refused = [what for what, wanted in requests.items() if wanted]
     if refused:
         kind = "a chain or lattice" if scene.semilinear is None else "a semilinear equation"
-        what = f"{refused[0]} for {kind}"
+        what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
     if scene.semilinear is not None:
         # A given cut-off truncates dexp^{-1}; without a cut-off the closed form is used.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
-    own = site_method(scene, method)
+    own = site_method(scene, method, solver == SIMPLIFIED_NEWTON)
     choices = site_choices(own.kernel, solver, scene.name)
     parts = (own.problem, own.lowered, own.program, own.trace, own.kernel)
     return Compiled(scene, method, *parts, solvers=choices, asked=solver)
@@ -405,26 +414,33 @@ def emit_kernel(
     if kernel.batch and not known_target(target).batches:
         able = next(name for name in target_names() if known_target(name).batches)
         raise InputError(
-            f"the target {target}",
+            f"the target {target} has no code for batches",
             where="--batch",
-            expected="a target with batches",
+            expected="a target with code for batches",
             hint=f"add --target {able}",
         )
     if kernel.sites is not None and not known_target(target).lattice_loader:
         able = next(name for name in target_names() if known_target(name).lattice_loader)
         raise InputError(
-            f"the target {target}",
+            f"the target {target} has no code for chains and lattices",
             where=interface.module,
-            expected="a target with chains and lattices",
+            expected="a target with code for chains and lattices",
             hint=f"add --target {able}",
         )
     if kernel.modes is not None and not known_target(target).spectral_loader:
         able = next(name for name in target_names() if known_target(name).spectral_loader)
         raise InputError(
-            f"the target {target}",
+            f"the target {target} has no code for semilinear equations",
             where=interface.module,
-            expected="a target with semilinear equations",
+            expected="a target with code for semilinear equations",
             hint=f"add --target {able}",
+        )
+    if kernel.modes is not None and interface.format is not DOUBLE:
+        raise InputError(
+            f"{interface.format.name} precision for a semilinear equation",
+            where=interface.module,
+            expected=f"{DOUBLE.name} precision",
+            hint="leave out --precision",
         )
     files = known_target(target).print_module(kernel, interface, recipe)
     manifest = {

@@ -60,12 +60,12 @@ def command(
 ) -> int:
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
-    The deviation of a quantity is relative to its size. The column "law" contains "lost" if the deviation
-    reaches the size of the quantity, "rounding" if rounding explains it, and "too short to tell" if the
-    deviation grows but the confidence interval of the slope contains zero. For quantities that a method
-    conserves exactly, the growth of rounding errors is measured: their root mean square over several initial
-    states, and the power of the number of steps with which it grows, with and without compensated summation.
-    The exit status is 1 if a run ends early or a method fails.
+    The deviation of a quantity is relative to the size of the quantity. The column "law" contains "lost" if
+    the deviation reaches the size of the quantity, and "rounding" if rounding errors explain the deviation.
+    It contains "too short to tell" if the run is too short for a verdict. For quantities that a method
+    conserves exactly, the growth of rounding errors is measured with and without compensated summation. The
+    results are the root mean square of the errors over several initial states, and the power of the number of
+    steps with which the root mean square grows. The exit status is 1 if a run ends early or a method fails.
 
     \b
     Examples:
@@ -79,7 +79,7 @@ def command(
     from codegen.lab.long_runs.long_run import LongRun, long_run
     from codegen.lab.long_runs.properties import properties
 
-    problem = scenes.load(scenes.with_values(scene, parameters))
+    problem = scenes.with_one_system(scenes.load(scenes.with_values(scene, parameters)))
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
     # Comparisons with NaN are false, so the negated condition also refuses NaN.
     if not 1e-300 <= abs(h) <= 1e300:

@@ -74,9 +74,9 @@ def command(
     than with --processes 1, because the processors share caches. With more than eight scenes, searches are
     shorter, and the growth of rounding errors is not measured. An interrupted report continues when the
     command is repeated. If a method fails, its row contains the reason. A browser shows the pages without
-    a network connection. The exit status is 1 if an observed order differs from the computed order, if a step
-    with extremely large or small numbers gives a wrong result, or if a method fails; the pages are written in
-    any case.
+    a network connection. The exit status is 1 in three cases: an observed order differs from the computed
+    order, a step with extremely large or small numbers gives a wrong result, or a method fails. The pages are
+    written in all cases.
 
     \b
     Examples:

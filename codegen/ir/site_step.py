@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
 
 STATE, WORK, RESULT = "state", "work", "result"
-"""The arrays of a step: the old state, the workspace, and the new state. Row k of an array contains one
-number of each site."""
+"""The arrays of a step: the old state, the workspace, and the new state. Row k of an array contains number k
+of every site."""
 
 OWN = -1
 """The neighbour number of the site itself."""
@@ -90,15 +90,38 @@ class Sweep:
 
 
 @dataclass(frozen=True)
+class SiteNewton:
+    """The matrix of Newton's method for the equations of a chain, to first order in h.
+
+    The matrix is block-tridiagonal. For each site, ``kernel`` computes three blocks of ``size`` rows and
+    columns: the derivatives by the unknowns of the left neighbour, of the site, and of the right neighbour.
+    ``loads`` are the numbers that the kernel reads. In an open chain the symbol exists[k] is 1 if neighbour k
+    exists, and 0 otherwise. The blocks of one site are adjacent in the workspace, from the row ``matrix`` on.
+    The residuals are in ``size`` rows, from the row ``residual`` on. A periodic chain needs ``size`` columns
+    for the last site, from the row ``border`` on.
+    """
+
+    kernel: Kernel
+    loads: tuple[Load, ...]
+    exists: tuple[str, ...]
+    size: int
+    residual: int
+    border: int
+    matrix: int
+
+
+@dataclass(frozen=True)
 class SiteBlock:
     """Equations u = g(u) for unknowns at all sites. The sweeps with the indices ``first`` to ``last`` compute
-    the images g(u) and replace the unknowns by them. They are repeated until the unknowns of all sites
-    converge. Sweeps before ``first`` store the first values of the unknowns."""
+    the images g(u) and replace the unknowns by them. With ``newton``, they store the residuals g(u) - u
+    instead. They are repeated until the unknowns of all sites converge. Sweeps before ``first`` store the
+    first values of the unknowns."""
 
     label: str
     unknowns: tuple[str, ...]
     first: int
     last: int
+    newton: SiteNewton | None = None
 
 
 @dataclass(frozen=True)
@@ -145,6 +168,9 @@ class SiteStep:
         for sweep in self.sweeps:
             for kernel in sweep.kernels:
                 yield from kernel.expressions()
+        for block in self.blocks:
+            if block.newton is not None:
+                yield from block.newton.kernel.expressions()
 
     @property
     def unrepeated(self) -> tuple[Sweep, ...]:
@@ -170,6 +196,11 @@ class SiteStep:
                 loops = f"loop {block.last + 1} is"
             names = ", ".join(block.unknowns)
             lines.append(f"{loops} repeated until the unknowns {names} converge at all sites")
+            if block.newton is not None:
+                n = block.newton.size
+                lines.append(
+                    f"  Newton's method: each site has three blocks of {n} x {n} numbers of the matrix"
+                )
         if self.flows:
             lines.append(f"a step: {len(self.flows)} passes through these loops")
         lines.append(f"workspace: {self.workspace} numbers for each site, {BYTES * self.workspace} bytes")

@@ -50,13 +50,21 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
     Raises ZeroDivisionError if g has no value at h = 0.
     """
+    return matrix(leading_terms(images), unknowns)
+
+
+def leading_terms(images: Sequence[Expr]) -> list[Expr]:
+    """Return g(0) + h g'(0) for the images g as functions of h.
+
+    Raises ZeroDivisionError if g has no value at h = 0.
+    """
     space = images[0].space
     h = space.sym("h")
     # g = g(0) + h g'(0) + O(h^2): these two terms are differentiated with respect to the unknowns.
     slopes = [row[0] for row in jacobian(images, ["h"])]
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
-    return matrix([a + h * b for a, b in zip(values[:n], values[n:], strict=True)], unknowns)
+    return [a + h * b for a, b in zip(values[:n], values[n:], strict=True)]
 
 
 class _AtZero(ExprDomain):

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
-from typing import Any
 
+from codegen.ir.domain import Value
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.interpret import flatten
 from codegen.ir.kernel import Field as StateBlock
 from codegen.ir.kernel import Kernel, Let
+from codegen.ir.operations import Advance, Linear, Zero
 from codegen.ir.program import Assign
 from codegen.ir.scene_operations import Field, HamiltonianDerivatives
 from codegen.ir.site_step import OWN, Load, Row, Sweep
@@ -19,6 +20,12 @@ from codegen.kernel.assignments import Assignments
 from codegen.kernel.shared_angles import SharedArguments
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites, offset_text
+
+RECOMPUTED = (Linear, Zero, Advance)
+"""Operations whose results are computed again in each sweep that reads them, except stored sums."""
+
+EVALUATED = (Field, HamiltonianDerivatives)
+"""Operations that read the states of neighbours."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +62,7 @@ class Execution:
         self.name, self.problem, self.sites = name, problem, sites
         self.rows, self.given, self.coupled = rows, given, coupled
         self.domain = SharedArguments()
-        self.env: dict[Var, Any] = {}
+        self.env: dict[Var, Value] = {}
         self.hints: dict[int, str] = {}
         self.loads: dict[str, Load] = {}
         # Names that users have chosen are reserved, so no computed value gets one of these names.
@@ -84,8 +91,8 @@ class Execution:
         """Execute an assignment."""
         args = tuple(self.env[a] for a in assign.args)
         operation = assign.operation
-        results: tuple[Any, ...]
-        if isinstance(operation, Field | HamiltonianDerivatives):
+        results: tuple[Value, ...]
+        if isinstance(operation, EVALUATED):
             f, dim = self._field(assign.args, args), self.problem.group.dim
             results = (f[:dim], f[dim:]) if self.problem.paired else (f,)
         else:
@@ -95,7 +102,7 @@ class Execution:
             for k, x in enumerate(flatten(target.kind, value)):
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
-    def _field(self, variables: tuple[Var, ...], args: tuple[Any, ...]) -> tuple[Expr, ...]:
+    def _field(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> tuple[Expr, ...]:
         """Return the field at a point. The values of the point that neighbours need are stored at all
         sites."""
         number = len(self.problem.state)

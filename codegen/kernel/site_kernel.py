@@ -14,8 +14,9 @@ from codegen.errors import MethodError
 from codegen.ir.kernel import Field as StateBlock
 from codegen.ir.kernel import Kernel
 from codegen.ir.program import Program
+from codegen.kernel.site_execution import EVALUATED
 from codegen.kernel.site_flows import flow_program
-from codegen.kernel.site_plan import EVALUATED, Planner
+from codegen.kernel.site_plan import Planner
 from codegen.lower import lower, problem_for
 from codegen.lower import lowering as lowering_of
 from codegen.lower.flow_words import FlowLowering
@@ -27,9 +28,9 @@ from codegen.scene.site_scene import with_frozen_neighbours
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method whose step cannot be computed by sweeps over sites."""
-    hint = "methods of the families rkmk, cf, cg, rk and ambient are possible, for example cf:cf4, "
-    hint += "splittings of a scene with parts, and methods of the families vcg, vcf, vrkmk and slgi on a "
-    hint += "HamiltonianSiteScene"
+    hint = "use a method of the family rkmk, cf, cg, rk or ambient, for example cf:cf4; "
+    hint += "a splitting if the scene has parts; "
+    hint += "or a method of the family vcg, vcf, vrkmk or slgi on a HamiltonianSiteScene"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
@@ -44,9 +45,9 @@ class SiteMethod:
     kernel: Kernel
 
 
-def site_method(scene: Problem, method: Method) -> SiteMethod:
+def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMethod:
     """Return the compiled method. The passes do not read the formulas of the field, so they are verified on
-    one site whose neighbours do not move.
+    one site whose neighbours do not move. With ``newton``, Newton's method solves the equations of a chain.
 
     MethodError is raised for methods that evaluate more than the field.
     """
@@ -60,16 +61,16 @@ def site_method(scene: Problem, method: Method) -> SiteMethod:
     operations = [assign.operation for assign in program.assigns()]
     other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
-        what = f"{method.label} on a lattice, with the operation {other[0].name}"
+        what = f"the operation {other[0].name} of {method.label} has no code for lattices"
         raise refused(scene, what, "a method that evaluates only the field, or the derivatives of H")
-    return SiteMethod(problem, lowered, program, trace, site_kernel(program, problem))
+    return SiteMethod(problem, lowered, program, trace, site_kernel(program, problem, newton))
 
 
-def site_kernel(program: Program, problem: Problem) -> Kernel:
+def site_kernel(program: Program, problem: Problem, newton: bool = False) -> Kernel:
     """Return the kernel of a program on the problem of one site
     (:func:`codegen.scene.site_scene.with_frozen_neighbours`)."""
     assert problem.sites is not None
-    step = Planner(program, problem, problem.sites).step()
+    step = Planner(program, problem, problem.sites, newton=newton).step()
     known = tuple(s for s in problem.runtime if s not in problem.sites.names)
     about = "state of one site; row k of an array of states contains number k of all sites"
     name = "y" if problem.paired else problem.state[0].name

@@ -8,26 +8,22 @@ block read the unknowns in place of the images.
 
 from __future__ import annotations
 
+import itertools
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import islice
 
 from codegen.ir.expr import walk
-from codegen.ir.operations import Advance, Linear, Zero
+from codegen.ir.operations import Linear
 from codegen.ir.program import Assign, Program, Solve
-from codegen.ir.scene_operations import Field, HamiltonianDerivatives
 from codegen.ir.site_step import RESULT, STATE, WORK, Row, SiteBlock, SiteStep, Sweep
 from codegen.ir.values import Kind, Var
-from codegen.kernel.site_execution import Content, Execution, blocks_of
+from codegen.kernel.site_execution import EVALUATED, RECOMPUTED, Content, Execution, blocks_of
+from codegen.kernel.site_newton import Linearisation
 from codegen.scene.problem import Problem
 from codegen.scene.sites import Sites
-
-RECOMPUTED = (Linear, Zero, Advance)
-"""Operations whose results are computed again in each sweep that reads them, except stored sums."""
-
-EVALUATED = (Field, HamiltonianDerivatives)
-"""Operations that read the states of neighbours."""
 
 MEASURED = 2
 """The number of rows with the changes and the sizes of unknowns."""
@@ -70,6 +66,7 @@ class Planner:
     order: list[Assign] = field(default_factory=list)
     renamed: dict[Var, Var] = field(default_factory=dict)
     sums: set[Var] = field(default_factory=set)
+    newton: bool = False
 
     def step(self) -> SiteStep:
         """Return the step."""
@@ -87,18 +84,33 @@ class Planner:
             self._require(number, need, [*roots, *(outputs if number == last else ())])
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
-        measured = tuple(Row(WORK, count + k) for k in range(MEASURED)) if self.blocks else ()
+        measured = MEASURED if self.blocks and not self.newton else 0
         sweeps = tuple(
-            self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], measured)
+            self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], count)
             for k, need in enumerate(needs)
         )
         size, sites = len(self.problem.symbols), self.sites
-        step = SiteStep(sites.dimension, sites.offsets, sites.periodic, sweeps, size, count + len(measured))
+        step = SiteStep(sites.dimension, sites.offsets, sites.periodic, sweeps, size, count + measured)
         blocks = tuple(
             SiteBlock(b.solve.label, tuple(u.name for u in b.solve.unknowns), b.first, b.last)
             for b in self.blocks
         )
-        return replace(step, blocks=blocks)
+        step = replace(step, blocks=blocks)
+        return self._with_newton(step, count) if self.newton else step
+
+    def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
+        """Return the step with a matrix for each block; ``count`` is the number of rows without matrices."""
+        sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
+        most = max(sizes, default=0)
+        border = count + most
+        matrix = border + (most * most if self.sites.periodic else 0)
+        blocks = []
+        for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):
+            stored = (self.rows, self._given(), self.coupled, self.makers)
+            linear = Linearisation(self.problem, self.sites, *stored)
+            newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
+            blocks.append(replace(own, newton=newton))
+        return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
     def coupled(self) -> tuple[int, ...]:
@@ -264,7 +276,7 @@ class Planner:
         need: _Needs,
         outputs: tuple[Var, ...],
         later: list[_Needs],
-        measured: tuple[Row, ...],
+        count: int,
     ) -> Sweep:
         read = {v for other in later for v in (other.loaded | other.around)}
         kept = [
@@ -280,10 +292,14 @@ class Planner:
         copies = [pair for block in self.blocks for pair in block.copies(number)]
         ending = tuple(u for block in self.blocks if block.last == number for u in block.solve.unknowns)
         stored = [(self.rows[unknown], value) for unknown, value in copies]
+        measured = tuple(Row(WORK, count + k) for k in range(MEASURED)) if ending and not self.newton else ()
+        if ending and self.newton:
+            # Newton's method stores the residuals and does not change the unknowns.
+            free = (Row(WORK, k) for k in itertools.count(count))
+            stored = [(tuple(islice(free, len(rows))), value) for rows, value in stored]
         stored += [(self.rows[v], v) for v in kept]
         named = zip((name for name, _ in self.program.outputs), outputs, strict=False)
         stored += [(tuple(Row(RESULT, k) for k in self._numbers(name)), v) for name, v in named]
         shown = [a.text() for a in executed if not isinstance(a.operation, RECOMPUTED)]
         shown += [f"{unknown.name} = {value.name}" for unknown, value in copies]
-        own = measured if ending else ()
-        return run.sweep(Content("; ".join(shown), tuple(stored), ending, own))
+        return run.sweep(Content("; ".join(shown), tuple(stored), ending, measured))

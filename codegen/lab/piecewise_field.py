@@ -93,8 +93,9 @@ class PiecewiseField:
         """Return the sides after an event, and the number of continuous derivatives of the field at the
         event.
 
-        The number is -1 for a field that jumps. :class:`SceneError` is raised if the field on the other side
-        points back to the first side, so that the solution would stay on the boundary.
+        The number of continuous derivatives is -1 for a field that jumps. :class:`SceneError` is raised if
+        the field on the other side points back to the first side, so that the solution would stay on the
+        boundary.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)

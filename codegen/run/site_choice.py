@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 from codegen.errors import MethodError
-from codegen.ir.kernel import FIXED_POINT, Kernel
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON, Kernel
 from codegen.kernel.schedule import METHODS
-from codegen.run.solver_choice import AUTO, Choice
+from codegen.run.site_solver import loop_of
+from codegen.run.solver_choice import Choice
 
 
 def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
     """Return the choice of a solver for each block of a lattice; ``name`` is the name of the scene.
 
-    MethodError is raised for an implicit method if another solver than fixed-point iteration is requested.
+    MethodError is raised for an implicit method if a solver is requested that lattices do not have.
     """
     step = kernel.sites
     assert step is not None
-    if step.blocks and asked not in (AUTO, FIXED_POINT):
+    if step.blocks and asked == NEWTON:
         raise MethodError(
             f"{METHODS[asked]} for a chain or lattice",
             where=name,
-            expected=METHODS[FIXED_POINT],
-            hint=f"use --solver {FIXED_POINT}",
+            expected=f"the solver {FIXED_POINT}, or {SIMPLIFIED_NEWTON} for a chain",
         )
     reason = "the numbers of unknowns are those of one site"
     return tuple(
-        Choice(block.label, len(step.sweeps[block.last].unknowns), FIXED_POINT, reason)
+        Choice(block.label, len(step.sweeps[block.last].unknowns), loop_of(block).solver, reason)
         for block in step.blocks
     )

@@ -28,6 +28,7 @@ from codegen.run.site_terms import (
     SITES,
     WHOLE,
     shape_of,
+    split,
 )
 from codegen.run.sites import (
     ABOUT_STEP,
@@ -38,7 +39,6 @@ from codegen.run.sites import (
     checked,
     complete,
     first_site,
-    split,
 )
 from codegen.run.terms import Kind, Term, count, own, select, value, whole
 

@@ -1,9 +1,10 @@
-"""The solution of implicit equations on a lattice, by fixed-point iteration.
+"""The solution of implicit equations on a lattice, by fixed-point iteration or by Newton's method.
 
 An iteration consists of sweeps over all sites. The last sweep replaces the unknowns by their images, and
 stores two numbers for each site: the largest change of an unknown and the largest absolute value of an
 unknown. The maxima over all sites enter the stopping rule of single systems (:mod:`codegen.run.stopping`). In
 contrast to a single system, the last change is always applied, because the images are stored in place of the
+unknowns. Newton's method for chains (:mod:`codegen.run.site_newton`) stores residuals and then corrects the
 unknowns.
 """
 
@@ -12,17 +13,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from codegen.ir.expr import Space
-from codegen.ir.kernel import LOST, Loop
+from codegen.ir.kernel import LOST, Loop, Newton
 from codegen.ir.site_step import STATE, WORK, SiteBlock, SiteStep
 from codegen.kernel.schedule import METHODS
 from codegen.run.language import Array, Assign, Call, For, Function, If, Note, Return, Statement, While
 from codegen.run.plan import STEP, Plan
-from codegen.run.site_terms import ARRAYS, SITES
+from codegen.run.site_newton import ChainSolver, unsolved
+from codegen.run.site_terms import ARRAYS, MEASURED, SITES
 from codegen.run.statistics import SWEEPS
 from codegen.run.stopping import CHANGE, SCALE, Stopping
 from codegen.run.terms import (
     NOT_CONVERGED,
     OK,
+    SINGULAR,
     STATUS,
     Kind,
     Term,
@@ -39,7 +42,7 @@ from codegen.run.terms import (
 MEASURE, REACH = "measured", "largest_state"
 """The names of the functions that compute maxima over all sites: of changes and unknowns, and of states."""
 
-_MEASURED, _REACH, _PLACE = real("measures", 3), real("reach"), count("place")
+_REACH, _PLACE = real("reach"), count("place")
 
 
 class _Stopping(Stopping):
@@ -59,29 +62,34 @@ class _Stopping(Stopping):
 
 def loop_of(block: SiteBlock) -> Loop:
     """Return the block as a loop without a warm start, whose bounds and name the stopping rule reads."""
+    newton = None if block.newton is None else Newton((), (), leading=True)
     # A loop has a warm start if it has no starting values of its own.
-    return Loop(block.label, block.unknowns, (Space().zero,), (), ())
+    return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
 
 
 def iterated(
-    plan: Plan, block_number: int, block: SiteBlock, iteration: Sequence[Statement]
+    plan: Plan, step: SiteStep, block_number: int, block: SiteBlock, iteration: Sequence[Statement]
 ) -> list[Statement]:
     """Return the statements that repeat an iteration until the unknowns converge. If they do not converge,
-    the function returns the status."""
+    or if the matrix is singular, the function returns the status."""
     rule = _Stopping(plan, loop_of(block), block_number, ())
+    chain = None if block.newton is None else ChainSolver(plan, step, block, block_number)
+    measured = Call(MEASURE, (SITES, ARRAYS[WORK], MEASURED)) if chain is None else chain.corrected()
     body: list[Statement] = [
         Assign(SWEEPS, SWEEPS + 1),
         *iteration,
-        Call(MEASURE, (SITES, ARRAYS[WORK], _MEASURED)),
-        Assign(CHANGE, _MEASURED[0]),
-        Assign(SCALE, _MEASURED[1]),
+        measured,
+        Assign(CHANGE, MEASURED[0]),
+        Assign(SCALE, MEASURED[1]),
         *rule.converged(),
-        rule.decided(_MEASURED[2]),
+        rule.decided(MEASURED[2]),
         Assign(rule.previous, CHANGE),
     ]
+    prepared = [] if chain is None else [*chain.prepared(), If(unsolved(), (Return(code(SINGULAR)),))]
     return [
         Note(f"{block.label}: {METHODS[rule.loop.solver]}"),
-        *([Array(_MEASURED)] if block_number == 1 else []),
+        *prepared,
+        *([Array(MEASURED)] if block_number == 1 else []),
         *rule.before(),
         Assign(SWEEPS, whole(0)),
         Assign(STATUS, code(NOT_CONVERGED)),
@@ -91,11 +99,20 @@ def iterated(
     ]
 
 
-def measures(step: SiteStep) -> list[Function]:
-    """Return the functions that compute maxima over all sites; none for an explicit method."""
-    if not step.blocks:
-        return []
-    work, state = ARRAYS[WORK], ARRAYS[STATE]
+def solvers(plan: Plan, step: SiteStep) -> list[Function]:
+    """Return the functions that solve the equations of a step, callees first; none for an explicit method."""
+    listed = [_reach(step)] if step.blocks else []
+    for number_of_block, block in enumerate(step.blocks, 1):
+        if block.newton is not None:
+            listed += ChainSolver(plan, step, block, number_of_block).functions()
+        elif number_of_block == 1:
+            listed.append(_measure(step))
+    return listed
+
+
+def _measure(step: SiteStep) -> Function:
+    """Return the function that computes maxima of changes and unknowns over all sites."""
+    work = ARRAYS[WORK]
     change_row, size_row = (
         (row.number + step.size) * SITES for row in step.sweeps[step.blocks[0].last].measured
     )
@@ -110,24 +127,28 @@ def measures(step: SiteStep) -> list[Function]:
         "The maxima over all sites of the changes and of the unknowns, and the sum of all changes, which is "
     )
     about += "finite only if all changes are."
-    measured = Function(
+    return Function(
         MEASURE,
         about,
-        (SITES, work, _MEASURED),
+        (SITES, work, MEASURED),
         (
             Assign(start[0], change_row),
             Assign(start[1], size_row),
             *(Assign(x, number(0.0)) for x in (most, all_changes, largest)),
             For(_PLACE, SITES, body),
-            *(Assign(_MEASURED[k], x) for k, x in enumerate((most, largest, all_changes))),
+            *(Assign(MEASURED[k], x) for k, x in enumerate((most, largest, all_changes))),
         ),
     )
+
+
+def _reach(step: SiteStep) -> Function:
+    """Return the function that computes the largest entry of the state."""
+    state, most = ARRAYS[STATE], real("most")
     entry = Assign(most, greatest([most, size(state[_PLACE])]))
-    reach = Function(
+    return Function(
         REACH,
         "The largest absolute value in the states of all sites.",
         (SITES, state),
         (Assign(most, number(0.0)), For(_PLACE, step.size * SITES, (entry,)), Return(most)),
         Kind.REAL,
     )
-    return [measured, reach]

@@ -1,9 +1,13 @@
-"""The names of arguments and arrays in the functions of a lattice."""
+"""The names of arguments and arrays in the functions of a lattice, and the places of numbers in arrays."""
 
 from __future__ import annotations
 
-from codegen.ir.site_step import RESULT, STATE, WORK, SiteStep
-from codegen.run.terms import Term, count, flag, real
+from codegen.ir.kernel import Kernel
+from codegen.ir.site_step import RESULT, STATE, WORK, Row, SiteStep
+from codegen.kernel.schedule import Simple, arrange
+from codegen.run.language import Statement, assigned, reads
+from codegen.run.terms import Term, count, flag, real, select, value
+from codegen.run.values import simple
 
 SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
 """The number of all sites, the number of sites in one row of the lattice, the index of a site in its row, and
@@ -20,3 +24,49 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 def shape_of(step: SiteStep) -> Term:
     """Return the argument for the numbers of sites in all dimensions."""
     return count("shape", step.dimension)
+
+
+MEASURED = real("measures", 3)
+"""The largest change of an unknown, the largest unknown, and the sum of all changes, at all sites."""
+
+
+def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
+    """Return an entry of a row of an array."""
+    number = row.number + (step.size if row.array == WORK else 0)
+    array = ARRAYS[row.array]
+    if not number:
+        return array[place]
+    return array[(number * SITES if number > 1 else SITES) + place]
+
+
+def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
+    """Return the test that a neighbour exists (None if it always does), and its index.
+
+    In a periodic lattice, one addition or subtraction of ``size`` brings the index into its range, because
+    ``size`` is larger than every offset. If the neighbour does not exist, the index is that of the site
+    itself.
+    """
+    if not offset:
+        return None, index
+    far = abs(offset)
+    there = index + far < size if offset > 0 else index >= far
+    moved = index + far if offset > 0 else index - far
+    wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index
+    return there, select(there, moved, wrapped)
+
+
+def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
+    """Return the statements of a kernel that read only ``shared`` scalars, all others, and the outputs."""
+    before: list[Statement] = []
+    inside: list[Statement] = []
+    known = set(shared)
+    arranged = arrange(kernel)
+    for statement in arranged.statements:
+        assert isinstance(statement, Simple)
+        for single in simple(statement):
+            if all(term.text in known for term in reads(single)):
+                before.append(single)
+                known |= {term.text for term in assigned(single)}
+            else:
+                inside.append(single)
+    return before, inside, [value(x) for x in arranged.outputs]

@@ -19,9 +19,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 
-from codegen.ir.kernel import Kernel
 from codegen.ir.site_step import OWN, RESULT, STATE, WORK, Load, Row, SiteStep, Sweep
-from codegen.kernel.schedule import Simple, arrange
 from codegen.run.batch import VECTORISED, called_by
 from codegen.run.language import (
     Assign,
@@ -32,11 +30,9 @@ from codegen.run.language import (
     Return,
     Statement,
     While,
-    assigned,
-    reads,
 )
 from codegen.run.plan import STEP, STEPS, TIME, Plan, symbols_of
-from codegen.run.site_solver import iterated, measures
+from codegen.run.site_solver import iterated, solvers
 from codegen.run.site_terms import (
     ARRAYS,
     BAD,
@@ -49,7 +45,10 @@ from codegen.run.site_terms import (
     SITE,
     SITES,
     WHOLE,
+    entry_of,
+    moved,
     shape_of,
+    split,
 )
 from codegen.run.step import exact_time
 from codegen.run.terms import (
@@ -76,10 +75,8 @@ from codegen.run.terms import (
     select,
     size,
     total,
-    value,
     whole,
 )
-from codegen.run.values import simple
 
 _PART, _INNER, _LEAD = count("part"), count("inner"), count("lead")
 _DONE, _COMPLETED = count("done"), count("completed", 1, optional=True, cell=True)
@@ -95,7 +92,7 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
     """Return the functions of a method without flows, callees first."""
     loops = [Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
     listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
-    listed += measures(step)
+    listed += solvers(plan, step)
     return complete(plan, step, [*listed, _advance(plan, step, loops)])
 
 
@@ -109,23 +106,6 @@ def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Functio
 
 def _product(shape: Term, dimension: int) -> Term:
     return reduce(lambda a, b: a * b, (shape[k] for k in range(dimension)))
-
-
-def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
-    """Return the statements of a kernel that read only ``shared`` scalars, all others, and the outputs."""
-    before: list[Statement] = []
-    inside: list[Statement] = []
-    known = set(shared)
-    arranged = arrange(kernel)
-    for statement in arranged.statements:
-        assert isinstance(statement, Simple)
-        for single in simple(statement):
-            if all(term.text in known for term in reads(single)):
-                before.append(single)
-                known |= {term.text for term in assigned(single)}
-            else:
-                inside.append(single)
-    return before, inside, [value(x) for x in arranged.outputs]
 
 
 def checked(values: Sequence[Term]) -> list[Statement]:
@@ -181,11 +161,7 @@ class Loop:
 
     def entry(self, row: Row, place: Term) -> Term:
         """Return an entry of a row of an array."""
-        number = row.number + (self.step.size if row.array == WORK else 0)
-        array = ARRAYS[row.array]
-        if not number:
-            return array[place]
-        return array[(number * SITES if number > 1 else SITES) + place]
+        return entry_of(self.step, row, place)
 
     def loaded(self, load: Load, place: Term, around: dict[int, Term]) -> Term:
         """Return the entry that a load reads."""
@@ -196,14 +172,15 @@ class Loop:
         finite."""
         body, images = self._images(ends)
         tested = []
-        for row, end in zip(self.own.stores, [*images, *ends[len(images) :]], strict=True):
+        replaced = images if self.own.measured else self._residuals(images)
+        for row, end in zip(self.own.stores, [*replaced, *ends[len(images) :]], strict=True):
             if self.last and row.array == RESULT:
                 name = own(f"new {self.plan.symbols[row.number]}")
                 body.append(Assign(name, end))
                 tested.append(name)
                 end = name
             body.append(Assign(self.entry(row, place), end))
-        body += self._measured(images, place)
+        body += self._measured(images, place) if self.own.measured else []
         body += checked(tested) if tested else []
         return body
 
@@ -213,11 +190,13 @@ class Loop:
         images = [own(f"next {u}") for u in self.own.unknowns]
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
 
+    def _residuals(self, images: Sequence[Term]) -> list[Term]:
+        """Return the residuals, which Newton's method stores."""
+        return [x - own(u) for x, u in zip(images, self.own.unknowns, strict=True)]
+
     def _measured(self, images: Sequence[Term], place: Term) -> list[Statement]:
         """Return the statements that store the largest change and the largest absolute value of the
         unknowns."""
-        if not images:
-            return []
         unknowns = [own(u) for u in self.own.unknowns]
         changes = [own(f"change {u}") for u in self.own.unknowns]
         body: list[Statement] = [
@@ -272,8 +251,8 @@ class Loop:
         for k in self.neighbours:
             offset = self.step.offsets[k][-1]
             nears[k] = count(f"near_{k}")
-            there, moved = _moved(COLUMN, offset, COLUMNS, self.step.periodic)
-            column.append(Assign(nears[k], count(f"row_{k}") + moved))
+            there, near = moved(COLUMN, offset, COLUMNS, self.step.periodic)
+            column.append(Assign(nears[k], count(f"row_{k}") + near))
             if not self.step.periodic:
                 exist[k] = flag(f"exists_{k}")
                 outer = [flag(f"inside_{k}")] if self.step.dimension > 1 else []
@@ -325,13 +304,13 @@ class Loop:
         outer = [count(f"i{e}") for e in range(step.dimension - 1)]
         body: list[Statement] = [Assign(ROW, first_site(outer, shape))]
         for k in self.neighbours:
-            moved = []
+            places = []
             tests = []
             for e, index in enumerate(outer):
-                there, place = _moved(index, step.offsets[k][e], shape[e], step.periodic)
-                moved.append(place)
+                there, place = moved(index, step.offsets[k][e], shape[e], step.periodic)
+                places.append(place)
                 tests += [there] if there is not None else []
-            body.append(Assign(count(f"row_{k}"), first_site(moved, shape)))
+            body.append(Assign(count(f"row_{k}"), first_site(places, shape)))
             if outer and not step.periodic:
                 inside = both(*tests) if tests else Term("number", (), Kind.FLAG, number=1)
                 body.append(Assign(flag(f"inside_{k}"), inside))
@@ -374,22 +353,6 @@ def first_site(indices: Sequence[Term], shape: Term) -> Term:
     return total * COLUMNS
 
 
-def _moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
-    """Return the test that a neighbour exists (None if it always does), and its index.
-
-    In a periodic lattice, one addition or subtraction of ``size`` brings the index into its range, because
-    ``size`` is larger than every offset. If the neighbour does not exist, the index is that of the site
-    itself.
-    """
-    if not offset:
-        return None, index
-    far = abs(offset)
-    there = index + far < size if offset > 0 else index >= far
-    moved = index + far if offset > 0 else index - far
-    wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index
-    return there, select(there, moved, wrapped)
-
-
 def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
     """Return the function that makes one step. It does not test the shape of the lattice."""
     body: list[Statement] = []
@@ -400,7 +363,7 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         if any(block.first <= k < block.last for block in step.blocks):
             continue
-        body += iterated(plan, *ends[k], calls) if k in ends else calls
+        body += iterated(plan, step, *ends[k], calls) if k in ends else calls
         calls = []
     return Function(ADVANCE, ABOUT_STEP, advance_parameters(plan, step), (*body, RETURNED), Kind.STATUS)
 

@@ -106,9 +106,11 @@ def operations(roots: Sequence[Expr]) -> int:
 
 
 def _changes(problem: Problem) -> Iterator[_Change]:
-    """Yield the changes of coordinates that define forms: a change to the body frame, if it needs fewer
-    operations than the space frame, and a change to covers of the factors, in the frame that needs fewer
-    operations.
+    """Yield the changes of coordinates that define forms.
+
+    The first change leads to the body frame. It is omitted unless the body frame needs fewer operations than
+    the space frame. The second change leads to covers of the factors, in the frame that needs fewer
+    operations. It is omitted if no factor has a cover.
     """
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):

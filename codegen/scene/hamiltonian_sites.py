@@ -4,7 +4,7 @@ The total energy E is the sum of h(q_i, mu_i) over all sites i, and of V(q_i, q_
 bond has an offset d. The momenta are right-trivialised: q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i
 with xi_i = D_2 h and n_i = -(D_1 E).q_i^-1 (:mod:`codegen.scene.canonical_equations`). A site is the first
 site of one bond and the second site of another bond with the same offset. So n_i contains the derivative of
-V(q_i, q_{i+d}) by its first argument, and that of V(q_{i-d}, q_i) by its second argument.
+V(q_i, q_{i+d}) with respect to q_i, and the derivative of V(q_{i-d}, q_i) with respect to q_i.
 """
 
 from __future__ import annotations
@@ -63,10 +63,10 @@ def HamiltonianSiteScene(
 ) -> Problem:
     """Return the scene of a Hamiltonian chain or lattice. Emitted code accepts any number of sites.
 
-    ``q`` and ``mu`` are the coordinates of a site (``group.point``, ``group.dual``). ``H`` is its own
-    Hamiltonian, a formula in these coordinates, parameters and the time. Each element of ``bonds`` is a
-    :class:`Bond`: the program derives the forces on both of its sites. ``q0`` and ``mu0`` are the initial
-    state of every site; emitted code also accepts an array of initial states.
+    ``q`` and ``mu`` are the coordinates of a site (``group.point``, ``group.dual``). ``H`` is the Hamiltonian
+    of a site without bonds, a formula in these coordinates, parameters and the time. Each element of
+    ``bonds`` is a :class:`Bond`: the program derives the forces on both of its sites. ``q0`` and ``mu0`` are
+    the initial state of every site; emitted code also accepts an array of initial states.
 
     The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the element q of a
     neighbour that does not exist: a column of ``group.size`` formulas in q, t and parameters, or a mapping
@@ -135,7 +135,7 @@ def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
         )
     if len({len(offset) for offset in given}) > 1:
         raise SceneError(
-            f"bonds with the offsets {', '.join(map(str, given))}",
+            f"bonds with offsets of different lengths: {', '.join(map(str, given))}",
             where=name,
             expected="offsets with one entry for each dimension of the lattice",
         )
@@ -200,5 +200,5 @@ def _check_parts(problem: Problem, hamiltonian: Expr) -> None:
                 f"the parts {', '.join(problem.parts)} add up to {orbit.text(sum(values[1:]))}",
                 where=problem.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
-                hint="list all summands of H in parts, and no energy of a bond",
+                hint="list all summands of H in parts, but not the energies of bonds",
             )

@@ -309,6 +309,8 @@ class Problem:
         """Return the time derivatives of the state's coordinates: f(y).y."""
         if self.matrices is not None:
             return self.matrices.velocity(domain, tuple(state), self.scalars(domain, t))
+        if self.semilinear is not None:
+            self.require_formulas()
         problem = self.as_field()
         f: Vector[S] = tuple(evaluate(problem.roots, domain, problem.values(domain, state, t)))
         if isinstance(domain, ExprDomain):

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     import sympy
 
 TWO_THIRDS = Fraction(2, 3)
-"""The fraction of the modes that ``dealias=True`` keeps. The quadratic terms of these modes have no aliases
-among them."""
+"""The fraction of the modes that ``dealias=True`` keeps. A product of two of these modes has no alias among
+the modes that are kept."""
 
 SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
 """Wave numbers at which the symbol is compared with its complex conjugate."""
@@ -260,7 +260,8 @@ def _check(
         expected = [plus[0], *(-y for y in plus[1:])]
         if any(abs(a - b) > 1e-9 * (1 + abs(a)) for a, b in zip(expected, minus, strict=True)):
             raise SceneError(
-                f"an operator L that does not map real functions to real functions, seen at k = {k:g}",
+                f"an operator L that does not map real functions to real functions: the test fails at k = "
+                f"{k:g}",
                 where=reader.name,
                 expected="a symbol whose value at -k is the complex conjugate of its value at k",
                 hint="write I*k for d/dx and abs(k) for sqrt(-d^2/dx^2)",

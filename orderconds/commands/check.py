@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""If a claim fails, the text output lists at most this many failing conditions. If no claim fails, it lists
-one. The JSON output lists all failing conditions."""
+"""If a claim fails, the text output lists at most this number of failing conditions. If no claim fails, the
+text output lists one failing condition. The JSON output lists all failing conditions."""
 
 UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
@@ -300,7 +300,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
     every other argument is yielded unchanged.
 
     The names of skipped files are written to stderr, with the reason. If ``strict`` is true, only files that
-    are plainly other data are skipped.
+    do not resemble tableaux are skipped.
     """
     for argument in arguments:
         if not argument.strip():

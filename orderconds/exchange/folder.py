@@ -44,7 +44,7 @@ class Folder:
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
 
-    If ``strict`` is true, only files that are plainly other data are skipped.
+    If ``strict`` is true, only files that do not resemble tableaux are skipped.
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())
@@ -78,8 +78,8 @@ def _is_hidden(name: str) -> bool:
 
 @dataclass(frozen=True)
 class Reason:
-    """Why a file is skipped. ``plain`` is true if the file is plainly other data, and false if it may be a
-    tableau in a notation that cannot be read."""
+    """Why a file is skipped. ``plain`` is true if the file contains nothing that resembles a tableau, and
+    false if it may be a tableau in a notation that cannot be read."""
 
     text: str
     plain: bool = True
@@ -88,8 +88,8 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return why a file contains no tableau, or an empty text if the file must be read as a tableau.
 
-    A file that is damaged is to be read, so that its error is reported. If ``strict`` is true, a file that is
-    not plainly other data is to be read as well.
+    A damaged file must be read, so that the error is reported. If ``strict`` is true, a file that resembles a
+    tableau must be read as well.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root

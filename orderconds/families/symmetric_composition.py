@@ -107,7 +107,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None. No caller uses this result: the function is called only for families whose name is
+        """Return None. No caller needs this method, because callers use it only for families whose name is
         also the name of a tableau format."""
         return None
 

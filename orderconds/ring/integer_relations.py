@@ -13,8 +13,8 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""A relation is accepted if random numbers satisfy a relation of this size only with probability below
-2^-GUARD."""
+"""A relation is accepted only if the probability is below 2^-GUARD that random numbers satisfy some relation
+with coefficients of the same size."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:

@@ -208,8 +208,8 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the part of the coefficient of u x v in which x comes from one given exponential. The
-        coefficient of x in the exponent is counted as one."""
+        """Return the sum of the terms of the coefficient of u x v in which x comes from one given
+        exponential. The terms are computed as if the coefficient of x in the exponent were one."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):

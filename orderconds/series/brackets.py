@@ -116,7 +116,8 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return for each j the grade of q_j, and q_j as a row over k_1, ..., k_j."""
+    """Return, for each j, the grade g of q_j (h q_j is of order h^g) and the coefficients of q_j in k_1, ...,
+    k_j."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]

@@ -178,9 +178,10 @@ def exact_value(forest: Forest) -> Fraction:
 def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     """Return the value a(w) of a series on every ordered forest w with ``order`` vertices.
 
-    These values determine the step: a function phi satisfies phi(y1) = sum_w h^|w| a(w) (X_1 ... X_k phi)(y0)
-    for w = t_1 ... t_k, where X_l differentiates along the fixed element F(t_l) of the Lie algebra and F([t_1
-    ... t_k]) = (X_1 ... X_k f)(y0); for matrices g1 = sum_w h^|w| a(w) F(t_k) ... F(t_1).
+    These values determine the step. Let w = t_1 ... t_k, and let X_l differentiate along the fixed element
+    F(t_l) of the Lie algebra. The elements are F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Then every function
+    phi satisfies phi(y1) = sum_w h^|w| a(w) (X_1 ... X_k phi)(y0). For matrices, g1 = sum_w h^|w| a(w) F(t_k)
+    ... F(t_1).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

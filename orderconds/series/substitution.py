@@ -26,10 +26,11 @@ Combination = dict[Forest, Element]
 
 
 def substituted(field: VectorField, step: Character) -> Character:
-    """Return the series of ``step``, applied to ``field`` in place of f. Both must be given over the same
-    ring.
+    """Return the series of ``step``, applied to ``field`` in place of f. The values of ``step`` and ``field``
+    must be elements of the same ring.
 
-    For example, the exact flow of the modified field of a method is the method itself.
+    For example, if ``step`` is the exact flow and ``field`` is the modified field of a method, the result is
+    the series of the method.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow

@@ -2,9 +2,10 @@
 
 Compute a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, there is no
 method, real or complex. If the basis contains a polynomial in one coefficient, Sturm's theorem gives the
-number of its real roots. If there are none, there is no real method. (If the formulas of the family divide by
-the coefficient, the root zero does not count.) The certificate expresses the number 1 or the polynomial as a
-combination of the conditions. A reader can verify the certificate by multiplication.
+number of real roots of this polynomial. If the polynomial has no real roots, there is no real method. (If the
+formulas of the family divide by the coefficient, the root zero does not count.) The certificate expresses the
+number 1 or the polynomial as a combination of the conditions. A reader can verify the certificate by
+multiplication.
 """
 
 from __future__ import annotations

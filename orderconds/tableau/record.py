@@ -192,8 +192,8 @@ defined under numbers (none)
 
     @cached_property
     def orders(self) -> dict[str, int]:
-        """The computed orders of the tableau, by the label of the family: ``{"rk": 4, ...}``. The families
-        are all those to which the method belongs.
+        """The computed orders of the tableau in all families to which the method belongs, by the label of the
+        family: ``{"rk": 4, ...}``.
 
         :func:`orderconds.check` also returns certificates and failing conditions.
         """

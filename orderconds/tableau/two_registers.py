@@ -2,8 +2,8 @@
 
 The state Y and one element K of the Lie algebra are all that a step stores (Williamson, J. Comput. Phys. 35
 (1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). As a commutator-free method a 2N scheme
-has one exponential for each stage, and each stage begins where the last one ended. On a vector space, a 2N
-scheme is a Runge-Kutta method. The rows i and i + 1 of A differ by B_i K_i, where b counts as row s + 1.
+has one exponential for each stage, and each stage begins where the previous stage ended. On a vector space, a
+2N scheme is a Runge-Kutta method. The rows i and i + 1 of A differ by B_i K_i, where b counts as row s + 1.
 
 The recognition compares the increment from each stage to the next, or to the update, with B_i K_i, where K_i
 = F_i + sum_{j < i} A_{j+1} ... A_i F_j. The coefficient of F_i in an increment is B_i, and A_i is the
@@ -59,9 +59,9 @@ class TwoRegisters:
 
 @dataclass(frozen=True)
 class Rewriting:
-    """The result of a recognition: ``holds`` is None if balls are too wide to decide. ``scheme`` is the 2N
-    scheme. It is None if the method is not a 2N scheme, and if a rounded denominator may be zero; in these
-    cases ``reason`` says why."""
+    """The answer to the question whether a method is a 2N scheme. ``holds`` is None if balls are too wide to
+    decide. ``scheme`` is the 2N scheme. If the method is not a 2N scheme, or if a rounded denominator may be
+    zero, ``scheme`` is None and ``reason`` contains the reason."""
 
     holds: Verdict
     scheme: TwoRegisters | None = None
@@ -96,6 +96,22 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
         A.append(quotient)
     scheme = TwoRegisters(tuple(A), B)
     return _compared(scheme, rows, ring)
+
+
+def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | None:
+    """Return the exponent of the one exponential that leads from the update to the second update; None if
+    the second update is another product.
+
+    With the exponent sum_i D_i F_i, a third register E <- E + D_i F_i holds all that the second update needs.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> pair = Tableau.load(find("cf43"))
+    >>> second_exponent(pair.method, pair.embedded.update, pair.ring) is None
+    True
+    """
+    *path, last = method.from_start(second)
+    update = list(method.from_start(method.update))
+    return last if len(path) == len(update) and _same(path, update, ring) else None
 
 
 def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:

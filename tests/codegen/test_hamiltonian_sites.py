@@ -178,7 +178,7 @@ def test_wrong_energies_are_refused(options, message):
 def test_bonds_of_different_dimensions_are_refused():
     q = SO3().point("q")
     listed = [Bond(o, q[0] * neighbour(q, o)[0]) for o in ((1,), (0, 1))]
-    with pytest.raises(SceneError, match="bonds with the offsets"):
+    with pytest.raises(SceneError, match="bonds with offsets of different lengths"):
         spinning(bonds=listed)
 
 

@@ -7,13 +7,16 @@ from functools import cache
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from sympy import Matrix, symbols
 
 from codegen import emit, load_lattice
 from codegen.arrival import Status
 from codegen.errors import MethodError
+from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
 from codegen.lower import lower, method_for, problem_for
+from codegen.scene import SiteScene, left, param, right
 from codegen.scene.unrolled import unrolled
 from orderconds.cli import program
 from tests.codegen.bodies import bodies, joined, springs
@@ -165,9 +168,101 @@ def test_a_variational_method_conserves_the_momentum_of_a_free_chain():
     assert np.abs(result.states[:, 12:] - start[:, 12:]).max() > 0.1
 
 
+NEWTON = "simplified-newton"
+
+
+def springs_in_a_row(**options):
+    """Return a chain of points on a line with stiff springs."""
+    y = Matrix(symbols("q p", real=True))
+    force = 10**4 * (left(y)[0] - 2 * y[0] + right(y)[0])
+    given = {"group": Rn(2), "action": LeftMultiplication(), "y": y, "f": [y[1], force], "y0": [1, 0]}
+    return SiteScene(**(given | {"span": (0, 1), "name": "row"} | options))
+
+
+OPEN_ROW = {"boundary": "open", "outside": {(-1,): [0, 0], (1,): Matrix(symbols("q p", real=True)) / 2}}
+
+
+def midpoint_of_the_row(start, h, periodic):
+    """Return a step of the midpoint rule by dense linear algebra."""
+    n = len(start)
+    second = -2 * np.eye(n)
+    for i in range(n):
+        for j in (i - 1, i + 1):
+            if periodic or 0 <= j < n:
+                second[i, j % n] += 1
+    if not periodic:
+        second[-1, -1] += 0.5
+    A = np.block([[np.zeros((n, n)), np.eye(n)], [1e4 * second, np.zeros((n, n))]])
+    unit = np.eye(2 * n)
+    end = np.linalg.solve(unit - h / 2 * A, (unit + h / 2 * A) @ start.T.ravel())
+    return end.reshape(2, n).T
+
+
+@pytest.mark.parametrize(
+    ("options", "numbers"),
+    [(OPEN_ROW, (1, 2, 5)), pytest.param({}, (2, 3, 6), marks=pytest.mark.slow)],
+    ids=["open", "periodic"],
+)
+def test_newtons_method_solves_stiff_chains(options, numbers):
+    # Fixed-point iteration would multiply the error by about 1e4 in each sweep.
+    lattice = load_lattice(emit(springs_in_a_row(**options), "rk:gauss1", target="c", solver=NEWTON))
+    for n in numbers:
+        start = states((n,), 2)
+        result = lattice.run(start, 1.0, 1)
+        expected = midpoint_of_the_row(start, 1.0, not options)
+        assert (result.status, result.completed) == (Status.OK, 1)
+        assert np.abs(result.states - expected).max() < 1e-11 * np.abs(expected).max()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "method", "shape"),
+    [
+        ("chain", "rkmk:gauss2", (4,)),
+        ("chain", "rkmk:gauss2", (2,)),
+        ("open_chain", "cf:gauss2", (4,)),
+        ("open_chain", "rkmk:gauss1", (1,)),
+        ("oscillators", "rk:crouzeix3", (4,)),
+    ],
+)
+def test_newtons_method_has_the_solution_of_the_product(name, method, shape):
+    lattice = load_lattice(emit(SCENES[name](), method, target="c", solver=NEWTON))
+    start = states(shape, lattice.interface.size)
+    for h in (0.1, 1.0):
+        found = lattice.run(start, h, 1, t=0.3)
+        expected = step_of_the_product(name, method, start, h, 0.3)
+        assert found.ok
+        assert np.abs(found.states - expected).max() < 2e-14
+
+
+@pytest.mark.slow
+def test_newtons_method_solves_variational_equations():
+    newton = load_lattice(emit(bodies(), "vcg:midpoint", target="c", solver=NEWTON))
+    fixed = load_lattice(emit(bodies(), "vcg:midpoint", target="c"))
+    start = moving_bodies(6)
+    found, expected = newton.run(start, 0.02, 5), fixed.run(start, 0.02, 5)
+    assert found.ok
+    assert np.abs(found.states - expected.states).max() < 1e-13
+
+
+def test_a_singular_matrix_is_reported():
+    (y,) = symbols("q:1", real=True)
+    c = param("c", 1)
+    given = {"group": Rn(1), "action": LeftMultiplication(), "y": [y], "y0": [1], "span": (0, 1)}
+    scene = SiteScene(f=[2 * y + c * left([y])[0]], boundary="open", outside=[0], **given)
+    options = {"target": "c", "solver": NEWTON, "parameters": ["c"]}
+    lattice = load_lattice(emit(scene, "rk:gauss1", **options))
+    result = lattice.run([[1.0], [2.0]], 1.0, 1, c=0.0)
+    assert (result.status, result.completed) == (Status.SINGULAR, 0)
+    assert "the matrix of the equations" in result.reason
+    assert lattice.run([[1.0], [2.0]], 0.5, 1, c=1.0).ok
+
+
 def test_other_solvers_are_refused():
-    with pytest.raises(MethodError, match="first order in h for a chain or lattice; expected fixed point"):
-        emit(oscillators(), "rk:gauss1", target="c", solver="simplified-newton")
+    with pytest.raises(MethodError, match="expected the solver fixed-point, or simplified-newton"):
+        emit(oscillators(), "rk:gauss1", target="c", solver="newton")
+    with pytest.raises(MethodError, match="a chain whose field reads the nearest neighbours only"):
+        emit(plane(), "rkmk:gauss1", target="c", solver=NEWTON)
 
 
 def test_explain_shows_the_sweeps_that_are_repeated():

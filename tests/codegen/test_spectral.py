@@ -10,6 +10,7 @@ from math import pi
 import mpmath
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from sympy import I, Rational, Symbol, cos, sin, symbols
 from sympy import pi as period
 
@@ -26,6 +27,7 @@ from codegen.printers.c.module import FLAGS
 from codegen.scene import Dx, SemilinearScene, param
 from codegen.scene.semilinear import EIGENVALUE, model_of
 from codegen.scenes import problem_of
+from orderconds.cli import program
 from orderconds.errors import InputError
 
 u, k, x, t = symbols("u k x t", real=True)
@@ -362,6 +364,8 @@ def test_derivatives_have_a_largest_order():
         ("rk:rk4", {}, "whose group is"),
         ("ambient:rk4", {}, "a semilinear equation"),
         ("cf:cf4", {"jacobian": True}, "a Jacobian"),
+        ("cf:cf4", {"compensate": True}, "compensated summation"),
+        ("cf:cf4", {"batch": True}, "batch for a semilinear"),
     ],
 )
 def test_a_method_that_cannot_be_compiled_is_refused(method, options, message):
@@ -406,6 +410,17 @@ def test_tables_for_another_number_of_points_are_refused():
     call = own._function("run")
     assert call(16, own._pointer(values), 1, own._pointer(tables), transform, own._pointer(work), done) == 12
     assert own._function("prepare")(7, 0.1, own._pointer(tables)) == Status.BAD_SHAPE
+
+
+def test_single_precision_is_refused():
+    with pytest.raises(InputError, match="single precision"):
+        emit(KS, "cf:cf4", precision="single")
+
+
+def test_a_command_that_needs_coordinates_says_so():
+    result = CliRunner().invoke(program, ["converge", ALLEN_CAHN, "--method", "cf:cf4"])
+    assert result.exit_code == 2
+    assert "a semilinear equation" in result.output
 
 
 def test_modules_are_loaded_by_their_own_function():
@@ -453,7 +468,7 @@ def test_the_example_of_the_header_runs_under_sanitizers(tmp_path, name):
         (tmp_path / file).write_text(text)
     example = artifact.files["p.c"].partition(" * Use:\n")[2].partition("\n */")[0]
     (tmp_path / "main.c").write_text(
-        "\n".join(line.removeprefix(" *").removeprefix("     ") for line in example.splitlines())
+        "\n".join(line.removeprefix(" *").removeprefix("     ") for line in [*example.splitlines(), ""])
     )
     compiler = shutil.which("gcc") or find_compiler().command[0]
     flags = [f for f in FLAGS if f != "-O2"] + [
@@ -464,6 +479,8 @@ def test_the_example_of_the_header_runs_under_sanitizers(tmp_path, name):
     subprocess.run(
         [compiler, *flags, "main.c", "p.c", "p_fft.c", "-lm", "-o", "main"], cwd=tmp_path, check=True
     )
+    if clang := shutil.which("clang"):
+        subprocess.run([clang, *FLAGS, "-c", "main.c", "p.c", "p_fft.c"], cwd=tmp_path, check=True)
     found = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=False)
     assert "status" in found.stdout
     assert not found.stderr

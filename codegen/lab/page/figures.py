@@ -196,8 +196,8 @@ class _Plane:
 
     @classmethod
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
-        """Return a grid over the part of :data:`PLANE` that contains the stable regions, with a margin. The
-        grid covers all of :data:`PLANE` if a region reaches its upper edge."""
+        """Return a grid over the part of :data:`PLANE` that contains the stable regions, with a margin. If
+        a region reaches the upper edge of :data:`PLANE`, the grid covers all of :data:`PLANE`."""
         whole = cls.between(*PLANE)
         points = [
             (x, y)

@@ -80,7 +80,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
-        widest=max((len(loop.unknowns) for loop in kernel.loops if loop.newton is not None), default=0),
+        widest=max(inverted_sizes(kernel), default=0),
         chain=chain(kernel),
         prefix=interface.prefix,
         batch=interface.batch or bool(interface.dimension),
@@ -189,10 +189,18 @@ def _forms(unit: Unit) -> set[str]:
     return names
 
 
+def inverted_sizes(kernel: Kernel) -> set[int]:
+    """Return the sizes of the matrices that a step inverts by elimination."""
+    blocks = () if kernel.sites is None else kernel.sites.blocks
+    chains = {block.newton.size for block in blocks if block.newton is not None}
+    loops = [loop for loop in kernel.loops if loop.newton is not None and not loop.newton.inverted]
+    return {len(loop.unknowns) for loop in loops} | chains
+
+
 def inverted(kernel: Kernel) -> int:
     """Return the size of the inverted matrices; 0 if there are none, if they have several sizes, or if they
     are large."""
-    sizes = {len(x.unknowns) for x in kernel.loops if x.newton is not None and not x.newton.inverted}
+    sizes = inverted_sizes(kernel)
     # If all matrices have one small size, ``invert`` is written for this size, with unrolled rows.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
@@ -218,7 +226,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     bound = -(-(each * numbers + frames) // 64) * 64
     if bound > LARGEST_STACK:
         raise SceneError(
-            f"a step that needs {bound / 2**20:.1f} MiB of the stack",
+            f"a step needs {bound / 2**20:.1f} MiB of the stack",
             where=interface.module,
             expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
             hint="use fewer rows, a method with fewer stages, or the target python",

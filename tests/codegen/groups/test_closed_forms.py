@@ -53,6 +53,8 @@ WORDS = {
     "left dexp*": ((Factor("dexp", Fraction(-1)),), True),
     "1/dexp": ((Factor("dexp", Fraction(1), 0, -1),), False),
     "1/dexp*": ((Factor("dexp", Fraction(1), 0, -1),), True),
+    "left 1/dexp": ((Factor("dexp", Fraction(-1), 0, -1),), False),
+    "left 1/dexp*": ((Factor("dexp", Fraction(-1), 0, -1),), True),
 }
 """The functions of ad_x, and whether ad*_x replaces ad_x."""
 
@@ -150,13 +152,14 @@ def operators(group, x):
     right, left = operator(group, x, 1), operator(group, x, -1)
     # At a full turn dexp has no inverse.
     turn = math.hypot(*map(float, x[: rotations(group)]))
-    inverse = right.inv() if abs(turn - TWO_PI) > 1e-10 else None
+    inverse, opposite = (right.inv(), left.inv()) if abs(turn - TWO_PI) > 1e-10 else (None, None)
     return {
         "dexp": right,
         "left dexp": left,
         "dexp*": right.transpose(),
         "left dexp*": left.transpose(),
         **({} if inverse is None else {"1/dexp": inverse, "1/dexp*": inverse.transpose()}),
+        **({} if opposite is None else {"left 1/dexp": opposite, "left 1/dexp*": opposite.transpose()}),
     }
 
 

@@ -128,6 +128,24 @@ def test_the_matrix_of_a_large_state_is_passed_tested_and_stored_as_a_whole(targ
     assert ("all_finite(v_2, 25)" if target == "c" else "isfinite, v_2)") in source
 
 
+@slow
+@pytest.mark.parametrize("method", ["rkmk(0):euler", "rkmk:rk4"])
+def test_the_text_grows_at_most_linearly_with_the_number_of_entries(method):
+    """Each coordinate of the field has a formula; functions of matrices are loops."""
+    sizes, lengths = (6, 8, 10), []
+    for n in sizes:
+        group = SO(n)
+        y = [Symbol(f"y{k}", real=True) for k in range(n * n)]
+        f = [y[k] - y[k + n] / 3 for k in range(group.dim)]
+        scene = FieldScene(
+            group=group, action=LeftMultiplication(), y=y, f=f, y0=list(eye(n)), span=(0, 1), name="turns"
+        )
+        files = emit_compiled(compile_method(scene, method), "c").files
+        lengths.append(sum(map(len, files.values())))
+    first, second = ((lengths[i + 1] - lengths[i]) / (sizes[i + 1] ** 2 - sizes[i] ** 2) for i in (0, 1))
+    assert 0 < second <= 1.1 * first
+
+
 ON_GROUPS = {"rkmk", "cg", "cf", "ambient", "taylor"}
 ON_BUNDLES = ON_GROUPS | {"vcg", "vrkmk", "vcf", "vrkmk_pade", "slgi", "discrete_gradient"}
 PROMISED = [("field", "SO(5)", "cf:cf4"), ("hamiltonian", "SO(4)", "vcg:midpoint")]
@@ -251,7 +269,7 @@ def test_a_step_that_turns_too_far_has_a_status():
     for target in ("c", "python"):
         module = load(emit_compiled(made, target))
         start = list(made.problem.initial(FloatDomain(0.0)))
-        with pytest.raises(ArithmeticError, match="turns or moves too far"):
+        with pytest.raises(ArithmeticError, match="the step is too long"):
             module.step(start, 1e30)
         with pytest.raises(ArithmeticError, match="not finite"):
             module.step([float("nan"), *start[1:]], 0.1)

@@ -27,7 +27,7 @@ from codegen.run.language import Unit
 from codegen.run.matrix_functions import matrix_functions, matrix_tables
 
 ULP = 2.0**-52
-ROWS = (1, 2, 3, *(pytest.param(n, marks=pytest.mark.slow) for n in (5, 8)))
+ROWS = (1, 2, 3, *(pytest.param(n, marks=pytest.mark.slow) for n in (4, 5, 6, 8)))
 
 
 def skew(n, norm, rng):

@@ -174,6 +174,16 @@ def test_emitted_steps_keep_the_casimir_function(name, label):
     assert max(abs(a - b) for a, b in zip(after, module.initial, strict=True)) > 0.1
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("label", ["rkmk:rk4", "cf:cf4"])
+def test_a_hundred_thousand_steps_keep_the_casimir_function_on_the_dual_of_se2(label):
+    module = load_module(emit(scene("planar_body_in_fluid"), label, "c"))
+    _, *start = module.initial
+    _, *end = module.run(module.initial, 0.01, 100_000)
+    assert abs(np.dot(end, end) - np.dot(start, start)) < 1e-12
+    assert np.abs(np.subtract(end, start)).max() > 0.1
+
+
 def test_emitted_steps_keep_the_coordinates_in_the_frame():
     module = load_module(emit(scene("frame_and_trajectory"), "cf:cf4", "c"))
 

@@ -1,0 +1,294 @@
+"""Newton's method for the equations of a chain, with a block-tridiagonal matrix.
+
+The matrix 1 - g', to first order in h, is computed and factored once in each step. Let A_i, B_i and C_i be
+the blocks of site i for the unknowns of its left neighbour, of the site itself, and of its right neighbour.
+Block elimination (the Thomas algorithm) computes D_i = B_i - A_i D_{i-1}^{-1} C_{i-1} from left to right. The
+blocks are replaced by D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i. Rows are exchanged only within a block D_i.
+
+In a periodic chain the first and the last site are neighbours. The last site is eliminated: the equations of
+all other sites are solved for the residuals and for the columns that multiply the unknowns of the last site.
+The work and the memory of a step are proportional to the number of sites.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.ir.site_step import OWN, SiteBlock, SiteNewton, SiteStep
+from codegen.run.language import Array, Assign, Call, For, Function, If, Return, Statement
+from codegen.run.plan import STEP, TIME, Plan, symbols_of
+from codegen.run.site_terms import ARRAYS, MEASURED, PLACE, SITES, entry_of, moved, split
+from codegen.run.terms import Kind, Term, count, greatest, number, own, real, select, size, whole
+
+_INNER, _LAST, _BASE, _FIRST = count("inner"), count("last"), count("base"), count("first")
+_SITE, _I, _J, _K, _SUM = count("site"), count("i"), count("j"), count("k"), real("sum")
+_SINGULAR, _REGULAR, _ENTRY = count("singular"), count("regular"), count("entry")
+LEFT, OWN_BLOCK, RIGHT = range(3)
+
+
+@dataclass(frozen=True)
+class ChainSolver:
+    """The functions that solve the linear equations of one block; ``index`` is the number of the block."""
+
+    plan: Plan
+    step: SiteStep
+    block: SiteBlock
+    index: int
+
+    @property
+    def newton(self) -> SiteNewton:
+        """The matrix."""
+        assert self.block.newton is not None
+        return self.block.newton
+
+    @property
+    def n(self) -> int:
+        """The number of unknowns of a site."""
+        return self.newton.size
+
+    @property
+    def work(self) -> Term:
+        """The workspace."""
+        return ARRAYS["work"]
+
+    def name(self, of: str) -> str:
+        """Return the name of a function of the block."""
+        return f"{of}_{self.index}"
+
+    def functions(self) -> list[Function]:
+        """Return the functions, callees first."""
+        return [self.linearise(), self.substitute(), self.factor(), self.correct()]
+
+    def prepared(self) -> list[Statement]:
+        """Return the statements that compute and factor the matrix; they count singular blocks."""
+        linearise = self.linearise()
+        return [
+            Call(linearise.name, linearise.parameters),
+            Call(self.name("factor"), (SITES, self.work), (_SINGULAR,)),
+        ]
+
+    def corrected(self) -> Statement:
+        """Return the call that solves the equations for the residuals and corrects the unknowns."""
+        return Call(self.name("correct"), (SITES, self.work, MEASURED))
+
+    def row(self, number: int) -> Term:
+        """Return the index of the first entry of a row of the workspace."""
+        return (number + self.step.size) * SITES
+
+    def cell(self, site: Term, block: int, i: Term, j: Term) -> Term:
+        """Return an entry of a block of the matrix."""
+        n = self.n
+        inner = i * n + j + block * n * n if block else i * n + j
+        return self.work[_BASE + site * (3 * n * n) + inner]
+
+    def border(self, site: Term, i: Term, j: Term) -> Term:
+        """Return entry i of column j of the border."""
+        return self.work[(self.newton.border + self.step.size + j * self.n + i) * SITES + site]
+
+    def opening(self) -> list[Statement]:
+        """Return the statements that define the place of the matrix and the number of eliminated sites."""
+        inner = SITES - 1 if self.step.periodic else SITES
+        return [Assign(_BASE, self.row(self.newton.matrix)), Assign(_INNER, inner)]
+
+    def dot(self, term: Term, plus: bool = False) -> list[Statement]:
+        """Return the statements that subtract a term from the sum, for all k; with ``plus`` they add it."""
+        return [For(_K, whole(self.n), (Assign(_SUM, _SUM + term if plus else _SUM - term),))]
+
+    def linearise(self) -> Function:
+        """Return the function that computes the matrix."""
+        newton, step = self.newton, self.step
+        before, inside, ends = split(
+            newton.kernel, {TIME.text, STEP.text, *(p.text for p in self.plan.parameters)}
+        )
+        nears = {OWN: PLACE}
+        body: list[Statement] = []
+        for k in sorted({load.neighbour for load in newton.loads} - {OWN}):
+            there, place = moved(PLACE, step.offsets[k][0], SITES, step.periodic)
+            nears[k] = count(f"near_{k}")
+            body.append(Assign(nears[k], place))
+        read = symbols_of(newton.kernel)
+        for k, symbol in enumerate(newton.exists):
+            there, _ = moved(PLACE, step.offsets[k][0], SITES, step.periodic)
+            if symbol in read and there is not None:
+                body.append(Assign(own(symbol), select(there, number(1.0), number(0.0))))
+        body += [Assign(own(x.symbol), entry_of(step, x.row, nears[x.neighbour])) for x in newton.loads]
+        first = Assign(_ENTRY, _BASE + PLACE * (3 * self.n * self.n))
+        stores = [
+            Assign(self.work[_ENTRY + k] if k else self.work[_ENTRY], end) for k, end in enumerate(ends)
+        ]
+        loop = For(PLACE, SITES, (*body, *inside, first, *stores))
+        arrays = {x.row.array for x in newton.loads} | {"work"}
+        scalars = tuple(x for x in (TIME, STEP, *self.plan.parameters) if x.text in read)
+        given = tuple(array for name, array in ARRAYS.items() if name in arrays)
+        about = "The blocks of the matrix of Newton's method, site after site."
+        start = Assign(_BASE, self.row(newton.matrix))
+        return Function(self.name("linearise"), about, (SITES, *given, *scalars), (start, *before, loop))
+
+    def substitute(self) -> Function:
+        """Return the function that solves the factored equations for one right-hand side, in place."""
+        n, value = self.n, real("value", self.n)
+
+        def x(site: Term, k: Term) -> Term:
+            return self.work[_FIRST + k * SITES + site]
+
+        left = self.cell(_SITE, LEFT, _I, _K) * x(_SITE - 1, _K)
+        forward = For(
+            _I,
+            whole(n),
+            (
+                Assign(_SUM, number(0.0)),
+                *self.dot(self.cell(_SITE, OWN_BLOCK, _I, _K) * x(_SITE, _K), plus=True),
+                If(_SITE > 0, tuple(self.dot(left))),
+                Assign(value[_I], _SUM),
+            ),
+        )
+        taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
+        right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
+        backward = For(
+            _I,
+            whole(n),
+            (Assign(_SUM, x(_SITE, _I)), *self.dot(right), Assign(x(_SITE, _I), _SUM)),
+        )
+        body: list[Statement] = [
+            Assign(_BASE, self.row(self.newton.matrix)),
+            For(_SITE, _INNER, (Array(value), forward, taken)),
+            For(_SITE, _INNER - 1, (backward,), reverse=True),
+        ]
+        about = "Solve the equations of the first sites, in place, by forward and back substitution."
+        return Function(self.name("substitute"), about, (_INNER, SITES, self.work, _FIRST), tuple(body))
+
+    def factor(self) -> Function:
+        """Return the function that factors the matrix and returns the number of singular blocks."""
+        n, diagonal, column = self.n, real("diagonal", self.n * self.n), real("column", self.n)
+        invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
+        counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
+        left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
+        pivot = (
+            Assign(_SUM, self.cell(_SITE, OWN_BLOCK, _I, _J)),
+            If(_SITE > 0, tuple(self.dot(left))),
+            Assign(diagonal[_I * n + _J], _SUM),
+        )
+        scaled: list[Statement] = []
+        for block in (LEFT, RIGHT):
+            entry = (
+                Assign(_SUM, number(0.0)),
+                For(
+                    _K,
+                    whole(n),
+                    (Assign(_SUM, _SUM + diagonal[_I * n + _K] * self.cell(_SITE, block, _K, _J)),),
+                ),
+                Assign(column[_I], _SUM),
+            )
+            back = Assign(self.cell(_SITE, block, _I, _J), column[_I])
+            scaled.append(For(_J, whole(n), (For(_I, whole(n), entry), For(_I, whole(n), (back,)))))
+        stored = Assign(self.cell(_SITE, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
+        site = (self.both(pivot), invert, counted, *scaled, self.both((stored,)))
+        body: list[Statement] = [
+            *self.opening(),
+            Assign(_SINGULAR, whole(0)),
+            Array(diagonal),
+            Array(column),
+            *(self.border_columns() if self.step.periodic else []),
+            For(_SITE, _INNER, site),
+            *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
+            Return(_SINGULAR),
+        ]
+        about = "Factor the matrix by block elimination; return the number of singular blocks."
+        return Function(self.name("factor"), about, (SITES, self.work), tuple(body), Kind.COUNT)
+
+    def both(self, body: tuple[Statement, ...]) -> For:
+        """Return a loop over all rows and columns of a block."""
+        return For(_I, whole(self.n), (For(_J, whole(self.n), body),))
+
+    def border_columns(self) -> list[Statement]:
+        """Return the statements that set the border: the coefficients of the unknowns of the last site."""
+        n, ends = self.n, []
+        for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
+            there = self.border(site, _I, _J)
+            ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
+        place = count("place")
+        zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
+        return [Assign(_LAST, _INNER - 1), For(place, n * n * SITES, (zero,)), *ends]
+
+    def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
+        """Return the statements that solve for the border and invert the remaining block of the last site."""
+        n = self.n
+        first = (self.newton.border + self.step.size + _J * n) * SITES
+        solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
+        right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
+        left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
+        pivot = (
+            Assign(_SUM, self.cell(_INNER, OWN_BLOCK, _I, _J)),
+            *self.dot(right),
+            *self.dot(left),
+            Assign(diagonal[_I * n + _J], _SUM),
+        )
+        stored = Assign(self.cell(_INNER, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
+        return [solved, self.both(pivot), invert, counted, self.both((stored,))]
+
+    def correct(self) -> Function:
+        """Return the function that solves for the residuals and adds the solution to the unknowns."""
+        first = self.row(self.newton.residual)
+        most, moves, largest, change = real("most"), real("moves"), real("largest_unknown"), real("change")
+        rows = {load.symbol: load.row for load in self.step.sweeps[self.block.last].loads}
+        inner: list[Statement] = []
+        for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
+            unknown = entry_of(self.step, rows[symbol], PLACE)
+            inner += [
+                Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
+                Assign(most, greatest([most, size(change)])),
+                Assign(moves, moves + size(change)),
+                Assign(largest, greatest([largest, size(unknown)])),
+                Assign(unknown, unknown + change),
+            ]
+        base, inner_sites = self.opening()
+        body: list[Statement] = [
+            *([base] if self.step.periodic else []),
+            inner_sites,
+            Call(self.name("substitute"), (_INNER, SITES, self.work, first)),
+            *(self.border_solved(first) if self.step.periodic else []),
+            *(Assign(x, number(0.0)) for x in (most, moves, largest)),
+            For(PLACE, SITES, tuple(inner)),
+            *(Assign(MEASURED[k], x) for k, x in enumerate((most, largest, moves))),
+        ]
+        about = (
+            "Solve the linear equations, and add the solution to the unknowns. The results are the largest "
+        )
+        about += "change, the largest unknown before it, and the sum of all changes."
+        return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
+
+    def border_solved(self, first: Term) -> list[Statement]:
+        """Return the statements that compute the unknowns of the last site, and then those of all sites."""
+        n, value = self.n, real("value", self.n)
+
+        def x(site: Term, k: Term) -> Term:
+            return self.work[first + k * SITES + site]
+
+        rest = (
+            Assign(_SUM, x(_INNER, _I)),
+            *self.dot(self.cell(_INNER, RIGHT, _I, _K) * x(whole(0), _K)),
+            *self.dot(self.cell(_INNER, LEFT, _I, _K) * x(_LAST, _K)),
+            Assign(value[_I], _SUM),
+        )
+        own_block = (
+            Assign(_SUM, number(0.0)),
+            *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
+            Assign(x(_INNER, _I), _SUM),
+        )
+        others = (
+            Assign(_SUM, x(_SITE, _I)),
+            *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),
+            Assign(x(_SITE, _I), _SUM),
+        )
+        return [
+            Assign(_LAST, _INNER - 1),
+            Array(value),
+            For(_I, whole(n), rest),
+            For(_I, whole(n), own_block),
+            For(_SITE, _INNER, (For(_I, whole(n), others),)),
+        ]
+
+
+def unsolved() -> Term:
+    """Return the test that a block of the matrix is singular."""
+    return _SINGULAR > 0
