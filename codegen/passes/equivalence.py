@@ -145,12 +145,7 @@ class Reference:
         points = [_Point(self._some(program, moved)) for moved in (False, True)]
         self.points = [point for point in points if point.computed]
         if not self.points:
-            raise SceneError(
-                "no step of the method can be computed from the initial state, nor from a state nearby",
-                where=scene.name,
-                expected="a field that is finite at these states, and stages solvable for small steps",
-                hint="check the scene for roots of negative numbers, zero denominators, numbers above 1e308",
-            )
+            raise _no_step(scene)
 
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
         """Yield the results of the longest step, then of shorter and shorter steps. An iteration that
@@ -228,23 +223,29 @@ class Reference:
         return interpret(program, self.scene, domain, inputs, limit=limit, newton=False, solutions=solutions)
 
     def differs(self, program: Program) -> str:
-        """Return a description of the first difference, or ''."""
-        for point in self.points:
-            account = self._in_some_step(program, point)
-            if account:
-                return account
-        return ""
+        """Return a description of the first difference, or ''.
 
-    def _in_some_step(self, program: Program, point: _Point) -> str:
-        """Compare results after the longest step for which both programs have a finite result."""
-        failure = ""
+        Raises SceneError if the programs could not be compared at any point.
+        """
+        accounts = [self._in_some_step(program, point) for point in self.points]
+        if all(account is None for account in accounts):
+            raise _no_step(self.scene)
+        return next(filter(None, accounts), "")
+
+    def _in_some_step(self, program: Program, point: _Point) -> str | None:
+        """Compare results after the longest step for which both programs have a finite result.
+
+        Returns None if no step from this point is suitable for a comparison.
+        """
+        failure = None
         for step in point.results():
             # In a long step, the iterations of the compared program may fail to converge, or its sums may
             # overflow. In both cases the next shorter step is tried.
             try:
                 after = self._run(program, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
             except FAILURES as error:
-                failure = f"interpretation failed: {error}"
+                if self._is_solved(step):
+                    failure = f"interpretation failed: {error}"
                 continue
             account = self._gap(step, after)
             if account and not step.tiny:
@@ -253,6 +254,19 @@ class Reference:
                 return account
             failure = account
         return failure
+
+    def _is_solved(self, step: _Step) -> bool:
+        """Return True if the blocks of the reference converge in many digits. In doubles, a slow iteration
+        may seem to converge because of rounding errors.
+        """
+        if step.tiny:
+            return True
+        domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
+        try:
+            self._run(self.program, domain, inputs, MORE_SWEEPS, {})
+        except FAILURES:
+            return False
+        return True
 
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
         """Repeat the step in many digits and return the difference found; return ``account`` if this step
@@ -302,6 +316,16 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
     except (ArithmeticError, ValueError):
         return math.inf
     return max(map(abs, map(float, values)))
+
+
+def _no_step(scene: Problem) -> SceneError:
+    """Return the error for a scene on which no step of a method can be computed."""
+    return SceneError(
+        "no step of the method can be computed from the initial state, nor from a state nearby",
+        where=scene.name,
+        expected="a field that is finite at these states, and stages solvable for small steps",
+        hint="check the scene for roots of negative numbers, zero denominators, numbers above 1e308",
+    )
 
 
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
