@@ -18,9 +18,10 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 import codegen
 from codegen.lab.efficiency.bench import bench
@@ -36,6 +37,8 @@ from orderconds.tableau import find
 
 if TYPE_CHECKING:
     from codegen.lattice import Lattice
+
+Floats = NDArray[np.float64]
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURE = ROOT / "docs" / "pictures" / "two_registers.svg"
@@ -99,7 +102,7 @@ def _lattice(label: str) -> Lattice:
     return codegen.load_lattice(codegen.emit(SPINS, label, target=DEFAULT))
 
 
-def _ladder(label: str, states: Any, exact: Any, budget: float) -> Iterator[Run]:
+def _ladder(label: str, states: Floats, exact: Floats, budget: float) -> Iterator[Run]:
     """Yield runs with more and more steps, until the error is small enough or the budget is used."""
     lattice, steps = _lattice(label), 4
     stages = len(Tableau.load(find(label.partition(":")[2])).method.stages)
@@ -171,15 +174,15 @@ def least(measured: Measured, error: float, quantity: str) -> dict[str, float]:
 
     ``quantity`` names an attribute of :class:`Run`. Methods that do not reach the error are left out.
     """
-    found = {}
+    costs = {}
     for label, runs in measured.items():
         for above, below in pairwise(runs):
             if below.error <= error < above.error:
                 part = math.log(above.error / error) / math.log(above.error / below.error)
                 first, second = getattr(above, quantity), getattr(below, quantity)
-                found[label] = first * (second / first) ** part
+                costs[label] = first * (second / first) ** part
                 break
-    return found
+    return costs
 
 
 def main() -> None:

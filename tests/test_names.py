@@ -43,6 +43,7 @@ EXCEPTIONS = {
     ): "the registry of Lie series, one named as a family",
     ("codegen/groups/__init__.py", "LISTED"): "the registry of groups and their modules",
     ("codegen/scenes/__init__.py", "GALLERY"): "the registry of scenes",
+    ("codegen/scenes/__init__.py", "LATTICES"): "the registry of chains and lattices",
     (
         "codegen/lab/default_methods.py",
         "FIELD_METHODS",

@@ -32,7 +32,7 @@ def command(scene: str, name: str, parameters: tuple[str, ...], output: str, as_
     from codegen.lab.pictures.registry import draw, find
     from codegen.lab.pictures.source import Source
 
-    problem = scenes.load(scenes.with_values(scene, parameters))
+    problem = scenes.with_one_system(scenes.load(scenes.with_values(scene, parameters)))
     figure = find(problem, name)
     with counting(f"{problem.name}: {figure.name}") as progress:
         drawn = draw(figure, Source(problem, progress))

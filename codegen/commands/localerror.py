@@ -36,7 +36,7 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
     from codegen.lab.default_methods import methods_for
     from codegen.lab.orders.exact_order import local_error_or_reason
 
-    problem = scenes.load(scenes.with_values(scene, parameters))
+    problem = scenes.with_one_system(scenes.load(scenes.with_values(scene, parameters)))
     problem.require_formulas()
     errors = []
     chosen = methods_for(problem, methods)

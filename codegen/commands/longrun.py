@@ -79,7 +79,7 @@ def command(
     from codegen.lab.long_runs.long_run import LongRun, long_run
     from codegen.lab.long_runs.properties import properties
 
-    problem = scenes.load(scenes.with_values(scene, parameters))
+    problem = scenes.with_one_system(scenes.load(scenes.with_values(scene, parameters)))
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
     # Comparisons with NaN are false, so the negated condition also refuses NaN.
     if not 1e-300 <= abs(h) <= 1e300:

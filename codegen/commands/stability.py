@@ -59,7 +59,7 @@ def command(
     names = scenes.GALLERY if scene is None else (scenes.with_values(scene, parameters),)
     for name in names:
         # These calls raise InputError before the work begins.
-        scenes.load(name).require_formulas()
+        scenes.with_one_system(scenes.load(name)).require_formulas()
         methods_for(scenes.load(name), methods)
     all_results: list[Stability | NotTested] = []
     with counting("stability", total=len(names) if len(names) > 1 else None) as done:

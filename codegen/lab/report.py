@@ -54,7 +54,8 @@ class Request:
     def subject(self, name: str) -> Subject:
         """Return the subject of the page of one scene. An unknown name raises InputError."""
         effort = EFFORTS[self.effort].shared(len(self.names()), self.together())
-        return subject(name, scenes.load(name), self.methods, self.peers, effort, self.adaptive)
+        scene = scenes.with_one_system(scenes.load(name))
+        return subject(name, scene, self.methods, self.peers, effort, self.adaptive)
 
     def check(self) -> None:
         """Raise InputError if the name of a scene, method, peer or measurement is unknown."""

@@ -18,8 +18,9 @@ from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
 from orderconds.tableau import CommutatorFree, Stage
+from orderconds.tableau.methods import Row
 from orderconds.tableau.properties import low_storage
-from orderconds.tableau.two_registers import TwoRegisters
+from orderconds.tableau.two_registers import TwoRegisters, second_exponent
 
 
 class CommutatorFreeLowering(FieldLowering):
@@ -33,34 +34,56 @@ class CommutatorFreeLowering(FieldLowering):
         embedded = method.embedded()
         registers = _registers(method)
         if registers is not None:
-            return two_registers(problem, method, registers)
+            return two_registers(problem, method, *registers)
         lower = None if embedded is None else embedded.commutator_free().update
         return products(problem, method, method.commutator_free(), lower)
 
     def storage(self, method: Method) -> str:
-        """Return the line about two registers for a low-storage scheme."""
-        return "" if _registers(method) is None else STORAGE
+        """Return the line about the registers of a low-storage scheme."""
+        registers = _registers(method)
+        if registers is None:
+            return ""
+        return STORAGE if registers[1] is None else STORAGE_OF_PAIR
 
 
 STORAGE = "two registers (2N): the state and one element K of the Lie algebra, K <- A_i K + f(Y)"
 
 
-def _registers(method: Method) -> TwoRegisters | None:
+STORAGE_OF_PAIR = (
+    "three registers (2N with an embedded method): the state and two elements of the Lie algebra, "
+    "K <- A_i K + f(Y) and E <- E + D_i f(Y); the error estimate compares the update y with exp(h E).y"
+)
+
+
+def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
     """Return the scheme with two registers that is equal to the method on every group, if there is one.
 
-    The update of an embedded method needs the values of all stages, so two registers do not suffice for it.
+    With step-size control, the second item is the exponent of the exponential that leads from the update to
+    the update of the embedded method. Other embedded methods need the values of all stages.
     """
-    if not isinstance(method.tableau.method, CommutatorFree) or method.embedded() is not None:
+    if not isinstance(method.tableau.method, CommutatorFree):
         return None
+    embedded, exponent = method.embedded(), None
+    if embedded is not None:
+        second = embedded.commutator_free().update
+        exponent = second_exponent(method.commutator_free(), second, method.ring)
+        if exponent is None:
+            return None
     rewriting = low_storage(method.tableau)
-    return rewriting.scheme if rewriting is not None and rewriting.holds else None
+    if rewriting is None or not rewriting.holds or rewriting.scheme is None:
+        return None
+    return rewriting.scheme, exponent
 
 
-def two_registers(problem: Problem, method: Method, scheme: TwoRegisters) -> Program:
+def two_registers(
+    problem: Problem, method: Method, scheme: TwoRegisters, estimate: Row | None = None
+) -> Program:
     """Return the program of a low-storage scheme: K_i = A_i K_{i-1} + k_i, Y_{i+1} = exp(h B_i K_i) Y_i.
 
     A step stores the state and one element K of the Lie algebra. The general program computes every exponent
-    from all stage values, which then remain in use until the end of the step.
+    from all stage values, which then remain in use until the end of the step. If ``estimate`` is the row
+    (D_1, ..., D_s), a second element E_i = E_{i-1} + D_i k_i is stored. The update of the embedded method is
+    exp(h E_s) applied to the update.
     """
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -69,6 +92,7 @@ def two_registers(problem: Problem, method: Method, scheme: TwoRegisters) -> Pro
     one = Coefficient(stages.number(method.ring.one))
     state: list[Var] = [y]
     register: list[Var] = []
+    sums: list[Var] = []
 
     def advance(i: int) -> None:
         """Append the operations of stage i that need k_i."""
@@ -76,6 +100,9 @@ def two_registers(problem: Problem, method: Method, scheme: TwoRegisters) -> Pro
         if register:
             terms = [(Coefficient(stages.number(scheme.A[i])), register[-1]), *terms]
         register.append(build.lin(f"K{i + 1}", Kind.ALG, terms))
+        if estimate is not None:
+            terms = [(Coefficient(stages.number(estimate[i])), k[i])]
+            sums.append(build.lin(f"E{i + 1}", Kind.ALG, [*((one, x) for x in sums[-1:]), *terms]))
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
 
@@ -93,7 +120,10 @@ def two_registers(problem: Problem, method: Method, scheme: TwoRegisters) -> Pro
 
     def update() -> dict[str, Var]:
         advance(scheme.s - 1)
-        return {"y": state[-1]}
+        if not sums:
+            return {"y": state[-1]}
+        x = build.lin("x", Kind.ALG, [(stages.times_h(method.ring.one), sums[-1])])
+        return {"y": state[-1], EMBEDDED: build.act("Y", build.exp("g", x), state[-1])}
 
     return stages.program(k, images, lambda: [stages.f("k0", y, None)] * scheme.s, update)
 

@@ -126,6 +126,28 @@ class SpaceCurves(Figure):
     direction: tuple[float, float] = (30.0, 25.0)
 
 
+Place: TypeAlias = tuple[Quantity, Quantity, Quantity]
+"""Formulas of the three coordinates of a point in space."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motion(Figure):
+    """The motion of a body that consists of bars, as an animation, in orthogonal projection.
+
+    ``bars`` maps labels to the two ends of a bar. The curve of the point ``trace`` is drawn, too, and the
+    bars at ``stills`` equally spaced times. The motion takes ``seconds`` and is repeated; it stops while the
+    pointer is on the figure. ``fixed`` maps labels to points that do not move. ``direction`` is the direction
+    from the origin to the viewer: azimuth and elevation in degrees. There is one run.
+    """
+
+    bars: Mapping[str, tuple[Place, Place]]
+    trace: Place
+    fixed: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
+    stills: int = 4
+    seconds: float = 8.0
+    direction: tuple[float, float] = (30.0, 20.0)
+
+
 @dataclass(frozen=True, kw_only=True)
 class TorusCurves(Figure):
     """Curves on a torus in the chart of two angles; opposite edges are the same line of the torus.

@@ -9,6 +9,7 @@ from codegen.errors import SceneError
 from codegen.ir.number import Number
 from codegen.scene.consistency import check_problem
 from codegen.scene.problem import Problem
+from codegen.scene.site_scene import with_frozen_neighbours
 
 
 def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
@@ -42,7 +43,8 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
         problem, parameters=values, runtime=tuple(sorted(runtime)), fixed=tuple(sorted(fixed.items()))
     )
     if fixed:
-        check_problem(changed, {})
+        # On a lattice, formulas are compared on one site whose neighbours do not move.
+        check_problem(changed if changed.sites is None else with_frozen_neighbours(changed), {})
     return changed
 
 

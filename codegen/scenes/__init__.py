@@ -64,6 +64,10 @@ GALLERY = (
     "wilson_flow",
 )
 
+LATTICES = ("body_chain", "free_rod", "pipe_laying", "swinging_rod")
+"""The scenes of chains and lattices. They have states at any number of sites, so commands that run a scene
+from its initial state do not accept them."""
+
 EXTENDED = "+u"
 """The suffix of a scene name that denotes the scene extended by the time and its conjugate momentum."""
 
@@ -81,7 +85,7 @@ def register(name: str, scene: Problem, about: str = "") -> Problem:
     """
     if not isinstance(scene, Problem):
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
-    if name in GALLERY or not name.isidentifier():
+    if name in (*GALLERY, *LATTICES) or not name.isidentifier():
         raise SceneError(f"the name {name!r}", expected="an identifier that is not a scene of the gallery")
     named = _named(scene, name)
     _REGISTERED[name] = (named, about)
@@ -138,6 +142,22 @@ def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
     return load(fspath(scene))
 
 
+def with_one_system(scene: Problem) -> Problem:
+    """Return the scene; raise :class:`SceneError` for a chain or lattice, whose number of sites is not given.
+
+    >>> with_one_system(load("dipole")).name
+    'dipole'
+    """
+    if scene.sites is not None:
+        raise SceneError(
+            "a chain or lattice, whose scene does not contain the number of sites",
+            where=scene.name,
+            expected="a scene with one system",
+            hint="emit it, and run it for arrays of states with codegen.load_lattice",
+        )
+    return scene
+
+
 def with_values(name: str, parameters: Sequence[str]) -> str:
     """Return the name of a scene in which parameters have other values; each value is a text ``NAME=VALUE``.
 
@@ -164,18 +184,19 @@ def file_stem(scene: Problem) -> str:
 
 
 def _load(name: str) -> Problem:
-    if name in GALLERY:
+    if name in GALLERY or name in LATTICES:
         module = import_module(f"codegen.scenes.{name}")
         scene: Problem = module.scene
         return replace(scene, name=name, figures=read_figures(name, vars(module).get("figures", ())))
     if name in _REGISTERED:
         return _REGISTERED[name][0]
     path = Path(name)
+    known = (*names(), *LATTICES)
     if path.suffix != ".py":
         raise UnknownName(
             f"unknown scene {name!r}",
-            expected=f"one of {', '.join(names())}, or the path of a Python file that defines `scene`",
-            hint=f"did you mean {close[0]}?" if (close := get_close_matches(name, names(), n=1)) else "",
+            expected=f"one of {', '.join(known)}, or the path of a Python file that defines `scene`",
+            hint=f"did you mean {close[0]}?" if (close := get_close_matches(name, known, n=1)) else "",
         )
     return _run(name, path)
 
@@ -245,11 +266,11 @@ def about(name: str) -> str:
     name = name.removesuffix(EXTENDED)
     if name in _REGISTERED:
         return _REGISTERED[name][1]
-    spec = find_spec(f"codegen.scenes.{name}") if name in GALLERY else None
+    spec = find_spec(f"codegen.scenes.{name}") if name in (*GALLERY, *LATTICES) else None
     path = Path(spec.origin) if spec is not None and spec.origin else Path(name)
     return ast.get_docstring(ast.parse(read_bytes(path, error=SceneError))) or ""
 
 
 def listing() -> list[dict[str, str]]:
-    """Return name and title of every scene, for ``orderconds list scenes``."""
-    return [{"name": n, "about": load(n).title} for n in names()]
+    """Return name and title of every scene, for ``orderconds list scenes``; scenes are sorted by name."""
+    return [{"name": n, "about": load(n).title} for n in sorted([*names(), *LATTICES])]

@@ -2,8 +2,8 @@
 
 H. Marthinsen's thesis, section 2.6: q' = f(q) q with f(q) = q v q^c and v = I^-1 E(q^c) m0/2. E is the
 Euler-Rodrigues map, and m0 is the momentum in space. The moments of inertia differ widely, so the energy
-varies strongly on the group. The initial angular velocity I^-1 m0 is (1, 1/2, -1); the formula in the thesis
-lacks the inverse of I.
+varies strongly on the group. The initial angular velocity I^-1 m0 is (1, 1/2, -1), so the energy is 31.125.
+The thesis prints I m0 = (1, 1/2, -1), which gives the energy 0.501.
 """
 
 from sympy import Expr, Matrix, Rational, diag

@@ -9,7 +9,7 @@ from sympy import Matrix, diag, eye
 
 from codegen.groups import SO3
 from codegen.scene import HamiltonianScene
-from codegen.scene.figure import Run, SphereCurves
+from codegen.scene.figure import Motion, Run, SphereCurves
 
 G = SO3()
 g, mu = G.point("g"), G.dual("mu")
@@ -44,5 +44,16 @@ figures = [
             Run("slgi:euler", 0.01, 5000, "SLGI, theta = 0"),
             Run("slgi:midpoint", 0.01, 5000, "SLGI, theta = 1/2"),
         ),
+    ),
+    Motion(
+        name="motion",
+        title="Motion of the heavy top",
+        caption="200 steps of size 0.005. The motion stops while the pointer is on the picture.",
+        bars={
+            "axis, from the fixed point to the centre of mass": ((0, 0, 0), tuple(g * e3)),
+            "a line across the axis": (tuple(g * e3 - g[:, 0] / 4), tuple(g * e3 + g[:, 0] / 4)),
+        },
+        trace=tuple(g * e3),
+        runs=(Run("slgi:midpoint", 0.005, 200),),
     ),
 ]

@@ -66,7 +66,7 @@ def check(
     wanted = [*_wanted(tableau, family)]
     proof, broken = _proof(tableau)
     enclosed, facts = (proof.tableau, proof.facts) if proof else (tableau, ())
-    embedded = _embedded(enclosed, [f for f, _ in wanted])
+    embedded = _embedded(enclosed, [f for f, _ in wanted], proof.lower_facts if proof else ())
     computed, dense = properties(tableau), extension_order(tableau)
     if family is None:
         broken += (*_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
@@ -151,7 +151,7 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
     )
 
 
-def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
+def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...]) -> EmbeddedOrder | None:
     """Return the orders of the embedded method in families whose stages do not depend on the weights.
 
     The families are those in ``wanted`` with this property, the classical family ``rk``, and the family of
@@ -168,7 +168,8 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | Non
     for label, family in asked.items():
         known = list(computed.values())
         bound = None if label == own else _bound(family, known)
-        computed[label] = family_order(lower, family, claimed, None, bound, _proved(known), brief=True)
+        order = family_order(lower, family, claimed, None, bound, _proved(known), brief=True)
+        computed[label] = _certified(order, family, facts)
     orders = {label: family.order for label, family in computed.items()}
     certificates = {label: family.certificate for label, family in computed.items()}
     if tableau.doubles:

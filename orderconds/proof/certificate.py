@@ -43,7 +43,8 @@ class Certificate:
     ``tableau`` contains the coefficients of the solution, as balls. ``facts`` are the orders that the
     equations imply. ``radius`` bounds the distance of every decimal from the solution. ``printed`` bounds the
     distance of each number printed in the source from the solution. ``misrounded`` contains the decimals that
-    differ from the correctly rounded solution.
+    differ from the correctly rounded solution. ``lower_facts`` are the orders of the embedded method that the
+    equations imply.
     """
 
     tableau: Tableau
@@ -52,6 +53,7 @@ class Certificate:
     radius: str
     printed: dict[str, str] = field(default_factory=dict)
     misrounded: tuple[Misrounded, ...] = ()
+    lower_facts: tuple[Fact, ...] = ()
 
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of a proof."""
@@ -167,6 +169,7 @@ def _certificate(
         radius=rational_decimal(max(distances), 3),
         printed=printed,
         misrounded=tuple(_misrounded(proof, solution)),
+        lower_facts=system.lower_facts,
     )
 
 

@@ -21,8 +21,10 @@ the file and not from its decimals:
                  the conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
 2N schemes. The module :mod:`orderconds.series.two_registers` states the theorem and names the rooted trees
-whose conditions are independent for these schemes. From order 6 on, the conditions of some rooted trees are
-dependent: at order 6, the conditions of 18 of the 20 rooted trees are independent.
+whose conditions are independent for these schemes. If the file has a second update that applies one further
+exponential to the first update, the equations contain the conditions of rooted trees for this second update.
+They imply its order on groups (docs/explanation/two_registers.md). From order 6 on, the conditions of some
+rooted trees are dependent: at order 6, the conditions of 18 of the 20 rooted trees are independent.
 """
 
 from __future__ import annotations
@@ -40,10 +42,12 @@ from orderconds.families.base import expect
 from orderconds.proof.krawczyk import NotProved
 from orderconds.ring.jets import Jet
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau import Magnus, Method, RungeKutta, Tableau
+from orderconds.tableau import CommutatorFree, Magnus, Method, RungeKutta, Tableau
 from orderconds.tableau.evaluate import evaluate, rounded_and_exact
+from orderconds.tableau.methods import EmbeddedUpdate
 from orderconds.tableau.properties import properties
 from orderconds.tableau.simplifying import simplifying, simplifying_order
+from orderconds.tableau.two_registers import second_exponent
 from orderconds.tableau.unknowns import Proof, RootedRing
 
 
@@ -59,6 +63,10 @@ class Equations:
     None for other methods."""
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
+    lower: tuple[OrderCondition, ...] = ()
+    """The conditions of the embedded method of a 2N scheme; the equations contain them after all others."""
+    lower_facts: tuple[tuple[str, int], ...] = ()
+    """The orders of the embedded method of a solution, by family, if ``lower`` is not empty."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
@@ -69,7 +77,7 @@ class Equations:
         With ``places``, return only the equations with these indices.
         """
         values = {u.name: x for u, x in zip(self.proof.unknowns, point, strict=True)}
-        method, _ = self.proof.over(ring, values)
+        method, embedded = self.proof.over(ring, values)
         if self.proof.reduction == "simplifying":
             every = list(simplifying(expect(method, RungeKutta), ring, self.proof.assumptions))
             return every if places is None else [every[i] for i in places]
@@ -78,8 +86,15 @@ class Equations:
             family = families.get(self.tableau.family).symmetric_family(method) or family
         read = _read(family, replace(self.tableau, ring=ring, method=method), self.proof)
         conditions = self._conditions(family)
-        wanted = conditions if places is None else [conditions[i] for i in places]
-        return list(family.residuals(read, ring, wanted))
+        chosen = range(len(conditions) + len(self.lower)) if places is None else places
+        wanted = [conditions[i] for i in chosen if i < len(conditions)]
+        residuals = list(family.residuals(read, ring, wanted))
+        second = [self.lower[i - len(conditions)] for i in chosen if i >= len(conditions)]
+        if second:
+            tableau = replace(self.tableau, ring=ring, method=method, embedded=embedded).lower()
+            assert tableau is not None
+            residuals += family.residuals(_read(family, tableau, self.proof), ring, second)
+        return residuals
 
     def _conditions(self, family: Family) -> tuple[OrderCondition, ...]:
         if self.kept is not None:
@@ -152,7 +167,16 @@ def equations(tableau: Tableau) -> Equations:
         if not implied:
             raise NotProved('reduction = "low-storage" requires conditions = "rk"')
         facts = tuple((label, proof.order) for label in implied)
-        return Equations(tableau, proof, facts, kept=_two_registers(proof))
+        lower = _second_update(tableau, proof)
+        order = max((c.order for c in lower), default=0)
+        return Equations(
+            tableau,
+            proof,
+            facts,
+            kept=_two_registers(proof),
+            lower=lower,
+            lower_facts=tuple((label, order) for label in implied) if lower else (),
+        )
     fact = (families.get(proof.conditions).label(), proof.order)
     kept = _independent(tableau, proof) if proof.reduction == "spelling" else None
     return Equations(tableau, proof, (fact,), kept=kept)
@@ -164,6 +188,17 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 
     trees = {tree for n in range(1, proof.order + 1) for tree in independent_trees(n)}
     return tuple(c for c in _up_to(proof.conditions, proof.order, 1, None) if c.key in trees)
+
+
+def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
+    """Return the conditions of the embedded method if it is one exponential applied to the update of a 2N
+    scheme and its order is at most the order in the proof; otherwise an empty tuple."""
+    method, embedded = tableau.method, tableau.embedded
+    if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
+        return ()
+    if second_exponent(method, embedded.update, tableau.ring) is None or embedded.order > proof.order:
+        return ()
+    return _up_to(proof.conditions, embedded.order, 1, None)
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:

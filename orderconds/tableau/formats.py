@@ -205,7 +205,8 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """A second update of lower order that uses the same stages."""
+    """A second update of lower order that uses the same stages. With s stages, the start s + 1 is the
+    (first) update."""
 
     order: Annotated[int, Meta(ge=1)]
 
@@ -259,7 +260,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
         for i, (place, entry) in enumerate(self._entries()):
             _verify_product(entry, min(i, s), s, f"{where}: {place}")
         if self.embedded:
-            _verify_product(self.embedded, s, s, f"{where}: embedded")
+            _verify_product(self.embedded, s + 1, s, f"{where}: embedded")
 
     def _entries(self) -> Iterator[tuple[str, StageEntry]]:
         for i, entry in enumerate(self.stage):
@@ -292,6 +293,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
         if self.embedded is None:
             return method, None
         lower = _product(self.embedded, "embedded", values, s, ring)
+        if lower.start == s:
+            lower = Stage(method.update.start, (*method.update.exponentials, *lower.exponentials))
         if method.same_update(lower, ring):
             raise _identically_zero(f"{self.name}: embedded", "a product that differs from the update")
         return method, EmbeddedUpdate(lower, self.embedded.order)

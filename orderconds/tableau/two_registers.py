@@ -98,6 +98,22 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     return _compared(scheme, rows, ring)
 
 
+def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | None:
+    """Return the exponent of the one exponential that leads from the update to the second update; None if
+    the second update is another product.
+
+    With the exponent sum_i D_i F_i, a third register E <- E + D_i F_i holds all that the second update needs.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> pair = Tableau.load(find("cf43"))
+    >>> second_exponent(pair.method, pair.embedded.update, pair.ring) is None
+    True
+    """
+    *path, last = method.from_start(second)
+    update = list(method.from_start(method.update))
+    return last if len(path) == len(update) and _same(path, update, ring) else None
+
+
 def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
     """Return A_i (i counts from 0). The result is a :class:`Rewriting` if no A_i exists because a denominator
     is zero, and if a rounded denominator may be zero."""

@@ -30,7 +30,9 @@ def test_rows_that_miss_the_same_brackets_are_refused_and_a_cutoff_that_works_is
     assert compile_method("driven_spin", works, adaptive=True).kernel.estimate is not None
 
 
-@pytest.mark.parametrize("method", ["cg:dormand_prince5", "rkmk(2):dop853", "cf:cf43", "ambient:dop853"])
+@pytest.mark.parametrize(
+    "method", ["cg:dormand_prince5", "rkmk(2):dop853", "cf:cf43", "cf:cf5_2n_s10", "ambient:dop853"]
+)
 def test_rows_with_different_leading_errors_are_accepted(method: str) -> None:
     assert compile_method("free_rigid_body", method, adaptive=True).kernel.estimate is not None
 

@@ -61,7 +61,7 @@ def errors(name: str, method: str) -> list[float]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["SO(3)", "SE(3)"])
-@pytest.mark.parametrize("method", ["rkmk(3):dormand_prince5", "cf:cf43", "cg:cg43"])
+@pytest.mark.parametrize("method", ["rkmk(3):dormand_prince5", "cf:cf43", "cf:cf5_2n_s10", "cg:cg43"])
 def test_errors_are_proportional_to_the_tolerance_over_eight_decades(name: str, method: str) -> None:
     scaled = [e * 10.0**k for e, k in zip(errors(name, method), DECADES, strict=True)]
     assert max(scaled) < 25

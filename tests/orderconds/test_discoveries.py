@@ -55,6 +55,12 @@ def test_every_method_has_a_group_order_and_a_place_in_the_documentation(name):
 
 
 @pytest.mark.parametrize("group", GROUPS)
+def test_the_embedded_method_of_a_2n_scheme_has_order_four(group):
+    lower = certified("cf5_2n_s10").lower()
+    assert local_error_power(lower, "cf", None, GROUPS[group], 5) == 5
+
+
+@pytest.mark.parametrize("group", GROUPS)
 def test_a_change_of_1e_20_is_seen(group):
     """The last coefficient of the update is changed, so that the sum of the weights is not one."""
     right = certified("cf5_2n_s10")

@@ -131,7 +131,7 @@ def bench(
     for target in targets:
         if target not in names():
             raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(names())}")
-    problem = scenes.load(scene) if isinstance(scene, str) else scene
+    problem = scenes.with_one_system(scenes.problem_of(scene))
     fixed = () if adaptive and not methods else methods_for(problem, methods)
     controlled = methods_for(problem, adaptive) if adaptive else ()
     for method in controlled:

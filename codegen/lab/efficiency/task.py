@@ -69,7 +69,7 @@ class Failed:
 
 @cache
 def _problem(scene: str, span: tuple[Fraction, Fraction] | None) -> Problem:
-    problem = scenes.load(scene)
+    problem = scenes.with_one_system(scenes.load(scene))
     return problem if span is None else replace(problem, span=span)
 
 

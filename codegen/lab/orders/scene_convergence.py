@@ -56,7 +56,7 @@ class ConvergenceTest:
         stated: int | None = None,
     ) -> ConvergenceTest:
         """Check the arguments and return a test. The arguments are the same as for :func:`converge`."""
-        problem = scenes.load(scene) if isinstance(scene, str) else scene
+        problem = scenes.with_one_system(scenes.problem_of(scene))
         chosen = find_form(problem, form) if form not in (None, PRINTED) else None
         equations = problem if chosen is None else chosen.problem
         known = tuple(method_for(equations, method) for method in methods)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import statistics
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
+from codegen.errors import SceneError
 from codegen.integrator import StepFailed
 from codegen.lab.distance import distance
 from codegen.lab.page.axes import annotate, label_axes, log_ticks
@@ -31,6 +32,10 @@ def draw(figure: Orders, source: Source) -> Drawn:
     axes.set_yscale("log")
     curves = {run.name: errors(figure, source, run) for run in figure.runs}
     for name, points in curves.items():
+        if not points:
+            raise SceneError(
+                f"{name} fails with all step sizes", where=source.problem.name, expected="a result"
+            )
         texts = [f"{name}: h = {h:.3g}, error {scientific(e, 4)}" for h, e in points]
         sizes, values = zip(*points, strict=True)
         canvas.line(axes, (sizes, values), name, looks[name], range(len(points)), texts)
@@ -47,7 +52,18 @@ def draw(figure: Orders, source: Source) -> Drawn:
     listed = "; ".join(
         f"{name}: {', '.join(f'{e:.3e}' for e in rows.values())}" for name, rows in numbers.items()
     )
-    return Drawn(canvas.finish(figure, source.problem, f"Errors for decreasing h. {listed}."), "", numbers)
+    svg = canvas.finish(figure, source.problem, f"Errors for decreasing h. {listed}.")
+    return Drawn(svg, _failures(figure, curves), numbers)
+
+
+def _failures(figure: Orders, curves: Mapping[str, Sequence[tuple[float, float]]]) -> str:
+    """Return a sentence for each run that fails with some step sizes."""
+    missing = {run.name: figure.halvings + 1 - len(curves[run.name]) for run in figure.runs}
+    return " ".join(
+        f"{name} fails with {count} of {figure.halvings + 1} step sizes."
+        for name, count in missing.items()
+        if count
+    )
 
 
 def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]]:

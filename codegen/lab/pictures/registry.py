@@ -24,6 +24,7 @@ BUILT_IN: dict[type[Figure], str] = {
     kinds.PlaneCurves: "codegen.lab.pictures.plane:draw",
     kinds.SphereCurves: "codegen.lab.pictures.sphere:draw",
     kinds.SpaceCurves: "codegen.lab.pictures.space:draw",
+    kinds.Motion: "codegen.lab.pictures.motion:draw",
     kinds.TorusCurves: "codegen.lab.pictures.torus:draw",
     kinds.TimeSeries: "codegen.lab.pictures.time_series:draw",
     kinds.LatticeMeans: "codegen.lab.pictures.lattice_means:draw",

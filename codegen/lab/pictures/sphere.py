@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy
 
 from codegen.lab.page.series_style import Style
-from codegen.lab.page.svg import INK, MUTED, RULE
+from codegen.lab.page.svg import INK, MUTED, PLACEHOLDERS, RULE
 from codegen.lab.pictures.canvas import (
     REFERENCE,
     REFERENCE_LOOKS,
@@ -113,7 +113,9 @@ def _sphere(axes: Axes, radius: float, frame: numpy.ndarray, names: tuple[str, s
         end = frame @ (radius * numpy.eye(3)[k])
         axes.plot([end[0], 1.12 * end[0]], [end[1], 1.12 * end[1]], color=MUTED, linewidth=0.6, zorder=1)
         at = (1.2 * end[0], 1.2 * end[1])
-        axes.annotate(name, at, color=MUTED, fontsize=8, ha="center", va="center")
+        # A label in front of the outline has the colour of the page behind it.
+        behind = {"facecolor": PLACEHOLDERS["var(--paper)"], "edgecolor": "none", "pad": 0.8}
+        axes.annotate(name, at, color=MUTED, fontsize=8, ha="center", va="center", bbox=behind, zorder=4)
     axes.set_aspect("equal")
     axes.set_xlim(-1.22 * radius, 1.22 * radius)
     axes.set_ylim(-1.22 * radius, 1.22 * radius)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 import codegen
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
+from codegen.ir.program import EMBEDDED
 from codegen.ir.site_step import WORK
 from codegen.kernel.site_kernel import site_method
 from codegen.lower import lowering, names, problem_for
@@ -17,6 +19,8 @@ from codegen.lower.cf import products, two_registers
 from codegen.method import parse
 from codegen.scenes import load
 from orderconds.tableau.properties import low_storage
+
+PAIR = "cf:cf5_2n_s10"
 
 
 @pytest.mark.parametrize("scene", ["free_rigid_body", "driven_spin"])
@@ -46,7 +50,27 @@ def test_the_header_states_two_registers_only_where_they_suffice() -> None:
     assert "storage: two registers (2N)" in header("cf:williamson3")
     assert "two registers" not in header("cf:cf4")
     assert "two registers" not in header("cf:luescher3", adaptive=True)
+    assert "storage: three registers (2N with an embedded method)" in header(PAIR, adaptive=True)
+    assert "storage: two registers (2N)" in header(PAIR)
     assert lowering("cf").storage(parse("cf:cf4", names())) == ""
+
+
+def test_a_pair_has_the_updates_of_the_general_program() -> None:
+    """Three registers: the state, K, and the sum E of all D_i f(Y_i)."""
+    method = replace(parse(PAIR, names()), adaptive=True)
+    problem = problem_for(load("driven_spin"), method)
+    registers = lowering("cf").lower(problem, method)
+    general = products(problem, method, method.commutator_free(), method.embedded().commutator_free().update)
+    assert sum(op.name.startswith("E") for a in registers.assigns() for op in a.targets) == 10
+    domain = PreciseDomain(Fraction(1, 10), 40)
+    start = tuple(domain.rational(x, 5) for x in (3, 0, 4))
+    inputs = {v.name: start if v.name == "y" else domain.rational(1, 3) for v in general.inputs}
+    one, two = (interpret(p, problem, domain, inputs) for p in (general, registers))
+    assert sorted(one) == sorted(two)
+    assert EMBEDDED in one
+    for key, value in one.items():
+        assert all(abs(x - y) < 1e-36 for x, y in zip(value, two[key], strict=True))
+    assert any(abs(x - y) > 1e-9 for x, y in zip(one["y"], one[EMBEDDED], strict=True))
 
 
 @pytest.mark.parametrize("name", ["williamson3", "carpenter_kennedy4"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from decimal import Decimal
+from pathlib import Path
 
 import pytest
 
@@ -202,3 +203,15 @@ def test_a_nystroem_splitting_is_proved_in_both_families_and_implies_order_three
         "splitting": "ball",
         "rkn": "ball",
     }
+
+
+def test_the_embedded_method_of_a_2n_scheme_is_proved_and_a_changed_digit_is_seen():
+    path = find("cf5_2n_s10")
+    certificate = certify(Tableau.load(path))
+    assert certificate.lower_facts == (("rk", 4), ("cf", 4))
+    assert certificate.equations == 17 + 8
+    text = Path(path).read_text(encoding="utf-8")
+    digits = "0.05966264050678518851276448465631159651893211903217~"
+    assert digits in text
+    wrong = Tableau.loads(text.replace(digits, digits.replace("0.0596626405", "0.0596626406")))
+    assert "fails" in check(wrong, family="cf").verdict or check(wrong).broken_claims

@@ -10,10 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from orderconds.checking import check, read
+from orderconds.errors import TableauError
 from orderconds.ring import QQ
 from orderconds.tableau import CommutatorFree, Stage, Tableau
 from orderconds.tableau.properties import low_storage
-from orderconds.tableau.two_registers import TwoRegisters, two_registers
+from orderconds.tableau.two_registers import TwoRegisters, second_exponent, two_registers
 
 RATIONALS = st.fractions(-3, 3, max_denominator=7).map(lambda q: fmpq(q.numerator, q.denominator))
 SCHEMES = st.integers(1, 6).flatmap(
@@ -170,3 +171,30 @@ def test_a_denominator_that_may_be_zero_leaves_the_form_undecided() -> None:
         "space": "vector space",
         "reason": found.reason,
     }
+
+
+PAIR = """
+name = "pair"
+family = "cf"
+[low_storage]
+A = ["0", "-1"]
+B = ["1", "1/2"]
+[embedded]
+order = 1
+from = %d
+exp = [["1/2", "-1/2"]]
+"""
+
+
+def test_a_second_update_may_start_from_the_update():
+    """Heun's method: the second update y1 + h/2 (F_1 - F_2) is that of Euler."""
+    tableau = Tableau.loads(PAIR % 3)
+    assert check(tableau, family="cf").embedded.orders["cf"] == 1
+    second = tableau.embedded.update
+    row = second_exponent(tableau.method, second, QQ)
+    assert [str(x) for x in row] == ["1/2", "-1/2"]
+    assert [str(sum(x)) for x in zip(*tableau.method.from_start(second), strict=True)] == ["1", "0"]
+    from_stage = Tableau.loads(PAIR % 2)
+    assert second_exponent(from_stage.method, from_stage.embedded.update, QQ) is None
+    with pytest.raises(TableauError, match="from = 4"):
+        Tableau.loads(PAIR % 4)

@@ -141,6 +141,7 @@ def test_a_step_that_is_not_symplectic_has_one():
     ("method", "printed"),
     [
         ("vcg:midpoint", 1e-3),
+        pytest.param("vrkmk(0):gauss1", 1e-3, marks=pytest.mark.slow),
         pytest.param("vcg:triple_jump", 1e-5, marks=pytest.mark.slow),
         pytest.param("vrkmk(2):gauss2", 1e-7, marks=pytest.mark.slow),
     ],

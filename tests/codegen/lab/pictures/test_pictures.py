@@ -13,18 +13,20 @@ from sympy import Symbol, symbols
 
 from codegen.errors import SceneError
 from codegen.lab.page.svg import PLACEHOLDERS, standalone
-from codegen.lab.pictures import draw, listing, register
+from codegen.lab.pictures import draw, listing, orders, register
 from codegen.lab.pictures.deviation import maxima
 from codegen.lab.pictures.lattice_means import means
 from codegen.lab.pictures.picture import Drawn
 from codegen.lab.pictures.registry import find, unregister
 from codegen.lab.pictures.source import Source, formulas
+from codegen.lab.pictures.sphere import projection
 from codegen.lab.reference import cached_reference
 from codegen.loader import load_lattice
 from codegen.scene.figure import (
     Deviation,
     Figure,
     LatticeMeans,
+    Motion,
     Orders,
     PlaneCurves,
     Run,
@@ -177,6 +179,18 @@ def test_the_errors_of_a_figure_of_orders_have_the_order_of_the_method(source):
     assert math.log2(errors[2] / errors[3]) == pytest.approx(4.0, abs=0.1)
 
 
+def test_an_order_plot_names_runs_that_fail(source, monkeypatch):
+    run = Run("rkmk(2):rk4", 0.1, 0)
+    figure = Orders(name="o", title="O", runs=(run,), halvings=3)
+    assert draw(figure, source).note == ""
+    all_points = orders.errors(figure, source, run)
+    monkeypatch.setattr(orders, "errors", lambda *_: all_points[1:])
+    assert draw(figure, source).note == "rkmk(2):rk4 fails with 1 of 4 step sizes."
+    monkeypatch.setattr(orders, "errors", lambda *_: [])
+    with pytest.raises(SceneError, match="fails with all step sizes"):
+        draw(figure, source)
+
+
 def test_step_control_keeps_the_requested_output_times(source):
     run = Run("ambient:dormand_prince5", 0.1, 20, tolerance=1e-6)
     path = source.path(run)
@@ -302,3 +316,50 @@ def test_the_figure_of_a_lattice_shows_runs_of_emitted_code():
     assert most >= max(first, end)
     with pytest.raises(SceneError, match="fails after t = 0"):
         draw(lattice_figure(1e308), source)
+
+
+BODY = (M[0], M[1], M[2])
+
+
+def motion(**options):
+    given = {
+        "name": "motion",
+        "title": "Motion",
+        "bars": {"arrow": ((0, 0, 0), BODY), "shadow": ((0, 0, 0), (M[0], M[1], 0))},
+        "trace": BODY,
+        "fixed": {"pole": (0, 0, 1)},
+        "runs": (EULER,),
+        "seconds": 5,
+    }
+    return Motion(**(given | options))
+
+
+def test_an_animation_shows_the_states_and_respects_reduced_motion(source):
+    drawn = draw(motion(), source)
+    state = source.path(EULER).states[-1]
+    assert drawn.numbers["arrow"] == state.tolist()
+    assert drawn.numbers["shadow"] == [*state[:2].tolist(), 0]
+    svg = standalone(str(drawn.svg))
+    ElementTree.fromstring(svg.split("\n", 1)[1])
+    # Every animation is inside a rule for readers without a preference for reduced motion.
+    moves = re.findall(r"animation:[^}]*", svg)
+    inside = re.findall(r"@media \(prefers-reduced-motion:no-preference\){[^{}]*{(animation:[^}]*)}}", svg)
+    assert len(moves) == 2
+    assert moves == inside
+    assert "<script" not in svg
+    # Each bar has one keyframe for each state.
+    assert [rule.count("%{transform") for rule in svg.split("@keyframes")[1:]] == [21, 21]
+
+
+def test_the_bars_of_an_animation_have_their_projected_lengths(source):
+    frame = projection(0, 0)
+    drawn = str(draw(motion(direction=(0, 0)), source).svg)
+    rule = drawn.split("@keyframes")[1]
+    scales = np.array([float(x) for x in re.findall(r"scale\(([\d.]+),1\)", rule)])
+    lengths = np.hypot(*(frame @ source.path(EULER).states.T)[:2])
+    assert np.abs(scales - lengths / lengths.max()).max() < 1e-4
+
+
+def test_an_animation_has_one_run(source):
+    with pytest.raises(SceneError, match="2 runs of a moving body"):
+        draw(motion(runs=(EULER, AMBIENT)), source)

@@ -1,0 +1,84 @@
+"""Geometrically exact rod without forces at its ends: rigid cross sections, a chain on T*SE(3).
+
+The model is the rod of J. C. Simo (Comput. Methods Appl. Mech. Engrg. 49 (1985) 55-70) with the strains of
+shear, extension, bending and torsion. A site is a cross section with the frame R = (d1, d2, d3) and the
+centre x; d3 is normal to the section. A rod of length L consists of L/ds equal pieces, and the mass of each
+piece is concentrated in its cross section. As in P. Betsch and P. Steinmann (Int. J. Numer. Methods Eng. 54
+(2002) 1775-1788), strains are formed from the directors d_a, whose mean is used between two sections:
+
+    Gamma_a = (d_a + d_a').(x' - x)/(2 ds) - delta_a3,
+    V = ds/2 sum_a S_a Gamma_a^2 + 1/(2 ds) sum_a D_a |d_a' - d_a|^2.
+
+Here S = (GA, GA, EA). For a small rotation theta between two sections, the second sum is sum_a K_a theta_a^2
+with K = (EI, EI, GJ) if D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2. V is a polynomial and does not change if both
+sections move by the same rigid motion, so the total momentum is constant. Energies and momenta are divided by
+ds; this keeps the equations, and only V then depends on ds.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import sympy
+from sympy import Matrix, Rational, eye
+
+from codegen.groups import SE3
+from codegen.scene import Bond, HamiltonianSiteScene, Problem, neighbour, param
+
+GROUP = SE3()
+q, mu = GROUP.point("q"), GROUP.dual("mu")
+R, x = Matrix(3, 3, q[:9]), Matrix(q[9:])
+ds = param("ds", Rational(1, 20))
+
+# The section is a circle with the radius L/10. The mass per length, the length and EI are 1, and E = 5/2 G.
+MASS, INERTIA = 1, (Rational(1, 400), Rational(1, 400), Rational(1, 200))
+EI, GJ = param("EI", 1), param("GJ", Rational(4, 5))
+EA, GA = param("EA", 400), param("GA", Rational(27, 28) * 160)
+
+p = Matrix(mu[3:])
+P = R.T * (Matrix(mu[:3]) - x.cross(p))
+kinetic = sum(P[a] ** 2 / (2 * INERTIA[a]) for a in range(3)) + p.dot(p) / (2 * MASS)
+
+near = neighbour(q, (1,))
+other, y = Matrix(3, 3, near[:9]), Matrix(near[9:])
+gap, mean = (y - x) / ds, (R + other) / 2
+strain = mean.T * gap - Matrix([0, 0, 1])
+turns = [(other - R)[:, a] for a in range(3)]
+stretching = sum(S * s**2 / 2 for S, s in zip((GA, GA, EA), strain, strict=True))
+bending = sum(D * d.dot(d) for D, d in zip((GJ / 2, GJ / 2, EI - GJ / 2), turns, strict=True)) / (2 * ds**2)
+
+Ends = Mapping[Sequence[int], Sequence[sympy.Expr]]
+"""Cross sections outside the rod, by offset."""
+
+normal = R[:, 0].cross(R[:, 1])
+FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
+"""Cross sections outside the rod in which all strains vanish, so they exert no force. The formula holds for
+any matrix R, so rounding errors in R do not change the total momentum."""
+
+
+def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
+    """Return a rod whose ends are free, or follow the cross sections ``ends``, with gravity in the direction
+    of -e1."""
+    parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
+    return HamiltonianSiteScene(
+        title=title,
+        group=GROUP,
+        q=q,
+        mu=mu,
+        H=sum(parts.values()),
+        parts=parts,
+        bonds=[Bond((1,), stretching + bending)],
+        q0=[*eye(3), 0, 0, 0],
+        mu0=[0, 0, 0, 1, 0, 0],
+        span=(0, 1),
+        boundary="open",
+        outside={**FREE, **(ends or {})},
+    )
+
+
+def straight(number: int, spacing: float) -> list[list[float]]:
+    """Return the states of the sections of a straight rod at rest along e3. The first is at ``spacing``
+    e3."""
+    frame = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+    return [[*frame, 0.0, 0.0, (i + 1) * spacing, *[0.0] * 6] for i in range(number)]
+
+
+scene = rod(title="Geometrically exact rod with free ends, a chain on T*SE(3)")

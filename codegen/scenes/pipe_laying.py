@@ -1,0 +1,24 @@
+"""Pipe-laying: a geometrically exact rod under gravity, clamped at one end, its other end moved by a vessel.
+
+Section 2.3.1 of H. Marthinsen's thesis describes the problem: a pipe between the bottom of the sea and a
+vessel. The rod is that of ``free_rod``. The section before the first site is clamped. The section after the
+last site belongs to the vessel: it moves up and down, and pitches about the axis e2 with the angle a sin(w
+t). Its distance from the clamp is the parameter length, which must be (N + 1) ds for N sections.
+"""
+
+from sympy import Matrix, Rational, Symbol, cos, eye, sin
+
+from codegen.scene import param
+from codegen.scenes.free_rod import rod
+
+t = Symbol("t")
+a, w, heave = param("a", Rational(1, 10)), param("w", 2), param("heave", Rational(1, 10))
+length = param("length", 1)
+angle = a * sin(w * t)
+frame = Matrix([[cos(angle), 0, sin(angle)], [0, 1, 0], [-sin(angle), 0, cos(angle)]])
+
+scene = rod(
+    ends={(-1,): [*eye(3), 0, 0, 0], (1,): [*frame, heave * (1 - cos(w * t)), 0, length]},
+    gravity=param("g", 1),
+    title="Pipe-laying: a rod between a clamp and a moving vessel, a chain on T*SE(3)",
+)
