@@ -43,8 +43,8 @@ def count(x: object, name: str, least: int = 0) -> int:
     number = int(x)
     if not least <= number <= MOST:
         bound = f"at least {least}" if number < least else f"at most {MOST}"
-        given = number if abs(number) < 10**30 else "a number of more than 30 digits"
-        raise ValueError(f"expected {name} of {bound}, found {given}")
+        given = number if abs(number) < 10**30 else "a number with more than 30 digits"
+        raise ValueError(f"expected {name} to be {bound}, found {given}")
     return number
 
 
@@ -69,7 +69,10 @@ def monotone(t: float, times: object) -> list[float]:
     steps = [b - a for a, b in pairwise([t, *given])]
     one_way = all(x >= 0 for x in steps) or all(x <= 0 for x in steps)
     if not one_way or not all(map(math.isfinite, given)):
-        raise ValueError(f"expected finite times in t_eval that increase or decrease from t = {t}")
+        raise ValueError(
+            f"expected finite times in t_eval that only increase, or only decrease, from t = {t}; "
+            "sort the times"
+        )
     return given
 
 

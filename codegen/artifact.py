@@ -114,13 +114,15 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
     except FileNotFoundError:
         return []
     except OSError as problem:
-        raise InputError(reason(problem), where=str(path), expected="the file that emit wrote") from None
+        raise InputError(
+            reason(problem), where=str(path), expected="the manifest that orderconds emit wrote"
+        ) from None
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise InputError(
-            "this file is not a manifest",
+            "this file is not a manifest of emitted modules",
             where=str(path),
-            expected="the file that emit wrote",
-            hint="remove the file",
+            expected="the manifest that orderconds emit wrote",
+            hint="remove the file, then emit the modules again",
         ) from None
     return list(entries)
 
@@ -154,9 +156,9 @@ def _read(folder: Path, entries: list[dict[str, Any]], module: str, target: str)
     if len(chosen) != 1:
         known = ", ".join(f"{e['module']} ({e['target']})" for e in entries)
         raise InputError(
-            f"{len(chosen)} modules match {module or 'any name'} ({target or 'any target'})",
+            f"{len(chosen)} modules match the name {module or '(any)'} and the target {target or '(any)'}",
             where=str(folder),
-            expected=f"one of {known}" if known else "a folder that emit wrote",
+            expected=f"one of {known}" if known else "a folder that orderconds emit wrote",
         )
     files: dict[str, str] = {}
     for name, sha256 in chosen[0]["files"].items():
@@ -169,7 +171,7 @@ def _read(folder: Path, entries: list[dict[str, Any]], module: str, target: str)
             files[name] = content.decode(errors="replace")
             what = "" if hashlib.sha256(content).hexdigest() == sha256 else "was changed after it was emitted"
         if what:
-            hint = f"type: {chosen[0].get('command', 'orderconds emit')}"
+            hint = f"emit the module again: {chosen[0].get('command', 'orderconds emit')}"
             raise InputError(f"{name} {what}", where=str(folder), hint=hint)
     return Artifact(files, chosen[0])
 

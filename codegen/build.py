@@ -62,7 +62,7 @@ def _find(named: str, path: str) -> Compiler:
         candidates = [shlex.split(named)] if named.strip() else [["cc"], ["gcc"], ["clang"]]
     except ValueError as error:
         raise CompilerMissing(
-            f"cannot read {named!r}: {str(error).lower()}", where="$CC", hint="set CC to a C compiler"
+            f"{named!r} is not a command: {str(error).lower()}", where="$CC", hint="set CC to a C compiler"
         ) from None
     for words in candidates:
         if shutil.which(words[0], path=path):

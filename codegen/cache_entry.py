@@ -59,12 +59,12 @@ def _require_private(folder: Path) -> None:
     # If the folder is a symbolic link, the link must belong to the user, too.
     for status in (folder.lstat(), folder.stat()):
         if status.st_uid != os.geteuid():
-            raise PermissionError(1, "a folder of another user")
+            raise PermissionError(1, "the folder belongs to another user")
     if folder.stat().st_mode & 0o077:
         folder.chmod(0o700)
     mode = stat.S_IMODE(folder.stat().st_mode)
     if mode & 0o077:
-        raise PermissionError(1, f"its mode is {mode:o}, open to other users")
+        raise PermissionError(1, f"other users have access to the folder, whose mode is {mode:o}")
 
 
 @cache

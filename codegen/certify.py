@@ -55,7 +55,9 @@ class CertifiedOrder:
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""
-        where = f", as {self.classical} on an abelian group" if self.classical else ""
+        where = (
+            f", by the conditions of {self.classical}, because the group is abelian" if self.classical else ""
+        )
         return f"{least}{self.order}, certificate: {self.certificate}{explained}{where}"
 
 
@@ -85,7 +87,8 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
     order = lowering(method.family).order(method, scene)
     if not order.decided:
         raise MethodError(
-            f"the order of {method.label} is undecided beyond {order.order}",
+            f"the order of {method.label} is at least {order.order}; the coefficients have too few digits "
+            "to decide whether it is higher",
             expected="coefficients with more digits",
         )
     return _certified(method, order)
@@ -98,11 +101,11 @@ def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision,
     lowered = lowering(method.family)
     family = families.get(order.classical) if order.classical else lowered.conditions(method, scene)
     residual = rounded_residual(method, family, order.order, target)
-    rounded = f"the coefficients rounded to {target.name} precision"
+    rounded = f"with the coefficients rounded to {target.name} precision"
     if residual is None:
-        return f"the order conditions were not evaluated at {rounded}: there are too many conditions"
-    how = f"to {upwards(residual)}" if residual else "exactly"
-    return f"the order conditions hold {how} at {rounded}"
+        return f"the order conditions were not evaluated {rounded}: there are too many conditions"
+    size = f"at most {upwards(residual)}" if residual else "zero"
+    return f"{rounded}, the residuals of the order conditions are {size}"
 
 
 def upwards(x: float) -> str:

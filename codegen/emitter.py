@@ -53,8 +53,8 @@ from orderconds.tableau import Tableau
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
-"""The cost of operations in units of an addition; two forms of a step are compared by these costs. Additions
-and products cost 1, and functions that are not listed cost 12."""
+"""The cost of operations in units of an addition. The compiler compares versions of a step by these costs.
+Additions and products cost 1, and functions that are not listed cost 12."""
 
 
 @dataclass(frozen=True)
@@ -223,7 +223,8 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
     given = next((option for option, is_given in options.items() if is_given), None)
     if given is not None:
         raise MethodError(
-            f"{given} for {method.label} on a scene whose field is given by formulas of large matrices",
+            f"{given} is not available for {method.label} on a scene whose field is given by formulas of "
+            "large matrices",
             where=scene.name,
             expected="a scene with formulas in coordinates, such as FieldScene or LinearScene",
             hint=f"leave out {given}; the emitted run makes steps of equal size",
@@ -247,7 +248,7 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
     refused = [what for what, wanted in requests.items() if wanted]
     if refused:
         kind = "a chain or lattice" if scene.semilinear is None else "a semilinear equation"
-        what = f"{refused[0]} for {kind}"
+        what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
     if scene.semilinear is not None:
         # A given cut-off truncates dexp^{-1}; without a cut-off the closed form is used.
@@ -413,25 +414,25 @@ def emit_kernel(
     if kernel.batch and not known_target(target).batches:
         able = next(name for name in target_names() if known_target(name).batches)
         raise InputError(
-            f"the target {target}",
+            f"the target {target} has no code for batches",
             where="--batch",
-            expected="a target with batches",
+            expected="a target with code for batches",
             hint=f"add --target {able}",
         )
     if kernel.sites is not None and not known_target(target).lattice_loader:
         able = next(name for name in target_names() if known_target(name).lattice_loader)
         raise InputError(
-            f"the target {target}",
+            f"the target {target} has no code for chains and lattices",
             where=interface.module,
-            expected="a target with chains and lattices",
+            expected="a target with code for chains and lattices",
             hint=f"add --target {able}",
         )
     if kernel.modes is not None and not known_target(target).spectral_loader:
         able = next(name for name in target_names() if known_target(name).spectral_loader)
         raise InputError(
-            f"the target {target}",
+            f"the target {target} has no code for semilinear equations",
             where=interface.module,
-            expected="a target with semilinear equations",
+            expected="a target with code for semilinear equations",
             hint=f"add --target {able}",
         )
     if kernel.modes is not None and interface.format is not DOUBLE:

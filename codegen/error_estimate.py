@@ -44,23 +44,24 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     """
     embedded = method.embedded()
     if embedded is None:
-        raise MethodError(f"an estimate of the error for {method.label}", expected="an adaptive method")
+        raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
     # If f depends on t alone, stages at the same time have the same values, so rows of different orders may
     # be equal.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
-            f"no error estimate for {method.label}: both rows give the same result or the same leading error "
-            "if f does not depend on the state",
+            f"no error estimate for {method.label}: if f does not depend on the state, the method and its "
+            "embedded method give the same result or the same leading error",
             where=scene.name,
-            expected="rows that differ on y' = A(t).y",
+            expected="an embedded method whose result differs on y' = A(t).y",
             hint="use another tableau with an embedded method, for example cf:cf3 or rkmk(4):dormand_prince5",
         )
     if order == lower_order and is_blind(method, embedded, scene, order):
         raise MethodError(
-            f"no error estimate for {method.label}: both rows have order {order} and the same leading error",
+            f"no error estimate for {method.label}: the method and its embedded method have order {order} "
+            "and the same leading error",
             where=scene.name,
-            expected="rows of different orders",
+            expected="an embedded method of another order",
             hint=_hint(method, scene),
         )
     return 1 + min(order, lower_order)

@@ -9,7 +9,8 @@ from typing import Any
 from codegen.argument import described, real
 
 EventFunction = Callable[[float, Any], float]
-"""A function of the time and the state; the state has the form of the caller's state."""
+"""A function of the time and the state. The state has the same type as the initial state that the caller
+passes."""
 
 RISING, FALLING = 1, -1
 """The direction of a zero: the values of the event function change from negative to positive (RISING) or from
@@ -54,10 +55,12 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
     0
     >>> events_of([Event(len, terminal=True, direction=2)], 1)
     Traceback (most recent call last):
-    ValueError: expected the direction 1, -1 or 0 of an event, found 2
+    ValueError: expected 1, -1 or 0 for the direction of an event, found 2
     """
     if not isinstance(given, Sequence):
-        raise TypeError(f"expected a list of functions or events for events, found {described(given)}")
+        raise TypeError(
+            f"expected a list of functions, or of Event objects, for events, found {described(given)}"
+        )
     if len(given) > most:
         raise ValueError(
             f"expected at most {most} events, found {len(given)}; emit the module with events={len(given)}"
@@ -68,7 +71,7 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
         if not callable(event.function):
             raise TypeError(f"expected a function of time and state for an event, found {described(x)}")
         if event.direction not in (RISING, FALLING, 0):
-            raise ValueError(f"expected the direction 1, -1 or 0 of an event, found {event.direction}")
+            raise ValueError(f"expected 1, -1 or 0 for the direction of an event, found {event.direction}")
         events.append(event)
     return tuple(events)
 

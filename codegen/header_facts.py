@@ -21,12 +21,12 @@ from orderconds import __version__
 if TYPE_CHECKING:
     from codegen.emitter import Compiled
 
-SINGLE_IS = "single: constants are rounded once, implicit stages converge to single precision"
+SINGLE_IS = "single: exact constants are rounded to single precision, to which implicit stages converge"
 
 NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
 """A remark in the header of emitted code, for a scene whose field is not smooth."""
 
-COMPENSATED = "compensated: the second half of the state is the rounding errors, which are zero initially"
+COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
 COUNTED = "; the numbers of sweeps above are for double precision"
 """A remark in the header if the solvers were compared in double precision."""
 
@@ -92,7 +92,7 @@ def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
     used = compiled.scene.coordinates if lowering(compiled.method.family).reads_coordinates else None
     if used is None:
         return ()
-    unread = f"; the cut-off {compiled.method.cutoff} is not read, because nothing is truncated"
+    unread = f"; the cut-off {compiled.method.cutoff} has no effect, because no series is truncated"
     return (("coordinates", used.text + unread * (compiled.method.cutoff is not None)),)
 
 
@@ -117,7 +117,7 @@ def site_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     if step is None or sites is None:
         return ()
     *_, workspace, traffic = step.explanation()
-    loops = f"{len(step.sweeps)} loops over all sites a step; {workspace}; {traffic}"
+    loops = f"{len(step.sweeps)} loops over all sites in a step; {workspace}; {traffic}"
     return (("sites", sites.text()), ("loops", loops))
 
 

@@ -56,7 +56,7 @@ class Integrator(RunToEnd):
 
     def _manifest(self, key: str) -> Sequence[float]:
         if self.artifact is None or key not in self.artifact.manifest:
-            raise TypeError(f"this integrator has no {key}: it was not loaded from the files of a scene")
+            raise TypeError(f"this integrator was not loaded from emitted files, so it has no {key}")
         value: Sequence[float] = self.artifact.manifest[key]
         return value
 
@@ -139,7 +139,7 @@ class Integrator(RunToEnd):
             ]
             return batch.joined(rows)
         if (steps is None) is (t_eval is None):
-            raise TypeError("expected either steps or t_eval")
+            raise TypeError("expected exactly one of the arguments steps and t_eval")
         stride, t, h = count(stride, "stride", 1), real(t, "t"), real(h, "h")
         begun = self._begin(state, parameters, inputs, statistics)
         if t_eval is not None:
@@ -156,7 +156,9 @@ class Integrator(RunToEnd):
             # A quotient such as 0.3/0.1 is not an integer because of rounding.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
-                raise ValueError(f"expected a step size that needs finitely many steps, found {h}")
+                raise ValueError(
+                    f"expected a larger step size, found {h}: the number of steps would be infinite"
+                )
             steps = count(math.ceil(quotient), "steps")
             if steps:
                 final, _ = self._call(begun, t, (time - t) / steps, steps, 0)
@@ -196,11 +198,13 @@ class Integrator(RunToEnd):
         times = None if t_eval is None else monotone(t, t_eval)
         if end is None:
             if not times:
-                raise TypeError("expected the argument end, the time at which the run ends")
+                raise TypeError("expected the argument end, which is the time at which the run ends")
             end = times[-1]
         end = real(end, "end")
         if times and (end - times[-1]) * (times[-1] - t) < 0:
-            raise ValueError(f"expected an end that is not before the last time in t_eval, found {end}")
+            raise ValueError(
+                f"expected the run to end at or after {times[-1]}, the last time in t_eval, found end = {end}"
+            )
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             options = {"rtol": rtol, "atol": atol, "limit": limit, "statistics": statistics}
             arrivals = [

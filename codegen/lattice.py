@@ -67,19 +67,19 @@ class Lattice(ABC):
         if not finite.all():
             place = tuple(int(i) for i in np.argwhere(~finite)[0])
             state = table[(slice(None), *place)].tolist()
-            raise ValueError(f"expected finite numbers, found the state {state} of site {place}")
+            raise ValueError(f"expected finite numbers, found the state {state} at site {place}")
         try:
             work = np.empty(interface.workspace * finite.size, table.dtype)
         except MemoryError:
             raise InputError(
-                f"{finite.size} sites, each with {interface.workspace} numbers of workspace",
-                expected="enough memory",
+                f"not enough memory for the workspace of {finite.size} sites",
+                expected=f"space for {interface.workspace} numbers for each site",
                 hint="use fewer sites",
             ) from None
         status, completed = self._call(shape, table, (t, h, steps), values, work)
         if status == Status.BAD_SHAPE:
             raise ValueError(
-                f"expected more sites, found a lattice of shape {shape}: {reason(status.name, '', h)}"
+                f"expected another number of sites, found the shape {shape}: {reason(status.name, '', h)}"
             )
         block = "" if status == Status.NOT_FINITE else "the equations of the step"
         why = "" if status == Status.OK else reason(status.name, block, h)

@@ -91,7 +91,9 @@ def _opened(source: object, module: str, target: str) -> tuple[Artifact, Interfa
     """Return an artifact, its interface, and the default values of its parameters."""
     if not isinstance(source, Artifact | str | PathLike):
         raise InputError(
-            described(source), where="load", expected="an emitted module, or the folder that contains it"
+            described(source),
+            where="load",
+            expected="the result of codegen.emit, or a folder of emitted files",
         )
     artifact = source if isinstance(source, Artifact) else read(Path(source), module, target)
     try:
@@ -99,7 +101,8 @@ def _opened(source: object, module: str, target: str) -> tuple[Artifact, Interfa
         defaults = dict(artifact.manifest["defaults"])
     except (KeyError, TypeError, ValueError, AttributeError):
         raise InputError(
-            f"the manifest's entry for {artifact.key[0]} was changed after it was written",
+            f"the entry for {artifact.key[0]} in the manifest is not valid: it was changed after it was "
+            "written, or another version of the program wrote it",
             hint="emit the module again",
         ) from None
     return artifact, interface, defaults

@@ -112,8 +112,9 @@ class Method:
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
             raise MethodError(
-                f"{self.family} with the {self.tableau.family} tableau {self.tableau.name}",
-                expected="a tableau of family rk or composition",
+                f"the family {self.family} cannot use {self.tableau.name}, a tableau of format "
+                f"{self.tableau.family}",
+                expected="a tableau of format rk or composition",
             )
         return method
 
@@ -149,20 +150,21 @@ class Method:
         if not self.kind.fixed_stages:
             # Symplectic and variational methods conserve their modified energy for steps of equal size only.
             raise MethodError(
-                f"no error estimate for {self.label}: its stages depend on the weights, so an embedded "
-                "method cannot use them; with steps of varying size the method would also lose what it "
-                "preserves over long times",
+                f"no error estimate for {self.label}: the stages depend on the weights, so an embedded "
+                "method would need other stages; with steps of varying size the method would also lose its "
+                "conservation properties over long times",
                 expected=f"a method of {', '.join(with_estimate())}",
             )
         if self.kind.minimal_brackets and self.cutoff is None:
             raise MethodError(
-                f"no error estimate for {self.label}: its minimal brackets depend on the main weights",
-                expected="a fixed number of brackets",
+                f"no error estimate for {self.label}: the brackets depend on the weights, so an embedded "
+                "method would need other stages",
+                expected="a cut-off, which fixes the number of brackets",
                 hint=f"write rkmk(3):{self.tableau.name}",
             )
         if lower is None:
             raise MethodError(
-                f"an estimate of the error for {self.label}",
+                f"no error estimate for {self.label}: the tableau has no embedded method",
                 expected="a tableau with an embedded method",
                 hint="use for example dormand_prince5 or cf43",
             )
@@ -328,7 +330,9 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
         given = replace(given, claims=replace(given.claims, orders=tuple(_computed(given, family))))
     match = PATTERN.fullmatch(label)
     if match is None or (family and match["family"] is None):
-        raise MethodError(f"{family!r}", where="family", expected="a family, such as cg or rkmk(2)")
+        raise MethodError(
+            f"{family!r} is not a family", where="family", expected="a family, such as cg or rkmk(2)"
+        )
     return _method(match, _enclosed(given), label, families)
 
 
@@ -375,7 +379,7 @@ def parse(text: str, families: Sequence[str]) -> Method:
     match = PATTERN.fullmatch(text.strip())
     if match is None:
         raise MethodError(
-            f"the method {text!r}",
+            f"{text!r} is not the name of a method",
             expected="TABLEAU or FAMILY:TABLEAU",
             hint="write for example vcg:triple_jump",
         )
@@ -395,14 +399,14 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
         )
     if family is not None and not family_class(family).has_tableau:
         raise MethodError(
-            f"a tableau for family {family}", where=text, expected=f"the label alone, as {family}(12)"
+            f"the family {family} has no tableaux", where=text, expected=f"a label such as {family}(12)"
         )
     if cutoff is not None and family is not None and not family_class(family).takes_cutoff:
         cutting = [f for f in families if family_class(f).takes_cutoff]
         raise MethodError(
-            f"a cut-off for family {family}",
+            f"the family {family} has no cut-off",
             where=text,
-            expected=f"a cut-off for {' or '.join(cutting)} only, as in rkmk(2):rk4",
+            expected=f"a number in parentheses after {' or '.join(cutting)} only, as in rkmk(2):rk4",
         )
     # A commutator-free tableau has no A and b. If it claims an order in rk, the claim is for the Runge-Kutta
     # method whose coefficients are the sums of its exponents.

@@ -25,7 +25,9 @@ def default_prefix(scene: Problem, method: Method) -> str:
     named = bool(tableau) and tableau.startswith(method.family)
     parts = [scene.name, *([] if named else [family]), tableau]
     name = re.sub(r"\W", "_", "_".join(filter(None, parts)), flags=re.ASCII)
-    return prefix_of(name, "this name is the scene's file name: rename the file, or use --prefix NAME")
+    return prefix_of(
+        name, "the prefix begins with the name of the scene's file: rename the file, or use --prefix"
+    )
 
 
 def prefix_of(name: str, hint: str = "") -> str:
@@ -37,7 +39,7 @@ def prefix_of(name: str, hint: str = "") -> str:
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(
-            f"the prefix {name!r}",
+            f"{name!r} cannot be the prefix of names in C and Python",
             where="--prefix",
             expected="a letter, then letters, digits and _",
             hint=hint,
@@ -45,8 +47,9 @@ def prefix_of(name: str, hint: str = "") -> str:
     module = name.rstrip("_")
     if keyword.iskeyword(module) or module in HEADERS:
         raise InputError(
-            f"the prefix {name!r}",
+            f"the prefix {name!r} is a keyword of Python, or the name of a header or module that emitted "
+            "code includes",
             where="--prefix",
-            expected="a name that is neither a keyword of Python nor a standard header",
+            expected="another name",
         )
     return module + "_"

@@ -40,12 +40,14 @@ def entries(path: Path = LIST) -> list[Entry]:
     try:
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
-        raise InputError(f"this is not TOML: {error}", where=str(path)) from None
+        raise InputError(f"the file is not valid TOML: {error}", where=str(path)) from None
     modules = data.get("module", [])
     if set(data) != {"module"} or not isinstance(modules, list) or not modules:
         keys = ", ".join(data) or "none"
         raise InputError(
-            f"no list of modules; its keys are: {keys}", where=str(path), expected="tables [[module]] only"
+            f"the file is not a list of modules; its keys are: {keys}",
+            where=str(path),
+            expected="tables [[module]] only",
         )
     return [_entry(module, f"{path}: module {number}") for number, module in enumerate(modules, start=1)]
 
@@ -54,12 +56,16 @@ def _entry(module: object, where: str) -> Entry:
     """Return one entry of the list."""
     if not isinstance(module, dict) or sorted(module) != sorted(KEYS):
         keys = ", ".join(sorted(module)) if isinstance(module, dict) else repr(module)
-        raise InputError(f"the keys {keys}", where=where, expected=", ".join(KEYS))
+        raise InputError(
+            f"the keys of the module are: {keys}", where=where, expected=f"the keys {', '.join(KEYS)}"
+        )
     scene, method, targets = (module[key] for key in KEYS)
     texts = [scene, method, *(targets if isinstance(targets, list) else [None])]
     if not all(isinstance(text, str) for text in texts):
         raise InputError(
-            f"{scene!r}, {method!r}, {targets!r}", where=where, expected="two strings and a list of strings"
+            f"the values of the module are: {scene!r}, {method!r}, {targets!r}",
+            where=where,
+            expected="two strings and a list of strings",
         )
     return Entry(scene, method, tuple(targets))
 
@@ -75,7 +81,7 @@ def contents(listed: list[Entry]) -> dict[str, str]:
             manifests.setdefault(folder, []).append(dict(artifact.manifest))
             for name, text in artifact.files.items():
                 if files.setdefault(f"{folder}/{name}", text) != text:
-                    raise InputError(f"two modules emit the file {name}", where=str(LIST))
+                    raise InputError(f"two modules emit different files {name}", where=str(LIST))
     for folder, manifest in manifests.items():
         files[f"{folder}/{MANIFEST}"] = manifest_text(manifest)
     return dict(sorted(files.items()))

@@ -35,10 +35,11 @@ def extension_of(method: Method, scene: Problem) -> Continuous:
     computed = None if program is None else extension_order(method.tableau)
     if program is None or computed is None or not computed.order or computed.continuous is not True:
         raise MethodError(
-            f"no continuous extension for {method.label}",
+            f"{method.label} has no continuous extension",
             where=scene.name,
             expected="rk or rkmk(r) with an explicit tableau that has the key dense",
-            hint="orderconds extend TABLEAU finds one; or use --integrate, which makes shorter steps instead",
+            hint="find an extension with orderconds extend TABLEAU; or use --integrate, which reaches output "
+            "times by shorter steps",
         )
     order = min(computed.order, certified_order(method, scene).order)
     return continuous(program, problem, order)
@@ -78,7 +79,7 @@ def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
     for option, requested in options.items():
         if requested:
             raise MethodError(
-                f"compensated summation with --{option} for {method.label}",
+                f"--{option} is not available for {method.label} with compensated summation",
                 expected="steps of constant size, without a Jacobian and without a continuous extension",
                 hint=f"leave out --{option} or --compensate",
             )
@@ -88,10 +89,12 @@ def observed_run(method: Method, scene: Problem, degree: int, events: int, dense
     """Return the request for a run to a given end time. ``degree`` is the degree of the Taylor polynomial of
     a step, or 0 if a step evaluates no Taylor polynomial."""
     if count(events, "events") > MOST_EVENTS:
-        raise InputError(f"{events} event functions", where="events", expected=f"at most {MOST_EVENTS}")
+        raise InputError(
+            f"{events} event functions are too many", where="events", expected=f"at most {MOST_EVENTS}"
+        )
     if degree and method.adaptive:
         raise MethodError(
-            f"a run to a given end time for {method.label} with step control",
+            f"a run to a given end time is not available for {method.label} with step control",
             expected="an adaptive method with an embedded method, or steps of constant size",
             hint="leave out --adaptive or --integrate",
         )

@@ -54,7 +54,9 @@ class RunToEnd(ABC):
         times = monotone(t, () if t_eval is None else t_eval)
         end = real(end if end is not None or not times else times[-1], "end")
         if times and (end - times[-1]) * (times[-1] - t) < 0:
-            raise ValueError(f"expected an end that is not before the last time in t_eval, found {end}")
+            raise ValueError(
+                f"expected the run to end at or after {times[-1]}, the last time in t_eval, found end = {end}"
+            )
         bounds = tuple(
             real(x, n) for x, n in ((rtol, "rtol"), (atol, "atol"), (least, "least"), (greatest, "greatest"))
         )

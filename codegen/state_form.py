@@ -73,7 +73,7 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
     ([1.0, 0.0, 0.0, 1.0, 2.0, 3.0], ([[1.0, 0.0], [0.0, 1.0]], [2.0, 3.0]))
     >>> read(([2, 3], [[1, 0], [0, 1]]), 6, (("q", 4), ("mu", 2)))
     Traceback (most recent call last):
-    ValueError: expected a state with the parts (q, mu) of 4 and 2 numbers in this order, found parts of \
+    ValueError: expected a state with the parts q, mu of 4 and 2 numbers in this order, found parts of \
 2 and 4 numbers
     """
     is_tuple = isinstance(state, tuple) and any(map(_has_entries, state))
@@ -102,7 +102,7 @@ def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
     if not ends.issuperset(accumulate(sizes)):
         names, known = ", ".join(name for name, _ in fields), _listed([size for _, size in fields])
         raise ValueError(
-            f"expected a state with the parts ({names}) of {known} numbers in this order, found parts of "
+            f"expected a state with the parts {names} of {known} numbers in this order, found parts of "
             f"{_listed(sizes)} numbers"
         )
 

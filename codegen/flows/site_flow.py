@@ -49,7 +49,7 @@ class SiteFlow(Flow):
 
     def text(self) -> str:
         """Return a description of the motion."""
-        return "the same group element for the whole time"
+        return "exp(tau x) for a constant element x of the Lie algebra"
 
 
 def site_flows(scene: Problem) -> list[Part]:

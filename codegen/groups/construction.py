@@ -12,11 +12,13 @@ def check_size(name: str, n: object, least: int) -> None:
 
     >>> check_size("SO", "3", 2)
     Traceback (most recent call last):
-    codegen.errors.SceneError: SO('3'): a size that is not allowed; expected an integer of at least 2
+    codegen.errors.SceneError: SO('3'): this size is not allowed; expected an integer of at least 2
     """
     if not isinstance(n, int) or isinstance(n, bool) or n < least:
         raise SceneError(
-            "a size that is not allowed", where=f"{name}({n!r})", expected=f"an integer of at least {least}"
+            "this size is not allowed",
+            where=f"{name}({n!r})",
+            expected=f"an integer of at least {least}",
         )
 
 
@@ -25,5 +27,5 @@ def check_factor(name: str, group: object) -> None:
     if not isinstance(group, LieGroup):
         shown = group.__name__ if isinstance(group, type) else repr(group)
         raise SceneError(
-            f"the factor {shown} of {name}", expected="an object of codegen.groups, such as SO3()"
+            f"{shown} in {name} is not a group", expected="an object of codegen.groups, such as SO3()"
         )

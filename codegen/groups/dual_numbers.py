@@ -66,7 +66,7 @@ class DualDomain:
         d, (x,) = self.domain, args
         name, k = function[:-1], int(function[-1])
         if not name.endswith("stumpff"):
-            raise ArithmeticError(f"{function} of a dual number; expected a Stumpff function")
+            raise ArithmeticError(f"{function} has no rule for dual numbers; expected a Stumpff function")
         slope: Scalar
         if k == 0:
             slope = -(d.rational(1, 2) * d.call(f"{name}1", x.real))
@@ -78,7 +78,7 @@ class DualDomain:
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Raise ArithmeticError, because vector functions of dual numbers are not implemented."""
-        raise ArithmeticError(f"{function} of dual numbers; expected a Stumpff function")
+        raise ArithmeticError(f"{function} has no rule for dual numbers; expected a Stumpff function")
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise ArithmeticError, because no iteration runs over dual numbers."""

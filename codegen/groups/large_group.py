@@ -27,9 +27,9 @@ class LargeGroup(LieGroup):
 
     def _refuse(self) -> NoReturn:
         raise SceneError(
-            f"an operation of {self.name} in coordinates",
-            expected=f"emitted code of {self.families}, which needs no {self.n} x {self.n} matrix",
-            hint="use a scene with at most eight rows for measurements that need formulas in coordinates",
+            f"{self.name} is too large for formulas in coordinates",
+            expected=f"emitted code of {self.families}, which forms no {self.n} x {self.n} matrix",
+            hint="for measurements that need formulas in coordinates, use a scene with at most eight rows",
         )
 
     def identity(self, d: Domain) -> Vector[S]:

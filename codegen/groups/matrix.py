@@ -38,7 +38,11 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         basis = [rational_rows(name, matrix) for matrix in basis]
         self.n = len(basis[0]) if basis else 0
         if not self.n or any(len(rows) != self.n for matrix in basis for rows in (matrix, *matrix)):
-            raise SceneError("a basis that is empty or not square", where=name, expected="n x n matrices")
+            raise SceneError(
+                "the basis is empty, or its matrices are not all square and of the same size",
+                where=name,
+                expected="n x n matrices",
+            )
         self.dim, self.size = len(basis), self.n**2
         flat = (tuple(x for row in matrix for x in row) for matrix in basis)
         self.algebra = matrix_algebra(name, self.n, tuple(map(sparse, flat)))

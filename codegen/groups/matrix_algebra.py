@@ -125,7 +125,9 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
     for component in _components(gram):
         inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
         if inverse is None or not all(basis[i] for i in component):
-            raise SceneError("a linearly dependent basis", where=name, expected="independent matrices")
+            raise SceneError(
+                "the basis is linearly dependent", where=name, expected="linearly independent matrices"
+            )
         for i, row in zip(component, inverse, strict=True):
             total: dict[int, Fraction] = {}
             for j, weight in zip(component, row, strict=True):
@@ -172,8 +174,9 @@ class _Coordinates:
                 rest[place] = rest.get(place, Fraction(0)) - c * value
         if any(rest.values()):
             raise SceneError(
-                "a basis that is not closed under [A, B] = AB - BA",
+                "the bracket [A, B] = AB - BA of two basis matrices is not a combination of basis matrices",
                 where=self.name,
-                expected="brackets of basis matrices that are combinations of basis matrices",
+                expected="the basis of a Lie algebra",
+                hint="add the missing matrices to the basis",
             )
         return [(i, c) for i, c in sorted(x.items()) if c]

@@ -38,7 +38,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 
     def __init__(self, *factors: LieGroup) -> None:
         if not factors:
-            raise SceneError("a product without factors", expected="one group at least")
+            raise SceneError("a product was given no factors", expected="at least one group")
         for factor in factors:
             check_factor("a product", factor)
         self.factors = factors

@@ -21,13 +21,17 @@ def rational_rows(name: str, matrix: object) -> tuple[tuple[Fraction, ...], ...]
     listed = matrix.tolist() if hasattr(matrix, "tolist") else matrix
     if not isinstance(listed, Sequence) or not all(isinstance(row, Sequence) for row in listed):
         raise SceneError(
-            f"a matrix {matrix}", where=name, expected="a list of rows, a sympy matrix or a NumPy array"
+            f"{matrix} is not a matrix",
+            where=name,
+            expected="a list of rows, a sympy matrix or a NumPy array",
         )
     rows = []
     for row in listed:
         values = [exact(x) for x in row]
         for x, value in zip(row, values, strict=True):
             if value is None:
-                raise SceneError(f"the entry {x} of a matrix", where=name, expected="a rational number")
+                raise SceneError(
+                    f"the entry {x} of a matrix is not rational", where=name, expected="a rational number"
+                )
         rows.append(tuple(value for value in values if value is not None))
     return tuple(rows)

@@ -35,11 +35,13 @@ class Registry(Generic[T]):
         name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
         if missing:
             raise SceneError(
-                f"the {self.kind} {name} without {', '.join(missing)}",
+                f"the {self.kind} {name} does not implement {', '.join(missing)}",
                 expected="a class that implements all abstract methods of its bases",
             )
         if name in self.built_in:
-            raise SceneError(f"a second {self.kind} called {name}", expected="another name for the class")
+            raise SceneError(
+                f"a built-in {self.kind} is called {name}, too", expected="another name for the class"
+            )
         self._added[name] = cls
 
     def remove(self, cls: type[T]) -> None:

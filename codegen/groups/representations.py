@@ -44,7 +44,7 @@ class Representation(ABC):
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
-            raise SceneError(f"{copies} copies of a space", expected="one copy at least")
+            raise SceneError(f"the number of copies of a space is {copies}", expected="at least one copy")
         self.copies = copies
 
     @abstractmethod
@@ -107,7 +107,7 @@ class Representation(ABC):
         it."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
-            expected="series and dual_series if closed returns True, else gradient",
+            expected="the methods series and dual_series if closed returns True, else the method gradient",
             hint=f"write {method} in the class {type(self).__name__}",
         )
 

@@ -60,7 +60,7 @@ class Semidirect(
         check_factor("a semidirect product", linear)
         if not isinstance(representation, Representation):
             raise SceneError(
-                f"the representation {representation!r} of {linear.name}",
+                f"{representation!r} is not a representation of {linear.name}",
                 expected="an object of codegen.groups.representations, such as MatrixColumns()",
             )
         linear.require(representation.needs)

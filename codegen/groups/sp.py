@@ -19,7 +19,7 @@ class Sp(IsometryGroup):
         check_size("Sp", rows, 2)
         n = rows // 2
         if rows % 2:
-            raise SceneError(f"Sp({rows})", expected="an even number of rows, as in Sp(4)")
+            raise SceneError(f"Sp({rows}) has an odd number of rows", expected="an even number, as in Sp(4)")
         self.form = tuple((i + n, 1) if i < n else (i - n, -1) for i in range(rows))
         every = [(i, j) for i in range(n) for j in range(n)]
         basis = [difference(rows, (i, j), (n + j, n + i)) for i, j in every]

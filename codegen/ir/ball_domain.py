@@ -136,7 +136,9 @@ class BallDomain:
         if isinstance(called, MatrixExponential):
             first = numbers[: called.n**2]
             if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
-                raise OverflowError("the exponential of a matrix needs finite entries of at most 2^40")
+                raise OverflowError(
+                    "expected a matrix with finite entries of at most 2^40 for an exponential"
+                )
             # The exponential may be smaller than the terms of its series by a factor exp(-2 norm).
             norm = float(called.n * max(abs(x) for x in first))
             with precision(self.bits + 64 + min(2**13, 3 * int(norm))):

@@ -47,7 +47,8 @@ def always(yes: Expr, no: Expr) -> Expr:
 def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], where: str) -> Condition:
     """Return a condition of sympy as a :data:`Condition`; ``node`` translates the expressions in it.
 
-    :class:`SceneError` is raised for a condition that is no comparison and is not joined by And, Or or Not.
+    :class:`SceneError` is raised for a condition that is neither a comparison nor a combination of
+    comparisons by And, Or and Not.
     """
     import sympy
 
@@ -66,7 +67,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
             total = both(total, inner(part) if joins_all else negation(inner(part)))
         return total if joins_all else negation(total)
     if not isinstance(condition, sympy.core.relational.Relational):
-        raise SceneError(f"the condition {condition}", where=where, expected=EXPECTED)
+        raise SceneError(f"{condition} is not a condition", where=where, expected=EXPECTED)
     a, b = (node(x) for x in condition.args)
     above, below = positive(a - b), positive(b - a)
     match condition:

@@ -74,7 +74,7 @@ def stumpff(k: int, z: float) -> float:
 
     For large z the function oscillates. The error is a few units in the last place of the amplitude of this
     oscillation near z. For z > 2^52 the result is NaN, as in emitted code: the angle sqrt z exceeds 2^26, so
-    half of its digits only count full turns.
+    half of its digits represent full turns.
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """

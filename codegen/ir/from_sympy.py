@@ -45,7 +45,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     try:
         formula = sympy.sympify(expression, strict=True)  # with strict=True, sympify does not parse strings
     except sympy.SympifyError:
-        what = f"{type(expression).__name__} {expression!r}"
+        what = f"{expression!r} of type {type(expression).__name__} is not a formula"
         raise SceneError(what, where=where, expected="a sympy formula or a number") from None
     return _Reader(space, where).node(formula)
 
@@ -102,16 +102,22 @@ class _Reader:
             return self.space.call(table, self.node(e.args[-1]))
         if name in JUMPING:
             hint = "write a Piecewise formula, or a table, for the range that the state reaches"
-            raise SceneError(f"{name} in {e}", where=self.where, expected="finitely many pieces", hint=hint)
+            raise SceneError(
+                f"{e} has infinitely many jumps",
+                where=self.where,
+                expected="formulas with finitely many jumps",
+                hint=hint,
+            )
         calls = ", ".join([*sorted(CALLS), ANGLE, *SELECTIONS, "table"])
         allowed = f"symbols, numbers, + - * /, integer and half-integer powers, {calls}"
-        raise SceneError(f"{type(e).__name__} in {e}", where=self.where, expected=allowed)
+        what = f"{type(e).__name__} in the formula {e} is not supported"
+        raise SceneError(what, where=self.where, expected=allowed)
 
     def _float(self, e: sympy.Float) -> Expr:
         value = decimal(e)
         if not is_normal(value):
             expected = "0, or an absolute value between 1e-307 and 1e308"
-            raise SceneError(f"the float {e}", where=self.where, expected=expected)
+            raise SceneError(f"the number {e} is out of range", where=self.where, expected=expected)
         return self.space.const(Number.rational(*value.as_integer_ratio()))
 
     def guarded(self, x: Expr, safe: int) -> Expr:
@@ -148,9 +154,9 @@ class _Reader:
 
         if e.args[-1][1] != sympy.true:
             raise SceneError(
-                f"a Piecewise formula without a default branch: {e}",
+                f"the Piecewise formula {e} has no default branch",
                 where=self.where,
-                expected="a last branch (formula, True)",
+                expected="(formula, True) as the last branch",
             )
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
@@ -197,7 +203,11 @@ class _Reader:
             # x^(n/2) = x^(n div 2) sqrt x for odd n: all half-integer powers of one base share one root.
             value = space.mul(space.pow(base, abs(n) // 2), root)
             return value if n > 0 else space.div(space.one, value)
-        raise SceneError(f"the power {e}", where=self.where, expected="an integer or half-integer exponent")
+        raise SceneError(
+            f"the exponent in {e} is not a multiple of 1/2",
+            where=self.where,
+            expected="an integer or half-integer exponent",
+        )
 
 
 def _sorted(e: sympy.Basic) -> list[sympy.Basic]:

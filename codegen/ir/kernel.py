@@ -297,9 +297,9 @@ class Continuous:
 
 @dataclass(frozen=True)
 class Observed:
-    """The request for a run to a given end time, with output at given times, and with zeros of ``events``
-    event functions of the caller. States at output times are computed by the ``extension``, or, if there is
-    none, by shorter steps."""
+    """The request for a run to a given end time. The run writes the states at given times, and finds the
+    zeros of event functions of the caller, whose number is ``events``. States at output times are computed by
+    the ``extension``; without an extension, by shorter steps."""
 
     events: int = 0
     extension: Continuous | None = None

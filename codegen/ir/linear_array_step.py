@@ -47,7 +47,7 @@ class TimeMatrix:
 
     @property
     def filled(self) -> int:
-        """The number of entries that are not zero by definition."""
+        """The number of stored entries: those on the diagonals if the matrix is banded, else all."""
         n = self.rows
         return sum(n - abs(d) for d in self.offsets) if self.is_banded else n * n
 

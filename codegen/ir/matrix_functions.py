@@ -145,7 +145,7 @@ class MatrixInverse(VectorFunction):
 
     def _invertible(self, result: tuple[Scalar, ...] | None) -> tuple[Scalar, ...]:
         if result is None:
-            raise ZeroDivisionError("the inverse of a singular matrix")
+            raise ZeroDivisionError("a singular matrix has no inverse")
         return result
 
 

@@ -233,7 +233,7 @@ class ModeStep:
 
     @property
     def growth(self) -> int:
-        """A bound p on the growth of the tables: they are at most a constant times (1 + |z|)^p for Re z < 0.
+        """A bound p on the growth of the tables: they are at most a constant times (1 + |z|)^p for z < 0.
 
         The bound holds for tables without exp(c z) and c < 0. Such a step is :attr:`backwards`.
         """
@@ -259,8 +259,9 @@ class ModeStep:
         lines += self._sum("new u", self.result, "")
         lines.append("z is h times the eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
-            lines.append("bernoulli(z) = z/(exp(z) - 1)")
-        lines.append(f"tables for Re z < 0: {self.bound()}")
+            poles = ", unbounded near the poles z = 2 pi i m, m = 1, -1, 2, ..." if self.complex else ""
+            lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
+        lines.append(f"tables for z < 0: {self.bound()}")
         lines.append(
             f"a step: {len(self.evaluations)} evaluations of N, {self.transforms} Fourier transforms"
         )

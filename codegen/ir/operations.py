@@ -194,7 +194,8 @@ class OfGroup(Operation):
 
     @property
     def function(self) -> str:
-        """The name of the function of the group, the action or the scene (:meth:`Problem.apply`)."""
+        """The name of the function of the group, the action or the scene that evaluates this operation
+        (:meth:`Problem.apply`)."""
         return self.name
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
@@ -293,7 +294,7 @@ class Adjoint(OfGroup):
 
     @property
     def function(self) -> str:
-        """The name of the function of the group."""
+        """The name of the method of the group that evaluates this operation."""
         return f"Ad{'t' if self.dual else ''}{'inv' if self.inverse else ''}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -323,7 +324,7 @@ class Bracket(OfGroup):
 
     @property
     def function(self) -> str:
-        """The name of the function of the group."""
+        """The name of the method of the group that evaluates this operation."""
         return "adt" if self.dual else "ad"
 
     def signature(self) -> tuple[Kinds, Kinds]:

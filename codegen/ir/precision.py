@@ -62,7 +62,7 @@ class Precision:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
                 f"the constant {text} is too large for the type {self.c_type}",
-                expected=f"at most {self.largest:.3g}",
+                expected=f"an absolute value of at most {self.largest:.3g}",
             )
         return rounded
 

@@ -19,7 +19,7 @@ class OfScene(OfGroup):
 
     @property
     def function(self) -> str:
-        """The name of the function of the scene."""
+        """The name of the function of the scene that evaluates this operation."""
         # The function has one more argument if it depends on time, so emitted code needs a second name for
         # it.
         return f"{self.name}t" if self.timed else self.name

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
 
 STATE, WORK, RESULT = "state", "work", "result"
-"""The arrays of a step: the old state, the workspace, and the new state. Row k of an array contains one
-number of each site."""
+"""The arrays of a step: the old state, the workspace, and the new state. Row k of an array contains number k
+of every site."""
 
 OWN = -1
 """The neighbour number of the site itself."""

@@ -238,8 +238,8 @@ class _Builder:
                 self.shared[key] = result
             case _:
                 raise SceneError(
-                    f"no recurrence for the Taylor coefficients of {name}",
-                    expected=f"+ - * /, constant powers, {', '.join(MATHEMATICAL)}",
+                    f"no recurrence is known for the Taylor coefficients of {name}",
+                    expected=f"formulas with + - * /, constant powers, {', '.join(MATHEMATICAL)}",
                 )
         return self.shared[key]
 

@@ -43,7 +43,7 @@ STATE, NEW, BASIS, GRAM, ERROR = "state", "new state", "basis", "gram", "error"
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method that has no step by loops over arrays."""
-    hint = "explicit methods of the families rkmk, cf and cg are possible, for example rkmk:rk4"
+    hint = "use an explicit method of the family rkmk, cf or cg, for example rkmk:rk4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
@@ -80,7 +80,7 @@ def compiled(
     lowered = lower(model, method)
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
         expected = "an explicit method for a scene with large matrices"
-        raise refusal(scene, f"the implicit stages of {method.label}", expected)
+        raise refusal(scene, f"{method.label} has implicit stages", expected)
     program, trace = optimise(lowered, model)
     return ArrayMethod(lowered, program, trace, kernel(program, scene))
 
@@ -148,7 +148,9 @@ class _Builder:
                 self.points[var] = None
         for statement in self.program.body:
             if not isinstance(statement, Assign):
-                raise refused(self.scene, f"the equations of {statement.label}", "an explicit method")
+                raise refused(
+                    self.scene, f"the method has implicit equations ({statement.label})", "an explicit method"
+                )
             self.run(statement)
         outputs = dict(self.program.outputs)
         embedded = outputs.pop(EMBEDDED, None)
@@ -194,7 +196,7 @@ class _Builder:
             case Advance(coefficient=c):
                 self.times[target] = self.times[args[0]] + c.evaluate(self.domain)
             case _:
-                what = f"the operation {operation.name} for generators of low rank"
+                what = f"the operation {operation.name} has no code for matrices of low rank"
                 raise refused(self.scene, what, "another method")
 
     def sum(self, target: Matrix, *terms: tuple[Expr, Matrix]) -> Matrix:

@@ -35,9 +35,10 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
     """
     if kernel.arrays is not None:
         raise MethodError(
-            "a compensated form of a step by loops over arrays",
+            "compensated summation is not available for scenes with large matrices",
             where=problem.name,
-            expected="a step with a formula for each coordinate",
+            expected="a scene with a formula for each coordinate",
+            hint="leave out --compensate",
         )
     if kernel.deferred is not None:  # The step must be complete: no flow may be deferred to the next step.
         kernel = to_kernel(program, problem)

@@ -37,7 +37,7 @@ LARGE_SUM = 1e-6
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method whose step cannot be computed by products of A and vectors."""
-    hint = "methods of the families magnus, cf_magnus and fer are possible, for example cf_magnus4"
+    hint = "use a method of the family magnus, cf_magnus or fer, for example cf_magnus4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
@@ -49,8 +49,8 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
     operation that is not a product of A and a vector.
     """
     if method.adaptive:
-        expected = "a method with constant steps"
-        raise refused(scene, "step control for a large linear problem", expected)
+        expected = "a run with constant steps"
+        raise refused(scene, "step control is not available for linear scenes with large matrices", expected)
     return compiled(scene, method, _model(not scene.autonomous), large_linear_kernel, refused)
 
 
@@ -109,7 +109,9 @@ class _Builder:
         statements: dict[Var, Assign] = {}
         for statement in self.program.body:
             if not isinstance(statement, Assign):
-                raise refused(self.scene, f"the equations of {statement.label}", "an explicit method")
+                raise refused(
+                    self.scene, f"the method has implicit equations ({statement.label})", "an explicit method"
+                )
             statements |= dict.fromkeys(statement.targets, statement)
         for var in self.program.inputs:
             if var.kind is Kind.REAL:
@@ -142,8 +144,8 @@ class _Builder:
         while end in statements:
             assign = statements[end]
             if not isinstance(assign.operation, ActExp):
-                what = f"the operation {assign.operation.name} for large matrices"
-                raise refused(self.scene, what, "exponentials of Lie elements")
+                what = f"the operation {assign.operation.name} has no code for large matrices"
+                raise refused(self.scene, what, "a method that only applies exponentials of Lie elements")
             x, end = assign.args
             result.insert(0, x)
         return result
@@ -169,8 +171,8 @@ class _Builder:
             case Advance(coefficient=c):
                 self.moments[target] = self.moments[args[0]] + c.evaluate(self.domain)
             case _:
-                what = f"the operation {operation.name} for large matrices"
-                raise refused(self.scene, what, "sums and brackets of the values of A")
+                what = f"the operation {operation.name} has no code for large matrices"
+                raise refused(self.scene, what, "exponents that are sums and brackets of values of A")
 
     def node(self, time: Expr) -> int:
         """Return the number of the node at a time; evaluations of A at equal times are one node."""

@@ -119,7 +119,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
     """Format operation counts as text: one line for the step, and one line for a sweep of each block.
 
     >>> sentences({"step": {"add": 2, "stumpff_12": 1}, "stage 1": {"mul": 3}})
-    ['2 add, 1 stumpff_12 a step', '3 mul a sweep of stage 1']
+    ['2 add, 1 stumpff_12 a step', '3 mul for each sweep of stage 1']
     """
     lines = []
     for block, numbers in counts.items():
@@ -129,9 +129,9 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
         elif block == STEP:
             lines.append(f"{each} a step")
         elif block.startswith("matrix of "):
-            lines.append(f"{each} a {block}")
+            lines.append(f"{each} for each {block}")
         else:
-            lines.append(f"{each} a sweep of {block}")
+            lines.append(f"{each} for each sweep of {block}")
     return lines
 
 
@@ -149,7 +149,7 @@ def costs(kernel: Kernel) -> list[str]:
         lines.append(f"{first} at the beginning of a run, {last} at its end")
     for each_kernel in kernel.deferred.kernels if kernel.deferred is not None else ():
         (line,) = sentences(operations(arrange(each_kernel)))
-        lines.append(f"{line.removesuffix(' a step')} once in a run of steps")
+        lines.append(f"{line.removesuffix(' a step')} once in each run")
     return lines
 
 

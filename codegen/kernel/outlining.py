@@ -229,6 +229,6 @@ class Outline:
                 raise IllFormed(f"outlining changed the results of {self.program.name}")
             return
         raise MethodError(
-            f"the step of {self.program.name} gave infinite or undefined numbers at every test point",
+            f"the step of {self.program.name} computed an infinity or a NaN at every test point",
             expected="coefficients and parameters of moderate size",
         )

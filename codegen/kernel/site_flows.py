@@ -30,7 +30,7 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
     assert scene.sites is not None
     if not scene.autonomous:
         raise MethodError(
-            f"a splitting of {scene.name}, whose field depends on t",
+            f"a splitting cannot be used on {scene.name}, because the field of this lattice depends on t",
             expected="a field that does not depend on t",
         )
     word = lowering.read(scene, method).word

@@ -28,9 +28,9 @@ from codegen.scene.site_scene import with_frozen_neighbours
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method whose step cannot be computed by sweeps over sites."""
-    hint = "methods of the families rkmk, cf, cg, rk and ambient are possible, for example cf:cf4, "
-    hint += "splittings of a scene with parts, and methods of the families vcg, vcf, vrkmk and slgi on a "
-    hint += "HamiltonianSiteScene"
+    hint = "use a method of the family rkmk, cf, cg, rk or ambient, for example cf:cf4; "
+    hint += "a splitting if the scene has parts; "
+    hint += "or a method of the family vcg, vcf, vrkmk or slgi on a HamiltonianSiteScene"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
@@ -61,7 +61,7 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     operations = [assign.operation for assign in program.assigns()]
     other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
-        what = f"{method.label} on a lattice, with the operation {other[0].name}"
+        what = f"the operation {other[0].name} of {method.label} has no code for lattices"
         raise refused(scene, what, "a method that evaluates only the field, or the derivatives of H")
     return SiteMethod(problem, lowered, program, trace, site_kernel(program, problem, newton))
 

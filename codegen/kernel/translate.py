@@ -138,7 +138,8 @@ class _Translation:
                 f"{assign.operation.name} on {scene.group.name}: {error}",
                 where=scene.name,
                 expected="a group whose operations have closed forms",
-                hint="add closed forms to the group, or use the group for exact series only",
+                hint="write the closed forms in the class of the group; without them the group has exact "
+                "power series, but no emitted code",
             ) from error
         if isinstance(assign.operation, BodyForce):
             # The arguments are treated as symbols. If they were expanded, their terms would no longer be

@@ -105,7 +105,7 @@ def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation 
     trivialised = group.offers(RightTrivialisation)
     if trivialised is None:
         raise SceneError(
-            f"a Jacobian on {group.name}, whose tangent vectors have no form as elements of the algebra",
+            f"the derivative of a step is not available on {group.name}, which has no right trivialisation",
             where=scene.name,
             expected="a group with right-trivialised tangent vectors",
         )

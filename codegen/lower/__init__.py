@@ -79,10 +79,10 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
         return None
     if name not in scene.steps:
         raise MethodError(
-            f"the step {name!r}",
+            f"the scene states no step {name!r}",
             where=scene.name,
             expected=f"one of {', '.join(scene.steps)}" if scene.steps else "a scene that states steps",
-            hint="state the step in the argument steps of LinearScene",
+            hint="define the step in the argument steps of LinearScene",
         )
     return Method("magnus", None, step=name)
 
@@ -92,7 +92,7 @@ def _check(scene: Problem, own: Lowering) -> None:
     objection = own.objection(scene)
     if objection is not None:
         raise MethodError(
-            f"{own.family} on {scene.name}{objection.reason}",
+            f"the family {own.family} cannot be used on {scene.name}{objection.reason}",
             expected=objection.expected,
             hint=objection.hint or f"use one of {', '.join(families_for(scene))}",
         )

@@ -25,8 +25,8 @@ class Objection:
     """The reason why a family does not accept a scene: the unsuitable property, the expected property, and a
     hint.
 
-    ``reason`` is appended to "FAMILY on SCENE" in the message. Without a ``hint`` the message lists the
-    families that accept the scene.
+    ``reason`` is appended to "the family FAMILY cannot be used on SCENE" in the message. Without a ``hint``
+    the message lists the families that accept the scene.
     """
 
     reason: str

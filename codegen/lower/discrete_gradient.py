@@ -114,6 +114,7 @@ def _check_bivector(scene: Problem, method: Method) -> None:
         # where gamma vanishes.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             raise MethodError(
-                f"{method.label} on {scene.name}, whose energy has differential zero where f is not zero",
+                f"{method.label} cannot be used on {scene.name}: the differential of the energy is zero at a "
+                "point where the field f is not zero",
                 expected="an energy whose differential along the group vanishes only where f vanishes",
             )

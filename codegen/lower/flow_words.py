@@ -82,7 +82,8 @@ class FlowLowering(Lowering):
         if scene.sites is not None:
             hint = "list the parts of the field in the argument parts of the scene"
             listed = scene.parts if scene.paired else scene.sites.parts
-            return None if listed else Objection(", a lattice without parts", "exact flows", hint)
+            expected = "a field that is a sum of parts with exact flows"
+            return None if listed else Objection(", a lattice without parts", expected, hint)
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
         # A scene with a wrench has no Hamiltonian, and a run-time input changes during a flow, so neither
@@ -94,7 +95,7 @@ class FlowLowering(Lowering):
             )
         if not scene.parts:
             hint = 'write parts={"T": T, "V": V} in the scene'
-            return Objection(", a scene without parts", "named summands of H", hint)
+            return Objection(", whose Hamiltonian has no parts", "a Hamiltonian with named parts", hint)
         return None
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -171,7 +172,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
                 f"the part {part.name} has no exact flow: {part.reason}",
                 where=where,
                 expected="kicks, drifts, tops, turns about fixed axes and linear flows",
-                hint="split it into parts of these kinds",
+                hint="split the part into parts of these kinds",
             )
     return Parts(scene, tuple(parts), where)
 
@@ -188,9 +189,10 @@ def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> t
 def unread(parts: Parts, method: Method) -> MethodError:
     """Return the error for a tableau whose format the family cannot use."""
     return MethodError(
-        f"{method.family} with the {method.tableau.family} tableau {method.tableau.name}",
+        f"the family {method.family} cannot use {method.tableau.name}, a tableau of format "
+        f"{method.tableau.family}",
         where=parts.where,
-        expected="a tableau of family splitting or composition",
+        expected="a tableau of format splitting or composition",
     )
 
 
@@ -252,6 +254,6 @@ def _carrier(parts: Parts) -> Summand | None:
     raise MethodError(
         "every part depends on t",
         where=parts.where,
-        expected="one part that does not depend on t, whose flow advances the time",
+        expected="at least one part that does not depend on t: the flow of such a part advances the time",
         hint="add a part that does not depend on t",
     )

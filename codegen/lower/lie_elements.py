@@ -75,11 +75,10 @@ class LieElements:
         factors = term.factors
         if len(factors) % 2 == 0 or factors != factors[::-1]:
             raise MethodError(
-                f"the product {spell(term)}",
+                f"the product {spell(term)} need not be an element of the Lie algebra",
                 where=self.method.label,
-                expected="products with an odd number of factors that read the same in both directions, such "
-                "as 1*2*1",
-                hint="(x+y)*z*(x+y) - x*z*x - y*z*y is x*z*y + y*z*x, with named elements for the sums",
+                expected="an odd number of factors that is the same in reverse order, as in 1*2*1",
+                hint="write x*z*y + y*z*x as (x+y)*z*(x+y) - x*z*x - y*z*y, with a named element for x+y",
             )
         middle = len(factors) // 2
         result = self._value(factors[middle])

@@ -38,7 +38,7 @@ class LinearLowering(FieldLowering):
         if scene.linear or scene.carries_momentum:
             return None
         return Objection(
-            ", whose field depends on the state", "a scene y' = A(t).y, whose field f contains t only"
+            ", whose field depends on the state", "a scene y' = A(t).y, whose field f depends on t alone"
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -61,8 +61,9 @@ class LinearLowering(FieldLowering):
         tableau = method.tableau.read_as(family.formats)
         if not isinstance(tableau, Magnus):
             raise MethodError(
-                f"{self.family} with the {method.tableau.family} tableau {method.name}",
-                expected="a tableau of family magnus",
+                f"the family {self.family} cannot use {method.name}, a tableau of format "
+                f"{method.tableau.family}",
+                expected="a tableau of format magnus",
             )
         family().require(tableau, method.ring)
         y = Var("y", Kind.POINT)
@@ -81,7 +82,8 @@ class LinearLowering(FieldLowering):
         """Return the program of a step that the user states in the scene, as a function of matrices."""
         if problem.carries_momentum and not problem.steps[method.step].canonical:
             raise MethodError(
-                f"the momentum u of {method.label}: its matrix need not be symplectic",
+                f"{method.label} has no formula for the momentum u, because the matrix of the step need not "
+                "be symplectic",
                 where=problem.name,
                 expected="a step whose matrix is in the group, such as exp of an element of the algebra",
             )
@@ -97,7 +99,9 @@ class LinearLowering(FieldLowering):
         from orderconds.checking import FamilyOrder
 
         if scene is None:
-            raise MethodError(f"the order of {method.label} without a scene", expected="a scene")
+            raise MethodError(
+                f"the order of {method.label} is unknown without a scene", expected="the scene of the step"
+            )
         return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:

@@ -36,7 +36,7 @@ def bracket_program(method: Method) -> BracketProgram:
     tableau = method.runge_kutta()
     if not method.can_reduce_brackets():
         raise MethodError(
-            f"rkmk:{name} without a cut-off",
+            f"rkmk:{name} needs a cut-off, because its tableau is implicit or its coefficients are inexact",
             expected="an explicit tableau with exact coefficients, or a cut-off (a number of brackets)",
             hint=f"write rkmk(2):{name}",
         )
@@ -45,8 +45,8 @@ def bracket_program(method: Method) -> BracketProgram:
     highest = method.kind.minimal_brackets
     if order > highest:
         raise MethodError(
-            f"the fewest brackets of {name}, which has order {order}",
-            expected=f"an order up to {highest}",
+            f"the search for the fewest brackets does not support order {order}, which {name} has",
+            expected=f"an order of at most {highest}, or a cut-off",
             # ad_u^j k = O(h^{j+1}), because u = h k + O(h^2):
             # terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",

@@ -54,7 +54,7 @@ class SplittingLowering(FlowLowering):
             return pairs(parts.arranged, _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]
         raise MethodError(
-            f"a tableau for {len(tableau.parts)} parts on a scene with {len(chosen)} parts",
+            f"the tableau is for {len(tableau.parts)} parts, but the scene has {len(chosen)}",
             where=parts.where,
             expected=f"a tableau for {len(chosen)} parts, or for two",
             hint=f"{', '.join(inexact)} is split into turns that do not commute" if inexact else "",

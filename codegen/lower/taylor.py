@@ -46,8 +46,8 @@ class Taylor(Lowering):
         if not scene.inputs:
             return without_formulas(scene)
         return Objection(
-            f", whose input {scene.inputs[0]} is a function that emitted code calls",
-            "a scene whose time derivatives follow from formulas",
+            f", because the time derivatives of the run-time input {scene.inputs[0]} are unknown",
+            "inputs that are given by formulas",
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -77,7 +77,7 @@ class Taylor(Lowering):
         degree = self.conditions(method).degree_of_step()
         if method.adaptive and degree < LEAST:
             raise MethodError(
-                f"step control for {method.label}: step control compares two Taylor coefficients",
+                f"no step control for {method.label}, because step control compares two Taylor coefficients",
                 expected=f"a degree of at least {LEAST}",
             )
         return degree

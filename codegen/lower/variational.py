@@ -17,8 +17,8 @@ from orderconds.errors import ZeroWeight
 from orderconds.tableau import RungeKutta
 
 HAMILTONIAN = (
-    "a Hamiltonian scene, because a variational method computes momenta in T*G, which a field on a "
-    "manifold does not have"
+    "a Hamiltonian scene, because the state of a variational method contains a momentum, and a vector field "
+    "on a manifold has no momentum"
 )
 """The scene that a variational family expects."""
 
@@ -82,7 +82,7 @@ def brackets(method: Method) -> int:
         # dual and the derivative of dexp^{-1}.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
-            f"{family}:{name} without a cut-off", expected=f"a number of brackets, as {family}(2):{name}"
+            f"{family}:{name} needs a cut-off", expected=f"a number of brackets, as in {family}(2):{name}"
         )
     return method.cutoff
 

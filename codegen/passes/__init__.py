@@ -185,7 +185,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass follows the pass for functions of ad. Only after that pass is it known in which frame the
         # momenta need fewer operations.
-        Pass("residuals", "momenta are compared", lambda p: legendre.residuals(p, scene)),
+        Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverses of maps, so the passes for maps are repeated.
         Pass("inverse maps", inverse, opposites.run),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),

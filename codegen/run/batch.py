@@ -101,7 +101,7 @@ def obstacle(plan: Plan) -> str:
         return "a step calls functions with arrays"
     called = called_by(_statements(plan))
     others = sorted(name for name in called if name not in VECTORISED and not name.startswith("stumpff_"))
-    return f"{others[0]} has no form without branches" if others else ""
+    return f"the function {others[0]} needs branches" if others else ""
 
 
 def called_by(body: Iterable[Statement]) -> set[str]:

@@ -31,7 +31,7 @@ class DenseOutput:
 
     def functions(self) -> tuple[Function, ...]:
         """Return the functions, callees first."""
-        about = "Move a state, which is followed by coordinates in the Lie algebra, by their exponential."
+        about = "Apply exp(x) to a state; the coordinates x in the Lie algebra follow the state in the array."
         return self.extend(), filling(self.mover, MOVED, about, self.inner), self.extended()
 
     def extend(self) -> Function:

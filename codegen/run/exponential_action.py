@@ -57,7 +57,7 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         Assign(norm, norm * scale),
         If(norm > bounds[-1], (_nan(result),), computed),
     )
-    about = f"result = exp(a) y for the {n} x {n} matrix a{_entries(function)}: Taylor polynomials."
+    about = f"result = exp(a) y for the {n} x {n} matrix a, by Taylor polynomials{_entries(function)}."
     return Function(function.name, about, (a, y, result), body)
 
 
@@ -67,7 +67,7 @@ def _nan(result: Term) -> For:
 
 
 def _entries(function: ExponentialAction) -> str:
-    return ", of which the array contains the entries that are not zero" if function.pattern else ""
+    return "; the array a contains only the entries that may be non-zero" if function.pattern else ""
 
 
 def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:

@@ -227,7 +227,7 @@ class _Step:
             Return(code(OK)),
         )
         what = self.text(element) if element.commutators else "a"
-        about = f"state = exp(X) state for X = {what}: Taylor polynomials of X 2^-s."
+        about = f"state = exp(X) state for X = {what}, by Taylor polynomials of X 2^-s."
         return Function(name, about, (*given, state), body, Kind.STATUS)
 
     def norms(self, element: Element) -> tuple[Statement, ...]:

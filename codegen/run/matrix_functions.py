@@ -203,14 +203,12 @@ class _Exponential:
     def _about(self) -> str:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
-            single = " + E e, where e^2 = 0; the array a contains the matrices a and E"
-            several = (
-                f" + E, where E contains {self.level} units e with e^2 = 0; the array a contains a, then the"
-            )
-            what += single if self.level == 1 else f"{several} coefficients of E"
+            single = " + E e, where e^2 = 0 (array a: the matrices a and E)"
+            several = f" + E, where E contains {self.level} units e with e^2 = 0 (array a: a, then the"
+            what += single if self.level == 1 else f"{several} coefficients of E)"
         return (
-            f"result = {what}: Taylor polynomial, squared. All results are NaN if the bound of the relative "
-            f"error exceeds 2^-{LEAST_DIGITS}."
+            f"result = {what}, by a Taylor polynomial and repeated squaring. All results are NaN if the "
+            f"bound of the relative error exceeds 2^-{LEAST_DIGITS}."
         )
 
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:

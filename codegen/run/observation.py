@@ -281,8 +281,8 @@ class Observation:
         parameters = (state, self.now, self.following, *plan.parameters, *plan.sampled(), EVENT_FUNCTIONS)
         parameters += (self.signs, self.values, self.low, self.high, self.reached, ahead)
         about = (
-            "Enclose the first event between the fractions low and *high of a step; *high becomes the end of "
-            "the interval, reached and ahead the state and the values there."
+            "Enclose the first event in a short interval from low to *high, in fractions of the step. Then "
+            "reached is the state at *high, and ahead are the values of the event functions there."
         )
         return Function(LOCATE, about, parameters, body, Kind.STATUS)
 
@@ -369,7 +369,7 @@ class Observation:
         )
         parameters = (state, self.after, self.now, self.following, *plan.parameters, *plan.sampled())
         parameters += (*self.buffers, *self.memory, self.stop)
-        about = "Find the events of a step; at an event that ends the run, after becomes the state there."
+        about = "Find the events of a step. If an event ends the run, the array after receives its state."
         return Function(EVENTS, about, parameters, body, Kind.STATUS)
 
     def recorded(self) -> tuple[Statement, ...]:

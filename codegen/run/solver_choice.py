@@ -145,7 +145,7 @@ def solved(
         kernel = to_kernel(program, scene, {loop.label: asked for loop in fixed.loops})
     except (NotDifferentiable, ZeroDivisionError) as error:
         raise MethodError(
-            f"{METHODS[asked]} for {program.name}: {error}",
+            f"{METHODS[asked]} is not possible for {program.name}: {error}",
             where=scene.name,
             expected="functions whose derivatives are known",
             hint=f"use --solver {FIXED_POINT}",
@@ -281,11 +281,11 @@ class _Selection:
         for k, loop in enumerate(candidate.kernel.loops):
             reason = measured(candidate.usual, k)
             if fastest[k] not in robust:
-                reason += f"; {METHODS[fastest[k]]}: would be faster, but {self.weakness(fastest[k])}"
+                reason += f"; {METHODS[fastest[k]]} would be faster, but {self.weakness(fastest[k])}"
             elif NEWTON in self.refused:
                 reason += f"; Newton's method is not possible: {self.refused[NEWTON]}"
             elif not candidate.robust:
-                reason += f"; {self.weakness(loop.solver)}: longer steps may fail"
+                reason += f"; longer steps may fail, because the solver {self.weakness(loop.solver)}"
             reasons.append(reason)
         return candidate.kernel, self.choices(candidate.kernel, reasons)
 
@@ -300,7 +300,7 @@ class _Selection:
         if not needed and any(
             self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged
         ):
-            self.left_out[solver] = f"not tried: would take at least {least:.0f} ns a step"
+            self.left_out[solver] = f"not tried, because it would take at least {least:.0f} ns a step"
             return
         try:
             kernel = self.kernel(dict.fromkeys((loop.label for loop in self.fixed.loops), solver))

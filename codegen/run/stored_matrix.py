@@ -149,7 +149,9 @@ class BandedMatrix(StoredMatrix):
         result = real("result", self.node_size)
         loops = [self._diagonal(number, result) for number in range(len(self.matrix.offsets))]
         named = [Assign(own(name), value(node)) for node, name in self.hoisted.names.items()]
-        about = "The diagonals of h A(t), one after the other; entry a[i][i + d] has the place i."
+        about = (
+            "The diagonals of h A(t), one after the other; entry i of a diagonal is in row i of the matrix."
+        )
         evaluated = Function(VALUE, about, (*moment, *parameters, result), (*named, *loops))
         return [evaluated, self._row_sum(a), self._product(a, x, y)]
 

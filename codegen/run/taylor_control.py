@@ -65,7 +65,8 @@ ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "m
 """The names of the functions that a run calls."""
 
 LEAST = 1e-30
-"""A lower bound for the size of a coefficient in the formula of the step size, which divides by this size."""
+"""A lower bound for the size of a coefficient. The formula of the step size divides by the size of a
+coefficient."""
 
 ROWS = 4
 """Each pass through the loop of the Cauchy products adds this number of products of coefficients to each

@@ -62,9 +62,10 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
         ),
     )
     about = (
-        "result = the exponential of the traceless skew-Hermitian 3 x 3 matrix with the coordinates a, real "
-        "parts of the entries first: Taylor polynomial modulo the characteristic polynomial, squared. All "
-        f"results are NaN if the bound of the relative error exceeds 2^-{LEAST_DIGITS}."
+        "result = the exponential of the traceless skew-Hermitian 3 x 3 matrix with the coordinates a, by a "
+        "Taylor polynomial modulo the characteristic polynomial, and repeated squaring. The real parts of "
+        "the entries come first. All results are NaN if the bound of the relative error exceeds "
+        f"2^-{LEAST_DIGITS}."
     )
     return Function(function.name, about, (a, result), body)
 

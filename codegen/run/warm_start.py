@@ -225,7 +225,7 @@ class WarmStart:
         """Return the function that stores a solution."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("with fewer than three stored solutions, the guess is the last solution and is not tested"),
+            Note("with fewer than three stored solutions, the guess is the last solution; it is not tested"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [
@@ -242,7 +242,7 @@ class WarmStart:
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
         body += self.chosen(place)
         body += [
-            Note("choose the next solution such that the difference of the next order vanishes"),
+            Note("extrapolate: the difference of the next order is zero for the new values"),
             # The differences of order k + 1 of a polynomial of degree k are zero. This equation is solved for
             # the value one step later, which needs no interpolation nodes and no divisions.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
@@ -306,7 +306,7 @@ class WarmStart:
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(
-                f"raise the degree while differences decrease; with a full memory, check every {SELDOM} steps"
+                f"raise the degree while differences decrease; with a full memory, test every {SELDOM} steps"
             ),
             If(often, adapt),
         ]

@@ -6,7 +6,8 @@
  *             Lie groups and manifolds, PhD thesis, NTNU 2014, Section 2.2.1
  * order:      4, certificate: exact (the residuals of all order conditions up to this order are
  *             zero in exact arithmetic)
- * digits:     the order conditions hold to 3.2e-17 at the coefficients rounded to double precision
+ * digits:     with the coefficients rounded to double precision, the residuals of the order
+ *             conditions are at most 3.2e-17
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12 unknowns;
  *             1.7 sweeps and 0.2 matrices a step, measured over the first 20 steps of h = 0.005
@@ -25,8 +26,9 @@
  *             the time: the scene does not depend on it
  * operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
  *             2 mul for an initial guess, in the first step of a run
- *             102 add, 184 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
- *             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of the
+ *             102 add, 184 mul for each matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3,
+ *             n4
+ *             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 for each sweep of the
  *             equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
  *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
  * stack:      at most 13440 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 2536 of them
@@ -452,7 +454,7 @@ static double dipole_vcf_cf4_difference_size(const struct dipole_vcf_cf4_memory 
 static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     const double solution[static 12])
 {
-    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution; it is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -480,7 +482,7 @@ static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     if (memory->known < 16) {
         memory->known++;
     }
-    /* raise the degree while differences decrease; with a full memory, check every 8 steps */
+    /* raise the degree while differences decrease; with a full memory, test every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcf_cf4_difference_size(memory, memory->degree);
         int grows = 0;
@@ -497,7 +499,7 @@ static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
             }
         }
     }
-    /* choose the next solution such that the difference of the next order vanishes */
+    /* extrapolate: the difference of the next order is zero for the new values */
     dipole_vcf_cf4_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

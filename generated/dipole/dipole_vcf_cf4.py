@@ -6,8 +6,8 @@ source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, On symplectic
             2.2.1
 order:      4, certificate: exact (the residuals of all order conditions up to this
             order are zero in exact arithmetic)
-digits:     the order conditions hold to 3.2e-17 at the coefficients rounded to
-            double precision
+digits:     with the coefficients rounded to double precision, the residuals of the
+            order conditions are at most 3.2e-17
 scene:      Dipole on a stick, T*SO(3), group SO(3)
 solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12
             unknowns; 1.7 sweeps and 0.2 matrices a step, measured over the first 20
@@ -28,10 +28,10 @@ left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms
             the time: the scene does not depend on it
 operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
             2 mul for an initial guess, in the first step of a run
-            102 add, 184 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1,
-            n2, n3, n4
-            442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of
-            the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
+            102 add, 184 mul for each matrix of the equations of xi1, xi2, xi3, xi4,
+            n1, n2, n3, n4
+            442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 for each
+            sweep of the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
 command:    orderconds emit dipole --method vcf:cf4 --target python -o .
 version:    orderconds 0.1.0
@@ -50,7 +50,7 @@ OK = 0  # success
 NOT_CONVERGED = 1  # an implicit block did not converge
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
 BAD_STEP = 3  # h is infinite or NaN
-TOO_FAR = 5  # the step turns or moves too far for finite numbers; a shorter step is finite
+TOO_FAR = 5  # the step is too long for a finite result; a shorter step has a finite result
 SINGULAR = 6  # the matrix of an implicit block is singular
 
 
@@ -450,7 +450,7 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three stored solutions, the guess is the last solution and is
+    # with fewer than three stored solutions, the guess is the last solution; it is
     # not tested
     if memory.known > 2:
         moved = 0.0
@@ -476,7 +476,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # raise the degree while differences decrease; with a full memory, check every 8
+    # raise the degree while differences decrease; with a full memory, test every 8
     # steps
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
@@ -490,7 +490,7 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # choose the next solution such that the difference of the next order vanishes
+    # extrapolate: the difference of the next order is zero for the new values
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
@@ -1409,7 +1409,7 @@ _REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
+    TOO_FAR: "the step is too long for a finite result: take a shorter step",
     SINGULAR: "the matrix of {block} is singular",
 }
 

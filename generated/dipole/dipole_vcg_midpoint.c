@@ -5,7 +5,8 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (the residuals of all order conditions up to this order are
  *             zero in exact arithmetic)
- * digits:     the order conditions hold exactly at the coefficients rounded to double precision
+ * digits:     with the coefficients rounded to double precision, the residuals of the order
+ *             conditions are zero
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 1.55 sweeps and 1 matrix a
  *             step, measured over the first 20 steps of h = 0.005
@@ -23,8 +24,9 @@
  *             the time: the scene does not depend on it
  * operations: 38 add, 58 mul, 1 stumpff_12 a step
  *             2 mul for an initial guess, in the first step of a run
- *             11 add, 34 mul, 1 div a matrix of the equations of xi1, n1
- *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of xi1, n1
+ *             11 add, 34 mul, 1 div for each matrix of the equations of xi1, n1
+ *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 for each sweep of the equations of xi1,
+ *             n1
  *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
  * stack:      at most 4736 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 800 of them as
  *             a margin; functions of the mathematical library add to this
@@ -326,7 +328,7 @@ static double dipole_vcg_midpoint_difference_size(const struct dipole_vcg_midpoi
 static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution; it is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -345,7 +347,7 @@ static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memor
     if (memory->known < 16) {
         memory->known++;
     }
-    /* raise the degree while differences decrease; with a full memory, check every 8 steps */
+    /* raise the degree while differences decrease; with a full memory, test every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcg_midpoint_difference_size(memory, memory->degree);
         int grows = 0;
@@ -362,7 +364,7 @@ static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memor
             }
         }
     }
-    /* choose the next solution such that the difference of the next order vanishes */
+    /* extrapolate: the difference of the next order is zero for the new values */
     dipole_vcg_midpoint_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

@@ -6,7 +6,8 @@
  *             Marthinsen
  * order:      4, certificate: exact (the residuals of all order conditions up to this order are
  *             zero in exact arithmetic)
- * digits:     the order conditions hold to 2.3e-16 at the coefficients rounded to double precision
+ * digits:     with the coefficients rounded to double precision, the residuals of the order
+ *             conditions are at most 2.3e-16
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * substeps:   3 calls of one function, with step sizes 1.35121, -1.70241, 1.35121 times h
  * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 4.85 sweeps and 3 matrices a
@@ -27,8 +28,9 @@
  *             the time: the scene does not depend on it
  * operations: 114 add, 174 mul, 3 stumpff_12 a step
  *             6 mul for an initial guess, in the first step of a run
- *             11 add, 34 mul, 1 div a matrix of the equations of xi1, n1
- *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of xi1, n1
+ *             11 add, 34 mul, 1 div for each matrix of the equations of xi1, n1
+ *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 for each sweep of the equations of xi1,
+ *             n1
  *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
  * stack:      at most 7168 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1264 of them as
  *             a margin; functions of the mathematical library add to this
@@ -334,7 +336,7 @@ static double dipole_vcg_triple_jump_difference_size(const struct dipole_vcg_tri
 static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution; it is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -353,7 +355,7 @@ static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump
     if (memory->known < 16) {
         memory->known++;
     }
-    /* raise the degree while differences decrease; with a full memory, check every 8 steps */
+    /* raise the degree while differences decrease; with a full memory, test every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcg_triple_jump_difference_size(memory, memory->degree);
         int grows = 0;
@@ -370,7 +372,7 @@ static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump
             }
         }
     }
-    /* choose the next solution such that the difference of the next order vanishes */
+    /* extrapolate: the difference of the next order is zero for the new values */
     dipole_vcg_triple_jump_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

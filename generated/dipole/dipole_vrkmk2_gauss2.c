@@ -6,7 +6,8 @@
  *             of Bogfjellmo and Marthinsen
  * order:      4, certificate: exact (the residuals of all order conditions up to this order are
  *             zero in exact arithmetic)
- * digits:     the order conditions hold to 1.6e-17 at the coefficients rounded to double precision
+ * digits:     with the coefficients rounded to double precision, the residuals of the order
+ *             conditions are at most 1.6e-17
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns; 1.7 sweeps and 0.35
  *             matrices a step, measured over the first 20 steps of h = 0.005
@@ -26,8 +27,8 @@
  *             the time: the scene does not depend on it
  * operations: 47 add, 80 mul, 1 stumpff_12 a step
  *             2 mul for an initial guess, in the first step of a run
- *             48 add, 72 mul a matrix of the equations of v1, v2, m1, m2
- *             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
+ *             48 add, 72 mul for each matrix of the equations of v1, v2, m1, m2
+ *             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 for each sweep of the
  *             equations of v1, v2, m1, m2
  *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
  * stack:      at most 7360 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1280 of them as
@@ -429,7 +430,7 @@ static double dipole_vrkmk2_gauss2_difference_size(const struct dipole_vrkmk2_ga
 static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_memory *memory,
     const double solution[static 6])
 {
-    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution; it is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -451,7 +452,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
     if (memory->known < 16) {
         memory->known++;
     }
-    /* raise the degree while differences decrease; with a full memory, check every 8 steps */
+    /* raise the degree while differences decrease; with a full memory, test every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vrkmk2_gauss2_difference_size(memory, memory->degree);
         int grows = 0;
@@ -468,7 +469,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
             }
         }
     }
-    /* choose the next solution such that the difference of the next order vanishes */
+    /* extrapolate: the difference of the next order is zero for the new values */
     dipole_vrkmk2_gauss2_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

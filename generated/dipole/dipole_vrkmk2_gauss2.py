@@ -5,8 +5,8 @@ source:     Hammer and Hollingsworth 1955; Hairer, Lubich and Wanner, Table II.1
             Table 3.1c of Bogfjellmo and Marthinsen
 order:      4, certificate: exact (the residuals of all order conditions up to this
             order are zero in exact arithmetic)
-digits:     the order conditions hold to 1.6e-17 at the coefficients rounded to
-            double precision
+digits:     with the coefficients rounded to double precision, the residuals of the
+            order conditions are at most 1.6e-17
 scene:      Dipole on a stick, T*SO(3), group SO(3)
 solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns; 1.7 sweeps
             and 0.35 matrices a step, measured over the first 20 steps of h = 0.005
@@ -26,9 +26,9 @@ left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
             the time: the scene does not depend on it
 operations: 47 add, 80 mul, 1 stumpff_12 a step
             2 mul for an initial guess, in the first step of a run
-            48 add, 72 mul a matrix of the equations of v1, v2, m1, m2
-            269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of
-            the equations of v1, v2, m1, m2
+            48 add, 72 mul for each matrix of the equations of v1, v2, m1, m2
+            269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 for each
+            sweep of the equations of v1, v2, m1, m2
             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
 command:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target python -o .
 version:    orderconds 0.1.0
@@ -47,7 +47,7 @@ OK = 0  # success
 NOT_CONVERGED = 1  # an implicit block did not converge
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
 BAD_STEP = 3  # h is infinite or NaN
-TOO_FAR = 5  # the step turns or moves too far for finite numbers; a shorter step is finite
+TOO_FAR = 5  # the step is too long for a finite result; a shorter step has a finite result
 SINGULAR = 6  # the matrix of an implicit block is singular
 
 
@@ -420,7 +420,7 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three stored solutions, the guess is the last solution and is
+    # with fewer than three stored solutions, the guess is the last solution; it is
     # not tested
     if memory.known > 2:
         moved = 0.0
@@ -440,7 +440,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # raise the degree while differences decrease; with a full memory, check every 8
+    # raise the degree while differences decrease; with a full memory, test every 8
     # steps
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
@@ -454,7 +454,7 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # choose the next solution such that the difference of the next order vanishes
+    # extrapolate: the difference of the next order is zero for the new values
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
@@ -989,7 +989,7 @@ _REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
+    TOO_FAR: "the step is too long for a finite result: take a shorter step",
     SINGULAR: "the matrix of {block} is singular",
 }
 

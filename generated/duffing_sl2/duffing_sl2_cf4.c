@@ -6,7 +6,8 @@
  *             Lie groups and manifolds, PhD thesis, NTNU 2014, Section 2.2.1
  * order:      4, certificate: exact (the residuals of all order conditions up to this order are
  *             zero in exact arithmetic)
- * digits:     the order conditions hold to 2.8e-17 at the coefficients rounded to double precision
+ * digits:     with the coefficients rounded to double precision, the residuals of the order
+ *             conditions are at most 2.8e-17
  * scene:      Duffing's equation, SL(2) acting linearly, group SL(2)
  * state:      [0..1] y: point that SL(2) acts on by linear maps
  * left out:   1 evaluation of the field: equal values are computed once

@@ -6,8 +6,8 @@ source:     Blanes and Moan 2002, Table 3, SRKN_6^b of order four
 order:      4, certificate: ball (interval arithmetic proves that a method of this
             order exists whose coefficients differ from the decimals of the tableau
             by at most one unit in the last digit)
-digits:     the order conditions hold to 5.6e-17 at the coefficients rounded to
-            double precision
+digits:     with the coefficients rounded to double precision, the residuals of the
+            order conditions are at most 5.6e-17
 scene:      Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010),
             group SO(3)
 flows:      T.mean, rotation about the momentum; T.turn, turn about the axis (0, 1,
@@ -18,8 +18,8 @@ left out:   5 flows: flows of one part are joined across flows that commute
             the time: the scene does not depend on it
             equation solving: every stage is explicit
 operations: 201 add, 335 mul, 6 stumpff_12 a step
-            2 add, 4 mul once in a run of steps
-            9 add, 21 mul, 1 stumpff_12 once in a run of steps
+            2 add, 4 mul once in each run
+            9 add, 21 mul, 1 stumpff_12 once in each run
 command:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn4
             --target python -o .
 version:    orderconds 0.1.0
@@ -37,7 +37,7 @@ from math import cos, isfinite, nan, sin, sqrt
 OK = 0  # success
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
 BAD_STEP = 3  # h is infinite or NaN
-TOO_FAR = 5  # the step turns or moves too far for finite numbers; a shorter step is finite
+TOO_FAR = 5  # the step is too long for a finite result; a shorter step has a finite result
 
 
 class StepFailed(ArithmeticError):
@@ -447,7 +447,7 @@ def _numbers(state):
 _REASONS = {
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
+    TOO_FAR: "the step is too long for a finite result: take a shorter step",
 }
 
 

@@ -7,7 +7,8 @@
  * order:      6, certificate: ball (interval arithmetic proves that a method of this order exists
  *             whose coefficients differ from the decimals of the tableau by at most one unit in
  *             the last digit)
- * digits:     the order conditions hold to 1.8e-17 at the coefficients rounded to double precision
+ * digits:     with the coefficients rounded to double precision, the residuals of the order
+ *             conditions are at most 1.8e-17
  * scene:      Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010), group SO(3)
  * flows:      T.mean, rotation about the momentum; T.turn, turn about the axis (0, 1, 0) fixed in
  *             the body; V, kick
@@ -17,8 +18,8 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit
  * operations: 473 add, 786 mul, 14 stumpff_12 a step
- *             29 add, 49 mul, 1 stumpff_12 once in a run of steps
- *             9 add, 21 mul, 1 stumpff_12 once in a run of steps
+ *             29 add, 49 mul, 1 stumpff_12 once in each run
+ *             9 add, 21 mul, 1 stumpff_12 once in each run
  * stack:      at most 4800 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of
  *             the mathematical library add to this
  * command:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn6a --target c -o .

@@ -6,8 +6,8 @@ source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, On symplectic
             2.2.1
 order:      4, certificate: exact (the residuals of all order conditions up to this
             order are zero in exact arithmetic)
-digits:     the order conditions hold to 2.8e-17 at the coefficients rounded to
-            double precision
+digits:     with the coefficients rounded to double precision, the residuals of the
+            order conditions are at most 2.8e-17
 scene:      Free rigid body on the sphere, group SO(3)
 state:      [0..2] y: point that SO(3) acts on by rotation
 left out:   1 evaluation of the field: equal values are computed once
@@ -32,7 +32,7 @@ from math import cos, isfinite, sin, sqrt
 OK = 0  # success
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
 BAD_STEP = 3  # h is infinite or NaN
-TOO_FAR = 5  # the step turns or moves too far for finite numbers; a shorter step is finite
+TOO_FAR = 5  # the step is too long for a finite result; a shorter step has a finite result
 
 
 class StepFailed(ArithmeticError):
@@ -257,7 +257,7 @@ def _numbers(state):
 _REASONS = {
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
+    TOO_FAR: "the step is too long for a finite result: take a shorter step",
 }
 
 

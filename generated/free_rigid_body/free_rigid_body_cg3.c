@@ -5,7 +5,8 @@
  * source:     Crouch and Grossman 1993; Hairer, Lubich and Wanner, Table IV.8.1, left
  * order:      3, certificate: exact (the residuals of all order conditions up to this order are
  *             zero in exact arithmetic)
- * digits:     the order conditions hold to 1.6e-16 at the coefficients rounded to double precision
+ * digits:     with the coefficients rounded to double precision, the residuals of the order
+ *             conditions are at most 1.6e-16
  * scene:      Free rigid body on the sphere, group SO(3)
  * state:      [0..2] y: point that SO(3) acts on by rotation
  * left out:   1 evaluation of the field: equal values are computed once

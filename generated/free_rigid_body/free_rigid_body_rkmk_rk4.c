@@ -6,7 +6,8 @@
  *             Table II.1.2; with brackets: Munthe-Kaas 1998
  * order:      4, certificate: exact (the residuals of all order conditions up to this order are
  *             zero in exact arithmetic)
- * digits:     the order conditions hold to 5.6e-17 at the coefficients rounded to double precision
+ * digits:     with the coefficients rounded to double precision, the residuals of the order
+ *             conditions are at most 5.6e-17
  * scene:      Free rigid body on the sphere, group SO(3)
  * state:      [0..2] y: point that SO(3) acts on by rotation
  * left out:   1 action, 1 exponential: coefficients are zero, or terms cancel

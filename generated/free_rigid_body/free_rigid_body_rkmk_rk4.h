@@ -12,7 +12,7 @@ enum {
     FREE_RIGID_BODY_RKMK_RK4_OK = 0, /* success */
     FREE_RIGID_BODY_RKMK_RK4_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     FREE_RIGID_BODY_RKMK_RK4_BAD_STEP = 3, /* h is infinite or NaN */
-    FREE_RIGID_BODY_RKMK_RK4_TOO_FAR = 5 /* the step turns or moves too far for finite numbers; a shorter step is finite */
+    FREE_RIGID_BODY_RKMK_RK4_TOO_FAR = 5 /* the step is too long for a finite result; a shorter step has a finite result */
 };
 
 /* Make one step of size h. When the status is not FREE_RIGID_BODY_RKMK_RK4_OK, the state is unchanged. */

@@ -5,7 +5,8 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (the residuals of all order conditions up to this order are
  *             zero in exact arithmetic)
- * digits:     the order conditions hold exactly at the coefficients rounded to double precision
+ * digits:     with the coefficients rounded to double precision, the residuals of the order
+ *             conditions are zero
  * scene:      Free rigid body with attitude, S^3, group S^3
  * solved by:  the equations of xi: Newton's method, 3 unknowns; 6.2 sweeps and 0.85 matrices a
  *             step, measured over the first 20 steps of h = 0.02
@@ -16,8 +17,9 @@
  *             the time: the scene does not depend on it
  * operations: 34 add, 59 mul, 1 stumpff_01 a step
  *             21 add, 42 mul for an initial guess, in the first step of a run
- *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the equations of xi
- *             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of xi
+ *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 for each matrix of the equations
+ *             of xi
+ *             148 add, 240 mul, 3 quotient, 2 stumpff_01 for each sweep of the equations of xi
  * stack:      at most 8000 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1408 of them as
  *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
@@ -367,7 +369,7 @@ static double free_rigid_body_s3_discrete_gradient_midpoint_difference_size(cons
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution; it is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -386,7 +388,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
     if (memory->known < 16) {
         memory->known++;
     }
-    /* raise the degree while differences decrease; with a full memory, check every 8 steps */
+    /* raise the degree while differences decrease; with a full memory, test every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = free_rigid_body_s3_discrete_gradient_midpoint_difference_size(memory,
             memory->degree);
@@ -406,7 +408,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
             }
         }
     }
-    /* choose the next solution such that the difference of the next order vanishes */
+    /* extrapolate: the difference of the next order is zero for the new values */
     free_rigid_body_s3_discrete_gradient_midpoint_difference(memory, memory->degree + 1, 1,
         -1.0, memory->guess);
 }

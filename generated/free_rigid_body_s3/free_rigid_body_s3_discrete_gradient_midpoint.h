@@ -13,7 +13,7 @@ enum {
     FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not converge */
     FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_BAD_STEP = 3, /* h is infinite or NaN */
-    FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_TOO_FAR = 5 /* the step turns or moves too far for finite numbers; a shorter step is finite */
+    FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_TOO_FAR = 5 /* the step is too long for a finite result; a shorter step has a finite result */
 };
 
 /* Sweeps over the equations, summed over all steps since the caller set all fields to zero. */

@@ -4,8 +4,8 @@ method:     family discrete_gradient, tableau midpoint
 source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (the residuals of all order conditions up to this
             order are zero in exact arithmetic)
-digits:     the order conditions hold exactly at the coefficients rounded to double
-            precision
+digits:     with the coefficients rounded to double precision, the residuals of the
+            order conditions are zero
 scene:      Free rigid body with attitude, S^3, group S^3
 solved by:  the equations of xi: Newton's method, 3 unknowns; 6.2 sweeps and 0.85
             matrices a step, measured over the first 20 steps of h = 0.02
@@ -16,10 +16,10 @@ left out:   1 sum: coefficients are zero, or terms cancel
             the time: the scene does not depend on it
 operations: 34 add, 59 mul, 1 stumpff_01 a step
             21 add, 42 mul for an initial guess, in the first step of a run
-            617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the
+            617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 for each matrix of the
             equations of xi
-            148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of
-            xi
+            148 add, 240 mul, 3 quotient, 2 stumpff_01 for each sweep of the
+            equations of xi
 command:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint
             --target python -o .
 version:    orderconds 0.1.0
@@ -38,7 +38,7 @@ OK = 0  # success
 NOT_CONVERGED = 1  # an implicit block did not converge
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
 BAD_STEP = 3  # h is infinite or NaN
-TOO_FAR = 5  # the step turns or moves too far for finite numbers; a shorter step is finite
+TOO_FAR = 5  # the step is too long for a finite result; a shorter step has a finite result
 
 
 class StepFailed(ArithmeticError):
@@ -393,7 +393,7 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three stored solutions, the guess is the last solution and is
+    # with fewer than three stored solutions, the guess is the last solution; it is
     # not tested
     if memory.known > 2:
         moved = 0.0
@@ -410,7 +410,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # raise the degree while differences decrease; with a full memory, check every 8
+    # raise the degree while differences decrease; with a full memory, test every 8
     # steps
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
@@ -424,7 +424,7 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # choose the next solution such that the difference of the next order vanishes
+    # extrapolate: the difference of the next order is zero for the new values
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
@@ -1276,7 +1276,7 @@ _REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
+    TOO_FAR: "the step is too long for a finite result: take a shorter step",
 }
 
 

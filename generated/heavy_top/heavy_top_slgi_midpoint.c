@@ -5,7 +5,8 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (the residuals of all order conditions up to this order are
  *             zero in exact arithmetic)
- * digits:     the order conditions hold exactly at the coefficients rounded to double precision
+ * digits:     with the coefficients rounded to double precision, the residuals of the order
+ *             conditions are zero
  * scene:      Heavy top as printed, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns; 4.85 sweeps and 1 matrix a
  *             step, measured over the first 20 steps of h = 0.01
@@ -14,8 +15,9 @@
  * left out:   the time: the scene does not depend on it
  * operations: 50 add, 71 mul, 1 stumpff_1 a step
  *             3 mul for an initial guess, in the first step of a run
- *             105 add, 215 mul, 2 slope2, 2 slope3 a matrix of the equations of xi1, n1
- *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 a sweep of the equations of xi1, n1
+ *             105 add, 215 mul, 2 slope2, 2 slope3 for each matrix of the equations of xi1, n1
+ *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 for each sweep of the equations of xi1,
+ *             n1
  * stack:      at most 6336 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1120 of them as
  *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
@@ -478,7 +480,7 @@ static double heavy_top_slgi_midpoint_difference_size(const struct heavy_top_slg
 static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoint_memory *memory,
     const double solution[static 6])
 {
-    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution; it is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -500,7 +502,7 @@ static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoi
     if (memory->known < 16) {
         memory->known++;
     }
-    /* raise the degree while differences decrease; with a full memory, check every 8 steps */
+    /* raise the degree while differences decrease; with a full memory, test every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = heavy_top_slgi_midpoint_difference_size(memory, memory->degree);
         int grows = 0;
@@ -517,7 +519,7 @@ static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoi
             }
         }
     }
-    /* choose the next solution such that the difference of the next order vanishes */
+    /* extrapolate: the difference of the next order is zero for the new values */
     heavy_top_slgi_midpoint_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 

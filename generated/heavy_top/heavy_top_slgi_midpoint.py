@@ -4,8 +4,8 @@ method:     family slgi, tableau midpoint
 source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (the residuals of all order conditions up to this
             order are zero in exact arithmetic)
-digits:     the order conditions hold exactly at the coefficients rounded to double
-            precision
+digits:     with the coefficients rounded to double precision, the residuals of the
+            order conditions are zero
 scene:      Heavy top as printed, T*SO(3), group SO(3)
 solved by:  the equations of xi1, n1: Newton's method, 6 unknowns; 4.85 sweeps and 1
             matrix a step, measured over the first 20 steps of h = 0.01
@@ -14,10 +14,10 @@ state:      [0..8] q: element of SO(3), row by row
 left out:   the time: the scene does not depend on it
 operations: 50 add, 71 mul, 1 stumpff_1 a step
             3 mul for an initial guess, in the first step of a run
-            105 add, 215 mul, 2 slope2, 2 slope3 a matrix of the equations of xi1,
-            n1
-            73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 a sweep of the equations of
+            105 add, 215 mul, 2 slope2, 2 slope3 for each matrix of the equations of
             xi1, n1
+            73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 for each sweep of the
+            equations of xi1, n1
 command:    orderconds emit heavy_top --method slgi:midpoint --target python -o .
 version:    orderconds 0.1.0
 
@@ -35,7 +35,7 @@ OK = 0  # success
 NOT_CONVERGED = 1  # an implicit block did not converge
 NOT_FINITE = 2  # the new state would contain an infinity or a NaN
 BAD_STEP = 3  # h is infinite or NaN
-TOO_FAR = 5  # the step turns or moves too far for finite numbers; a shorter step is finite
+TOO_FAR = 5  # the step is too long for a finite result; a shorter step has a finite result
 SINGULAR = 6  # the matrix of an implicit block is singular
 
 
@@ -458,7 +458,7 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three stored solutions, the guess is the last solution and is
+    # with fewer than three stored solutions, the guess is the last solution; it is
     # not tested
     if memory.known > 2:
         moved = 0.0
@@ -478,7 +478,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # raise the degree while differences decrease; with a full memory, check every 8
+    # raise the degree while differences decrease; with a full memory, test every 8
     # steps
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
@@ -492,7 +492,7 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # choose the next solution such that the difference of the next order vanishes
+    # extrapolate: the difference of the next order is zero for the new values
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
@@ -917,7 +917,7 @@ _REASONS = {
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
-    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
+    TOO_FAR: "the step is too long for a finite result: take a shorter step",
     SINGULAR: "the matrix of {block} is singular",
 }
 

@@ -221,7 +221,9 @@ def table(kind: str, title: str) -> list[str]:
 def generic(found: Pair) -> str:
     """Return a refusal without the names of the scene, the family and the group."""
     group = SAMPLES[found.row] if found.kind == GROUP else HERE[ONE_OF_EACH[found.row][1]]
-    text = found.refusal.removeprefix("pair: ").replace(f"{found.family} on pair", "FAMILY on SCENE", 1)
+    text = found.refusal.removeprefix("pair: ").replace(
+        f"family {found.family} cannot be used on pair", "family FAMILY cannot be used on SCENE", 1
+    )
     for name in (f"T*{group.name}", group.name):
         text = text.replace(f"group is {name};", "group is GROUP;").replace(f"{name} has no", "GROUP has no")
     return text.replace("*", "\\*")

@@ -185,7 +185,7 @@ def test_the_folder_of_another_user_is_not_used_and_one_warning_says_so(monkeypa
     monkeypatch.setattr(os, "geteuid", lambda: user + 1)
     found = cache_directory(), cache_directory()
     assert found[0] == found[1] != foreign.parent
-    assert caplog.text.count("a folder of another user") == 1
+    assert caplog.text.count("the folder belongs to another user") == 1
     assert cache.recall(foreign) is None
 
 
@@ -244,7 +244,7 @@ def test_two_processes_that_build_the_same_thing_both_have_it(monkeypatch, tmp_p
 
 def test_a_compiler_that_cannot_be_read_is_bad_input(monkeypatch):
     monkeypatch.setenv("CC", 'cc "')
-    with pytest.raises(CompilerMissing, match=r"\$CC: cannot read 'cc \"': no closing quotation"):
+    with pytest.raises(CompilerMissing, match=r"\$CC: 'cc \"' is not a command: no closing quotation"):
         find_compiler()
 
 

@@ -82,7 +82,7 @@ def test_options_that_need_another_state_are_refused() -> None:
         ("cf:cf4", {"jacobian": True}),
         ("rkmk(2):rk4", {"dense": True}),
     ):
-        with pytest.raises(MethodError, match="compensated summation with --"):
+        with pytest.raises(MethodError, match=r"is not available for .* with compensated summation"):
             compile_method("free_rigid_body", method, compensate=True, **options)
 
 
@@ -90,7 +90,7 @@ def test_the_header_states_the_layout_and_the_command() -> None:
     made = compile_method("free_rigid_body", "cf:cf4", compensate=True)
     emission = emit_compiled(made, "c")
     (text,) = (text for name, text in emission.files.items() if name.endswith(".c"))
-    assert "the second half of the state is the rounding errors" in " ".join(text.replace("*", " ").split())
+    assert "the second half of the state contains rounding errors" in " ".join(text.replace("*", " ").split())
     assert "--compensate" in emission.manifest["command"]
     plain = emit_compiled(compile_method("free_rigid_body", "cf:cf4"), "c")
     assert not any("carry" in text or "compensate" in text for text in plain.files.values())

@@ -113,7 +113,7 @@ def test_c_and_python_agree_and_the_steps_do_not_change(adaptive: bool) -> None:
 
 @pytest.mark.parametrize("method", ["cf:cf4", "rkmk:rk4", "rkmk(2):gauss2", "rkmk(2):ralston4"])
 def test_methods_without_an_extension_are_refused(method: str) -> None:
-    with pytest.raises(MethodError, match="no continuous extension for"):
+    with pytest.raises(MethodError, match="has no continuous extension"):
         compile_method(scene("SO(3)"), method, dense=True)
 
 
@@ -122,7 +122,7 @@ def test_an_extension_of_the_user_is_compiled_and_a_false_one_is_refused() -> No
     good = Tableau.loads(text + 'b = [["1", "-1"], ["0", "1"]]\n')
     assert compile_method(scene("SO(3)"), good, dense=True, family="rkmk(0)").kernel.observed is not None
     for rows in ('[["1", "-1"], ["1/2", "1"]]', '[["1", "-1/2"], ["0", "1/2"]]'):
-        with pytest.raises(MethodError, match="no continuous extension for"):
+        with pytest.raises(MethodError, match="has no continuous extension"):
             compile_method(
                 scene("SO(3)"), Tableau.loads(text + f"b = {rows}\n"), dense=True, family="rkmk(0)"
             )

@@ -74,7 +74,10 @@ class Module:
     def bound(self) -> float:
         """Return the bound of the residuals that the header states."""
         words = " ".join(re.sub(r"^ \*", "", self.texts[self.suffix], flags=re.MULTILINE).split())
-        found = re.search(r"order conditions hold (?:to (\S+)|exactly) at the coefficients rounded", words)
+        found = re.search(
+            r"rounded to \w+ precision, the residuals of the order conditions are (?:at most (\S+)|zero)",
+            words,
+        )
         assert found is not None, "the header states no bound"
         return float(found[1] or 0)
 

@@ -231,7 +231,7 @@ def test_pairs_alone_need_no_part_of_single_sites():
     # The flow of a pair preserves the sum of its spins.
     assert np.abs(result.states.sum(axis=0) - start.sum(axis=0)).max() < 1e-13
     assert lattice.run(np.full((6, 3), 1e200), 0.05, 3).status == Status.NOT_FINITE
-    with pytest.raises(ValueError, match="odd number of sites"):
+    with pytest.raises(ValueError, match="odd number"):
         lattice.run(states((5,)), 0.05, 1)
 
 
@@ -294,8 +294,8 @@ def test_a_million_spins_run():
         (np.zeros(3), r"expected an array of shape \(n1, 3\)"),
         ([[1, 2, 3], [4, 5]], "rows of different lengths"),
         (np.array([["a"] * 3] * 4), "expected real numbers"),
-        (np.ones((1, 3)), r"expected more sites, found a lattice of shape \(1,\)"),
-        ([[1, 0, 0], [np.nan, 0, 0], [0, 0, 1]], r"found the state \[nan, 0.0, 0.0\] of site \(1,\)"),
+        (np.ones((1, 3)), r"expected another number of sites, found the shape \(1,\)"),
+        ([[1, 0, 0], [np.nan, 0, 0], [0, 0, 1]], r"found the state \[nan, 0.0, 0.0\] at site \(1,\)"),
     ],
 )
 def test_states_of_another_form_are_refused(given, message):
@@ -314,7 +314,7 @@ def test_more_sites_than_memory_are_refused():
     narrow = object.__new__(Short)
     narrow.interface = type(lattice.interface)(**{**vars(lattice.interface), "workspace": 2**50})
     narrow.defaults = {}
-    with pytest.raises(InputError, match="numbers of workspace"):
+    with pytest.raises(InputError, match="numbers for each site"):
         narrow.run(states((4,)), 0.1, 1)
 
 
@@ -367,11 +367,11 @@ def test_impossible_offsets_are_refused(offset):
 
 
 def test_other_methods_and_targets_are_refused():
-    with pytest.raises(MethodError, match="with the operation taylor_polynomial"):
+    with pytest.raises(MethodError, match="the operation taylor_polynomial of"):
         emit(chain(), "taylor(3)", target="c")
-    with pytest.raises(MethodError, match="an error estimate for a chain or lattice"):
+    with pytest.raises(MethodError, match="an error estimate is not available on a chain or lattice"):
         emit(chain(), "cf:cf43", target="c", adaptive=True)
-    with pytest.raises(InputError, match="target with chains and lattices"):
+    with pytest.raises(InputError, match="python has no code for chains and lattices"):
         emit(chain(), "cf:cf4", target="python")
     with pytest.raises(InputError, match="load_lattice"):
         load(emit(chain(), "cf:cf4", target="c"))

@@ -31,7 +31,7 @@ class AffineAction(Action):
         for k, x in enumerate(basis):
             if any(matrices.hat(d, x)[n * (n - 1) :]):
                 raise SceneError(
-                    f"{self.name} by {group.name}, whose basis element {k} has a last row that is not zero",
+                    f"{group.name} has no affine action: the last row of its basis element {k} is not zero",
                     where=where,
                     expected="a group of matrices [[A, b], [0, 1]]",
                     hint="use Linear() for linear maps of columns",

@@ -37,10 +37,10 @@ class Action(ABC):
         """Raise :class:`codegen.errors.SceneError` if the group lacks a capability that the action needs."""
         if group.offers(capability) is None:
             raise SceneError(
-                f"the action {self.name} of {group.name}, which has no {capability.provides}",
+                f"{group.name} has no {capability.provides}, which the action {self.name} needs",
                 where=where,
-                expected=f"a group with the capability {capability.__name__}, or an action that "
-                f"{group.name} has",
+                expected=f"a group with the capability {capability.__name__}, or another action of "
+                f"{group.name}",
                 hint="use LeftMultiplication() if the points are elements of the group",
             )
 

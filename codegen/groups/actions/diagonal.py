@@ -21,7 +21,7 @@ class DiagonalAction(Action):
 
     def __init__(self, *actions: Action) -> None:
         if not actions:
-            raise SceneError("a diagonal action without parts", expected="one action at least")
+            raise SceneError("a diagonal action was given no actions", expected="at least one action")
         self.actions = actions
         self.name = " and ".join(action.name for action in actions)
 
@@ -38,7 +38,8 @@ class DiagonalAction(Action):
             size = action.point_size(group)
             if size is None:
                 raise SceneError(
-                    f"the part {action.name} of a diagonal action, without a number of coordinates",
+                    f"the action {action.name}, in a diagonal action, does not define its number of "
+                    "coordinates",
                     where=where,
                     expected="actions that define point_size",
                     hint=f"define point_size(self, group) in {type(action).__name__}",

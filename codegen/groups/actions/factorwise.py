@@ -26,7 +26,9 @@ class FactorwiseAction(Action):
 
     def __init__(self, *actions: Action) -> None:
         if not actions:
-            raise SceneError("a factorwise action without parts", expected="one action for each factor")
+            raise SceneError(
+                "a factorwise action was given no actions", expected="one action for each factor"
+            )
         self.actions = actions
         self.name = " x ".join(action.name for action in actions)
 
@@ -37,8 +39,7 @@ class FactorwiseAction(Action):
         factors = group.require(DirectProduct).factors
         if len(factors) != len(self.actions):
             raise SceneError(
-                f"the number of actions is {len(self.actions)}, the number of factors of {group.name} is "
-                f"{len(factors)}",
+                f"the number of actions is {len(self.actions)}, but {group.name} has {len(factors)} factors",
                 where=where,
                 expected="one action for each factor",
             )
@@ -55,7 +56,8 @@ class FactorwiseAction(Action):
             size = action.point_size(factor)
             if size is None:
                 raise SceneError(
-                    f"{action.name} of the factor {factor.name}, without a number of coordinates",
+                    f"the action {action.name} of the factor {factor.name} does not define its number of "
+                    "coordinates",
                     where=where,
                     expected="actions that define point_size",
                     hint=f"define point_size(self, group) in {type(action).__name__}",

@@ -29,14 +29,15 @@ class Stiefel(Columns):
             a = matrices.hat(d, x)
             if any(a[n * i + j] != -a[n * j + i] for i in range(n) for j in range(i + 1)):
                 raise SceneError(
-                    f"{self.name} by {group.name}",
+                    f"{group.name} does not preserve orthonormal columns, because the matrices of its "
+                    "algebra are not skew",
                     where=where,
-                    expected="a group of orthogonal matrices, whose algebra consists of skew matrices",
+                    expected="a group of orthogonal matrices",
                     hint=f"use Columns({self.columns}) for other matrices",
                 )
         if self.columns > n:
             raise SceneError(
-                f"{self.columns} orthonormal columns of {n} rows",
+                f"{self.columns} columns with {n} rows cannot be orthonormal",
                 where=where,
                 expected=f"at most {n} columns",
             )

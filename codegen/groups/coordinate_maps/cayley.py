@@ -26,7 +26,7 @@ class Cayley(CoordinateMap):
         """Raise :class:`codegen.errors.SceneError` if the group has no Cayley map."""
         if group.offers(CayleyMap) is None:
             raise SceneError(
-                f"Cayley coordinates on {group.name}",
+                f"{group.name} has no Cayley map",
                 where=where,
                 expected="a group whose algebra contains x^3 for each of its elements x, such as SO(3), S^3, "
                 "SL(2) or SE(3)",

@@ -28,7 +28,7 @@ class SecondKind(CoordinateMap):
         """Raise :class:`codegen.errors.SceneError` if the group has no adjoint map."""
         if group.offers(Coadjoint) is None:
             raise SceneError(
-                f"coordinates of the second kind on {group.name}",
+                f"{group.name} has no adjoint map, which coordinates of the second kind need",
                 where=where,
                 expected="a group with an adjoint map",
                 hint='write coordinates="exp", or give the group the capability Coadjoint',

@@ -226,7 +226,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     bound = -(-(each * numbers + frames) // 64) * 64
     if bound > LARGEST_STACK:
         raise SceneError(
-            f"a step that needs {bound / 2**20:.1f} MiB of the stack",
+            f"a step needs {bound / 2**20:.1f} MiB of the stack",
             where=interface.module,
             expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
             hint="use fewer rows, a method with fewer stages, or the target python",

@@ -169,13 +169,13 @@ def test_what_a_killed_write_leaves_is_no_difference_and_the_next_write_removes_
 def test_a_list_that_cannot_be_read_is_bad_input(tmp_path):
     path = tmp_path / "list.toml"
     wrong = {
-        LIST + "extra = 1\n": "module 1: the keys extra, method",
-        "[[module": "not TOML",
+        LIST + "extra = 1\n": "module 1: the keys of the module are: extra, method",
+        "[[module": "not valid TOML",
         "\xff": "bytes that are not UTF-8",
-        'name = "euler"\n': "no list of modules; its keys are: name",
-        "": "no list of modules; its keys are: none",
-        "module = 3": "no list of modules",
-        'module = ["a"]': "module 1: the keys 'a'",
+        'name = "euler"\n': "the file is not a list of modules; its keys are: name",
+        "": "the file is not a list of modules; its keys are: none",
+        "module = 3": "not a list of modules",
+        'module = ["a"]': "module 1: the keys of the module are: 'a'",
         LIST.replace('"cf4"', "4"): "expected two strings and a list of strings",
         LIST.replace('["c", "python"]', '"c"'): "expected two strings and a list of strings",
     }

@@ -79,11 +79,11 @@ def test_the_inverse_matrix_is_exact(n):
 @pytest.mark.parametrize(
     ("basis", "message"),
     [
-        ([], "empty or not square"),
-        ([[[1, 0]]], "empty or not square"),
-        ([[[1, 0], [0, 1]], [[1]]], "empty or not square"),
+        ([], "is empty, or its matrices are not all square"),
+        ([[[1, 0]]], "is empty, or its matrices are not all square"),
+        ([[[1, 0], [0, 1]], [[1]]], "is empty, or its matrices are not all square"),
         ([[[1, 0], [0, 1]], [[2, 0], [0, 2]]], "linearly dependent"),
-        ([[[0, 1], [0, 0]], [[0, 0], [1, 0]]], "not closed"),
+        ([[[0, 1], [0, 0]], [[0, 0], [1, 0]]], "is not a combination of basis matrices"),
     ],
 )
 def test_a_basis_that_is_none_is_refused(basis, message):

@@ -269,7 +269,7 @@ def test_a_float_means_the_decimal_that_prints_it() -> None:
     space = Space()
     assert read(space, 0.1 * x) is read(space, x / 10)
     assert read(space, x**0.5) is read(space, sympy.sqrt(x))
-    with pytest.raises(SceneError, match=r"the float 1\.00"):
+    with pytest.raises(SceneError, match=r"the number 1\.00"):
         read(space, sympy.Float("1e-400", 30))
 
 

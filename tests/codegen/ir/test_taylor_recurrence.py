@@ -153,5 +153,5 @@ def test_a_function_without_recurrence_is_named():
     space, domain = Space(), PreciseDomain(0, 20)
     root = space.call("stumpff1", space.sym("y"))
     one = domain.rational(1)
-    with pytest.raises(SceneError, match="no recurrence for the Taylor coefficients of stumpff1"):
+    with pytest.raises(SceneError, match="no recurrence is known for the Taylor coefficients of stumpff1"):
         Recurrence([root], domain, ["y"], [one], {"t": one}, one)

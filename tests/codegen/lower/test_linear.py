@@ -187,13 +187,15 @@ def test_a_generator_that_cannot_be_used_is_refused(A, message):
 @pytest.mark.parametrize("scene", ["dipole", "driven_spin", "linear_oscillator", "free_rigid_body"])
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_field_that_depends_on_the_state_is_refused_with_the_reason(family, scene):
-    expected = f"{family} on {scene}, whose field depends on the state; expected a scene y' = A(t).y"
+    expected = (
+        f"{family} cannot be used on {scene}, whose field depends on the state; expected a scene y' = A"
+    )
     for spelling in (f"{family}:{family}4", f"{family}4"):
         with pytest.raises(MethodError) as caught:
             compile_method(scene, spelling)
         named = "magnus" if family in ("cf_magnus", "fer") and ":" not in spelling else family
-        assert expected.replace(f"{family} on", "", 1) in str(caught.value)
-        assert re.match(f"({family}|{named}|cf_magnus|fer) on {scene}", str(caught.value))
+        assert expected.removeprefix(family) in str(caught.value)
+        assert re.match(f"the family ({family}|{named}|cf_magnus|fer) cannot be used on", str(caught.value))
 
 
 def test_an_oscillator_with_a_state_in_its_field_is_no_linear_problem():
@@ -226,7 +228,8 @@ def test_a_hamiltonian_field_of_the_time_alone_is_a_linear_problem():
 def test_cayley_methods_need_a_group_with_a_cayley_map():
     scene = linear_scene("T*SO(3)")
     with pytest.raises(
-        MethodError, match=r"cayley on .* whose group is T\*SO\(3\); expected a group whose algebra"
+        MethodError,
+        match=r"cayley cannot be used on .* whose group is T\*SO\(3\); expected a group whose algebra",
     ):
         compile_method(scene, "cayley4")
 
@@ -241,7 +244,7 @@ def test_a_product_outside_of_the_algebra_is_refused():
     """
     scene = ON_ITSELF["LeftMultiplication"]
     with pytest.raises(
-        MethodError, match=r"the product 1\*2\*3; expected products with an odd number of factors"
+        MethodError, match=r"the product 1\*2\*3 need not be .*; expected an odd number of factors"
     ):
         compile_method(scene, Tableau.loads(text), family="cayley")
 

@@ -74,10 +74,26 @@ def test_variational_families_come_first_on_hamiltonian_scenes(scene, able):
 @pytest.mark.parametrize(
     ("scene", "family", "message"),
     [
-        ("dipole", "rk", r"rk on dipole, whose group is T\*SO\(3\); expected R\^n; use rkmk, cg or cf"),
-        ("free_rigid_body", "slgi", "slgi on free_rigid_body; expected a Hamiltonian scene, because a"),
-        ("driven_spin", "discrete_gradient", "discrete_gradient on driven_spin, which depends on time"),
-        ("actuated_rigid_body", "splitting", "splitting on actuated_rigid_body, which is driven by a wrench"),
+        (
+            "dipole",
+            "rk",
+            r"rk cannot be used on dipole, whose group is T\*SO\(3\); expected R\^n; use rkmk, cg or cf",
+        ),
+        (
+            "free_rigid_body",
+            "slgi",
+            "slgi cannot be used on free_rigid_body; expected a Hamiltonian scene, because",
+        ),
+        (
+            "driven_spin",
+            "discrete_gradient",
+            "discrete_gradient cannot be used on driven_spin, which depends on time",
+        ),
+        (
+            "actuated_rigid_body",
+            "splitting",
+            "splitting cannot be used on actuated_rigid_body, which is driven by a wrench",
+        ),
     ],
 )
 def test_an_objection_says_what_was_found_what_is_expected_and_what_to_use(scene, family, message):

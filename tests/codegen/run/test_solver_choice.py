@@ -74,7 +74,7 @@ def test_a_fixed_point_that_fails_in_longer_steps_yields_to_newtons_method(monke
     """At the step of the example the fixed point converges and would be faster."""
     choice, built = chosen_from(heat(32, 20), monkeypatch)
     assert choice.solver == NEWTON
-    assert choice.reason.endswith("; fixed point: would be faster, but does not converge in a step of 8 h")
+    assert choice.reason.endswith("; fixed point would be faster, but does not converge in a step of 8 h")
     assert built == [{NEWTON}]
 
 
@@ -88,7 +88,11 @@ def test_trials_of_many_unknowns_make_few_steps(monkeypatch):
 def test_no_kernel_is_built_beside_a_cheap_fixed_point_of_many_unknowns(monkeypatch):
     choice, built = chosen_from(heat(36, 1), monkeypatch)
     assert choice.solver == FIXED_POINT
-    assert [": not tried: would take at least " in line for line in choice.compared] == [False, True, True]
+    assert [": not tried, because it would take at least " in line for line in choice.compared] == [
+        False,
+        True,
+        True,
+    ]
     assert built == []
 
 
@@ -212,14 +216,16 @@ def test_a_robust_solver_may_not_take_many_times_as_long(monkeypatch):
     monkeypatch.setattr(solver_choice, "is_linear", lambda loop: False)
     choice, _ = chosen_from(heat(32, 20), monkeypatch)
     assert choice.solver == FIXED_POINT
-    assert choice.reason.endswith("; does not converge in a step of 8 h: longer steps may fail")
+    assert choice.reason.endswith(
+        "; longer steps may fail, because the solver does not converge in a step of 8 h"
+    )
 
 
 def test_stiff_linear_equations_are_solved_by_newtons_method_at_any_price(monkeypatch):
     """With 72 unknowns, a step of Newton's method takes more than PRICE times as long as the fixed point."""
     choice, built = chosen_from(heat(36, 20), monkeypatch)
     assert (choice.solver, choice.unknowns) == (NEWTON, 72)
-    assert choice.reason.endswith("; fixed point: would be faster, but does not converge in a step of 8 h")
+    assert choice.reason.endswith("; fixed point would be faster, but does not converge in a step of 8 h")
     assert built == [{NEWTON}]
 
 

@@ -234,7 +234,7 @@ def test_the_stated_order_is_the_classical_one_and_is_observed(spelling, order, 
     made = compile_method(SCENE, spelling)
     stated = certified_order(made.method, SCENE)
     assert stated.order == emit_compiled(made, "c").manifest["order"] == order
-    assert "on an abelian group" in stated.text()
+    assert "because the group is abelian" in stated.text()
     assert certified_order(made.method).order == elsewhere
     found = converge(Emitted(made, "c", stated), stated, reference(SCENE))
     assert found.verdict == "holds", found.sentence()

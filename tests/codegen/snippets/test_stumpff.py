@@ -197,5 +197,5 @@ def test_an_angle_beyond_two_fifths_of_its_digits_is_no_angle(target):
     speed = math.hypot(0.5 * math.cos(1.1), 1.5 * math.sin(1.1))
     start = [math.cos(1.1), 0.0, math.sin(1.1)]
     assert math.hypot(*step.step(start, 0.999 * 2.0**21 / speed)) == pytest.approx(1.0)
-    with pytest.raises(StepFailed, match="turns or moves too far"):
+    with pytest.raises(StepFailed, match="the step is too long"):
         step.step(start, 1.001 * 2.0**21 / speed)

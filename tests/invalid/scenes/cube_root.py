@@ -1,4 +1,4 @@
-# 9: the power y0**(1/3); expected an integer or half-integer exponent
+# 9: the exponent in y0**(1/3) is not a multiple of 1/2; expected an integer or half-integer exponent
 from sympy import Matrix, Rational, symbols
 
 from codegen.groups import SO3, Rotation

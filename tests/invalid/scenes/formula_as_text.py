@@ -1,4 +1,4 @@
-# 8: str 'y0'; expected a sympy formula or a number
+# 8: 'y0' of type str is not a formula; expected a sympy formula or a number
 from sympy import Matrix, symbols
 
 from codegen.groups import SO3, Rotation

@@ -1,4 +1,4 @@
-# 8: a Piecewise formula without a default branch
+# 8: the Piecewise formula
 from sympy import Piecewise
 
 from codegen.groups import LeftMultiplication, Rn

@@ -1,4 +1,4 @@
-# 8: floor in floor(y0)
+# 8: floor(y0) has infinitely many jumps
 from sympy import floor
 
 from codegen.groups import LeftMultiplication, Rn

@@ -128,7 +128,7 @@ def test_the_last_step_before_the_limit_has_its_digits_and_the_first_beyond_is_a
     assert near.error is not None
     assert near.error < 1e-3
     far = answer(made, runner, replace(angle, h=angle.h * 4 * FAR / 100))
-    assert far.verdict.startswith("status: the step turns or moves too far")
+    assert far.verdict.startswith("status: the step is too long")
 
 
 def test_an_answer_without_digits_is_undetermined_however_well_rounding_explains_it(monkeypatch):
