@@ -201,7 +201,9 @@ def with_batch(compiled: Compiled) -> Compiled:
     kernel = compiled.kernel
     if kernel.modes is not None:
         raise MethodError(
-            "--batch for a semilinear equation", where=compiled.scene.name, expected="a run of one system"
+            "--batch is not available on a semilinear equation",
+            where=compiled.scene.name,
+            expected="a run of one system",
         )
     changed = kernel.deferred or kernel.expansion or kernel.carried or compiled.compensated
     if kernel.outlined and not kernel.loops and not changed:
@@ -437,7 +439,7 @@ def emit_kernel(
         )
     if kernel.modes is not None and interface.format is not DOUBLE:
         raise InputError(
-            f"{interface.format.name} precision for a semilinear equation",
+            f"{interface.format.name} precision is not available on a semilinear equation",
             where=interface.module,
             expected=f"{DOUBLE.name} precision",
             hint="leave out --precision",

@@ -2,7 +2,8 @@
 
 mu' = n - ad*_xi mu + g u, where u contains the torques in the body frame and the attitude g rotates them to
 space. The formulas below are the defaults: emitted code uses them for torques that are not supplied at run
-time. With u = 0 the scene is ``free_rigid_body_attitude``.
+time. With u = 0 the scene is ``free_rigid_body_attitude``. F. Bullo and A. D. Lewis, Geometric Control of
+Mechanical Systems (Springer, 2005), treat such systems.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diag, eye, sin

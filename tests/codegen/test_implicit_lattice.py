@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 from functools import cache
 
 import numpy as np
@@ -11,6 +12,7 @@ from sympy import Matrix, symbols
 
 from codegen import emit, load_lattice
 from codegen.arrival import Status
+from codegen.build import compile_files
 from codegen.errors import MethodError
 from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.domain import FloatDomain
@@ -21,6 +23,7 @@ from codegen.scene.unrolled import unrolled
 from orderconds.cli import program
 from tests.codegen.bodies import bodies, joined, springs
 from tests.codegen.chains import chain, open_chain, open_plane, oscillators, plane
+from tests.promises import sanitizes
 
 SCENES = {
     "chain": chain,
@@ -243,6 +246,61 @@ def test_newtons_method_solves_variational_equations():
     found, expected = newton.run(start, 0.02, 5), fixed.run(start, 0.02, 5)
     assert found.ok
     assert np.abs(found.states - expected.states).max() < 1e-13
+
+
+SANITIZED = """
+#include "m.h"
+#include <stdio.h>
+#include <stdlib.h>
+int main(void)
+{
+    int statuses[8] = {0};
+    for (size_t n = 0; n < 7; n++) {
+        for (int trial = 0; trial < 4; trial++) {
+            const size_t shape[1] = {n}, room = m_workspace(shape);
+            double *state = malloc((%(size)d * n + 1) * sizeof *state);
+            double *work = malloc((room + 1) * sizeof *work);
+            if (!state || !work) {
+                return 1;
+            }
+            for (size_t i = 0; i < %(size)d * n; i++) {
+                state[i] = trial == 3 ? 1e300 : 1.0 / (double)(1 + i);
+            }
+            size_t completed;
+            const double h[4] = {0.1, -0.3, 1e9, 0.5};
+            statuses[m_run(shape, state, %(time)s h[trial], 3, work, &completed) %% 8]++;
+            free(state);
+            free(work);
+        }
+    }
+    printf("%%d", statuses[0]);
+    return 0;
+}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "method", "options"),
+    [
+        ("oscillators", "rk:gauss2", {"solver": NEWTON}),
+        ("chain", "rkmk:gauss1", {"solver": NEWTON}),
+        ("open_chain", "cf:gauss1", {}),
+        ("chain", "cf:cf4", {}),
+    ],
+)
+def test_lattices_of_every_length_are_clean_under_sanitizers(compiler, name, method, options, tmp_path):
+    if not sanitizes(compiler):
+        pytest.skip(f"{compiler.command[0]} has no library for its sanitizers")
+    artifact = emit(SCENES[name](), method, target="c", prefix="m", **options)
+    interface = artifact.manifest["interface"]
+    time = "0.0," if interface["time"] else ""
+    files = {**artifact.files, "main.c": SANITIZED % {"size": interface["size"], "time": time}}
+    flags = ("-std=c11", "-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    compile_files(files, tmp_path, tmp_path / "main", flags, compiler)
+    answer = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=False, timeout=300)
+    assert (answer.returncode, answer.stderr) == (0, "")
+    assert int(answer.stdout) >= 8
 
 
 def test_a_singular_matrix_is_reported():

@@ -365,7 +365,7 @@ def test_derivatives_have_a_largest_order():
         ("ambient:rk4", {}, "a semilinear equation"),
         ("cf:cf4", {"jacobian": True}, "a Jacobian"),
         ("cf:cf4", {"compensate": True}, "compensated summation"),
-        ("cf:cf4", {"batch": True}, "batch for a semilinear"),
+        ("cf:cf4", {"batch": True}, "batch is not available on a semilinear"),
     ],
 )
 def test_a_method_that_cannot_be_compiled_is_refused(method, options, message):

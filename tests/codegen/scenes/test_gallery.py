@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import ast
+import re
+import statistics
+from pathlib import Path
+
 import mpmath
 import pytest
 
+from codegen import scenes
 from codegen.ir.domain import PreciseDomain
 from codegen.lab.reference import reference
-from codegen.scenes import load
+from codegen.scenes import GALLERY, load
 
 DOMAIN = PreciseDomain(0, 45)
 
@@ -231,3 +237,21 @@ def test_the_energy_of_the_top_as_printed_is_that_of_the_start():
     """H0 = 5 10^4 12 + 1: one half of 10^2 (1, 5, 6) 10^3 summed, and e3.e3."""
     scene = load("heavy_top")
     assert scene.invariant(DOMAIN, "energy", scene.initial(DOMAIN)) == 600001
+
+
+def source_of(name: str) -> str:
+    """Return the text of the file of a scene."""
+    return Path(scenes.__file__).with_name(f"{name}.py").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", GALLERY)
+def test_each_scene_cites_its_source(name):
+    about = ast.get_docstring(ast.parse(source_of(name)))
+    other = next((x for x in GALLERY if x != name and f"``{x}``" in about), "")
+    # A variant of a scene names this scene, whose file cites the source.
+    cited = about + (ast.get_docstring(ast.parse(source_of(other))) if other else "")
+    assert re.search(r"thesis|\b1[89]\d\d\b|\b20[012]\d\b", cited.replace("2000", ""))
+
+
+def test_half_of_the_scene_files_have_fewer_than_sixty_lines():
+    assert statistics.median(len(source_of(name).splitlines()) for name in GALLERY) < 60
