@@ -32,7 +32,8 @@ def real(x: object, name: str) -> float:
 
 
 def count(x: object, name: str, least: int = 0) -> int:
-    """Return an integer; TypeError for other types, ValueError unless it is at least ``least``.
+    """Return ``x`` as an int; TypeError if it is no integer, ValueError if it is below ``least`` or above
+    :data:`MOST`.
 
     >>> count(2.0, "steps")
     Traceback (most recent call last):
@@ -56,8 +57,8 @@ def numbers(inputs: object) -> tuple[float, ...]:
 
 
 def monotone(t: float, times: object) -> list[float]:
-    """Return the times ``t_eval`` as floats; ValueError unless they are finite and the sequence of t and the
-    times is monotone.
+    """Return the times ``t_eval`` as floats; ValueError if a time is not finite, or if t followed by the
+    times is not a monotone sequence.
 
     >>> monotone(0.0, [0, 1])
     [0.0, 1.0]
@@ -77,7 +78,8 @@ def monotone(t: float, times: object) -> list[float]:
 
 
 def described(x: object) -> str:
-    """Return a text for a message: value and type of a number or a text, the type alone of any other object.
+    """Return a description for a message. It contains the type of ``x`` and, for a number or a text, also the
+    value.
 
     >>> described(1j), described(iter(()))
     ('1j of type complex', 'an object of type tuple_iterator')

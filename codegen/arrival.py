@@ -67,15 +67,15 @@ class Arrival:
     crossings: tuple[Crossing, ...] = ()
     """The events that a run of ``integrate`` has found, in order."""
     status: Status = Status.OK
-    """EVENT if a terminal event ended the run. In the ``arrival`` of :class:`StepFailed` it is the status of
-    the failed step."""
+    """EVENT if a terminal event ended the run, otherwise OK. If the arrival belongs to a :class:`StepFailed`
+    error, this is the status of the failed step."""
 
 
 @dataclass(frozen=True)
 class Reached:
-    """The results of one call of the emitted run to an end time. States are flat sequences of numbers, not
-    yet converted to the type of the caller's state. Each of the ``events`` is (index, time, direction,
-    state)."""
+    """The results of one call of the emitted function that integrates to a given end time. States are flat
+    sequences of numbers, not yet converted to the type of the caller's state. Each of the ``events`` is
+    (index, time, direction, state)."""
 
     status: int
     state: Sequence[float]
@@ -92,9 +92,9 @@ class Reached:
 class Statistics:
     """Counts of the iterations, called sweeps, that solve the implicit blocks of a run.
 
-    ``sweeps`` has a number for each block: its sweeps in all steps. ``most`` is the largest number of sweeps
-    of a block in one step. ``failed`` is the index of the block that failed, counted from 1, or 0 if no block
-    failed. ``matrices`` is the number of Newton matrices that were computed.
+    ``sweeps`` contains, for each block, the number of its sweeps in all steps together. ``most`` is the
+    largest number of sweeps of a block in one step. ``failed`` is the index of the block that failed, counted
+    from 1, or 0 if no block failed. ``matrices`` is the number of Newton matrices that were computed.
     """
 
     sweeps: list[int] = field(default_factory=list)
@@ -118,7 +118,7 @@ class Begun:
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
         """Return the error of a failed step; its state has the type of the caller's state.
 
-        If an implicit block did not converge, the message names the other solvers.
+        If an implicit block did not converge, the message contains the names of the other solvers.
         """
         if status == Status.NOT_CONVERGED:
             others = [s for s in SOLVERS if s not in self.solvers]

@@ -68,7 +68,8 @@ class Artifact:
         method.
 
         Two methods such as ``a.b`` and ``a-b`` have the same default module name. If the user chose the
-        prefix of one of the two modules, the files may be overwritten.
+        prefix of one of the two modules with ``--prefix``, the equal names are intended, and no error is
+        raised.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
@@ -145,8 +146,8 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     try:
         with locked(folder, shared=True):
             return _read(folder, entries_of(folder), module, target)
-    # If the folder cannot be opened, it cannot be locked. The InputError is then raised when the manifest is
-    # read.
+    # A folder that cannot be opened cannot be locked, and ``locked`` raises OSError. The module is then read
+    # without a lock; if this also fails, InputError is raised with the reason.
     except OSError:
         return _read(folder, entries_of(folder), module, target)
 

@@ -29,11 +29,12 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""The errors raised if this process cannot write to the cache; a temporary folder is then used instead."""
+"""The error numbers that mean that this process may not write to the cache. A temporary folder is then used
+instead."""
 
 
 class CompilerMissing(InputError):
-    """Raised if there is no C compiler, or if the compiler that $CC names does not exist."""
+    """Raised if there is no C compiler, or if the command in $CC does not exist."""
 
 
 class CompileError(InputError):
@@ -93,7 +94,7 @@ def build(
     *,
     again: bool = False,
 ) -> Path:
-    """Return the path of a shared object compiled from C files (name -> text).
+    """Return the path of a shared object compiled from C files; ``files`` maps their names to their texts.
 
     A cached file is used if its content has the recorded digest; with ``again`` the files are always
     compiled. Errors: CompilerMissing, CompileError, and InputError if the result cannot be written.

@@ -29,8 +29,8 @@ WORKING = "building-"
 """The prefix of the names of working folders."""
 
 SETTLED = 60.0
-"""A temporary file that is older than this number of seconds may be removed, unless a process has locked
-it."""
+"""The age in seconds below which temporary files and working folders are never removed. An older working
+folder is removed unless a process has locked it."""
 
 
 def cache_directory() -> Path:
@@ -53,7 +53,8 @@ def cache_directory() -> Path:
 
 
 def _require_private(folder: Path) -> None:
-    """Remove other users' access to the folder; raise an OSError if it does not belong to the user alone."""
+    """Remove the access of other users to the folder; raise an OSError if another user owns the folder or
+    still has access."""
     if not hasattr(os, "geteuid"):
         return
     # If the folder is a symbolic link, the link must belong to the user, too.
@@ -88,7 +89,8 @@ def _remove(folder: Path, owner: int) -> None:
 
 
 def recall(entry: Path) -> bytes | None:
-    """Return the content of an entry; None if it is missing, damaged, too large, or not the user's.
+    """Return the content of an entry; None if the file is missing, damaged, too large, or belongs to another
+    user.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     entry = Path(folder) / "x"

@@ -122,8 +122,8 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    # Emitted code contains doubles. Coefficients that were given as doubles are therefore not rounded again,
-    # even if they approximate other numbers.
+    # Emitted code contains doubles. Coefficients that were given as doubles are therefore used without
+    # rounding, and they have no uncertainty here, even if they approximate other numbers.
     known = method.coefficients is None or method.coefficients.doubles
     radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate

@@ -8,7 +8,7 @@ from pathlib import PurePath
 
 
 def bare(name: str) -> str:
-    """Return a name without folders, because emitted text must not contain a path of the machine.
+    """Return a name without folders, because the text of emitted files must be the same on every machine.
 
     >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
     ('vcg:mine.toml', 'top.py')

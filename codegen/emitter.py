@@ -1,4 +1,4 @@
-"""From scene and method, or from a kernel, to emitted files and a manifest entry.
+"""Translate a scene and a method, or a kernel, to emitted files and a manifest entry.
 
 :func:`compile_method` runs the whole compiler: lowering, passes, kernel. Emitted files depend on scene,
 method and options only, so the same arguments give the same bytes.
@@ -160,7 +160,7 @@ def compile_method(
 
 
 def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[str]) -> Problem:
-    """Return a scene whose parameters and signals are arguments at run time."""
+    """Return a scene in which the listed parameters and signals are arguments at run time."""
     parameters = texts(parameters, "parameters", "alpha=1/2")
     inputs = texts(inputs, "inputs", "u")
     scene = with_runtime(scene, tuple(parameters)) if parameters else scene
@@ -253,7 +253,8 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
         what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
     if scene.semilinear is not None:
-        # A given cut-off truncates dexp^{-1}; without a cut-off the closed form is used.
+        # If the method has a cut-off, the series of dexp^{-1} is truncated, so the closed form is removed
+        # from the scene.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
@@ -264,8 +265,9 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
 
 
 def work(kernel: Kernel) -> int:
-    """Estimate the cost of a step in units of one addition. The operations of each block are counted SWEEPS
-    times, all other operations once."""
+    """Estimate the cost of a step in units of one addition. All operations outside the implicit blocks are
+    counted once. The operations of a block are counted SWEEPS times in each substep, because a block is
+    iterated."""
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in step_operations(kernel).items():
         cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())
@@ -345,8 +347,8 @@ def emit_compiled(
 ) -> Artifact:
     """Return a compiled method as a module of a target.
 
-    ``named`` contains the names of scene and method in the header's command. ``order`` is the result
-    of :func:`certified_order`, if the caller has computed it already.
+    ``named`` contains the names of scene and method for the command that the header shows. ``order`` is the
+    result of :func:`certified_order`, if the caller has computed it already.
     """
     scene, method = compiled.scene, compiled.method
     own = scene if compiled.form is None else compiled.form.scene

@@ -3,10 +3,11 @@
 The estimate is the difference between the results of the two rows of weights of a tableau: the weights of the
 method and of the embedded method. If both rows have the same leading error term, the estimate has a higher
 order than the local error. It is then called blind. RKMK methods with a small cut-off are an example: the
-same brackets are missing in both rows. If the rows have different orders, the estimate can be blind only if f
-does not depend on the state, because both rows may then give the same result. For rows of the same order, and
-for such an f, the orders of the estimate and of the local error are computed from very short steps in 100
-digits. The local error is measured by the difference between one step of size h and two steps of size h/2.
+same brackets are missing in both rows. If the rows have different orders, their results differ at the lower
+order, and the estimate is not blind. The exception is an f that does not depend on the state: both rows may
+then give the same result. For this exception, and for rows of the same order, the orders of the estimate and
+of the local error are computed from very short steps in 100 digits. The local error is measured by the
+difference between one step of size h and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -46,8 +47,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # If f depends on t alone, stages at the same time have the same values, so rows of different orders may
-    # be equal.
+    # If f depends on t alone, stages at the same time have the same values, so rows of weights of different
+    # orders may give the same result.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: if f does not depend on the state, the method and its "
@@ -70,9 +71,9 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
     """Return True if the error estimate of an embedded pair has a higher order than the local error.
 
-    The estimate is the difference of the results of the two rows, which both have order ``order``. It is
-    compared with the local error in very short steps. An estimate that is always zero is blind, too. If
-    the steps cannot be computed, the result is False.
+    The estimate is the difference between the results of the method and of the embedded method. It is
+    compared with the local error in very short steps, whose size depends on the method's ``order``. An
+    estimate that is always zero is blind, too. If the steps cannot be computed, the result is False.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))
@@ -92,8 +93,8 @@ def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bo
 
 
 def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], float, float], State]:
-    """Return a function that computes a step of a method in many digits; the arguments are a state and a time
-    after the start of the span."""
+    """Return a function that computes a step of a method in many digits. Its arguments are a state, the time
+    that has elapsed since the start of the span, and the step size."""
     problem, program = problem_for(scene, method), lower(scene, method)
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:
@@ -119,8 +120,8 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 
 
 def _hint(method: Method, scene: Problem) -> str:
-    """Return a hint for the user: it names the next larger cut-off for which the estimate has the order of
-    the local error."""
+    """Return a hint for the user: the method with the smallest larger cut-off for which the estimate has the
+    order of the local error, or, if there is none, the advice to use another tableau."""
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):
             longer = replace(method, cutoff=cutoff)

@@ -17,7 +17,8 @@ class MethodError(InputError):
 class UnclaimedTableau(MethodError):
     """A tableau that claims no order in any family that accepts the scene.
 
-    ``claimed`` are the families in which the tableau claims an order.
+    ``claimed`` are the families in which the tableau claims an order; none of these families accepts the
+    scene.
     """
 
     claimed: tuple[str, ...] = ()

@@ -30,8 +30,8 @@ class Event:
 
     @property
     def stops(self) -> int:
-        """The argument of emitted code: the run ends at zeros with rising values (1), with falling values
-        (2), with either (3), or at no zero of this event (0)."""
+        """The number by which emitted code knows at which zeros the run ends: zeros with rising values (1),
+        with falling values (2), all zeros (3), or none (0)."""
         return {RISING: 1, FALLING: 2, 0: 3}[self.direction] if self.terminal else 0
 
 
@@ -49,7 +49,8 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
     """Return functions and events as a tuple of events; a function becomes an event that does not end the
     run.
 
-    TypeError is raised for other objects, ValueError for more than ``most`` events or another direction.
+    TypeError is raised for other objects, ValueError for more than ``most`` events or for a direction other
+    than 1, -1 and 0.
 
     >>> events_of([lambda t, y: y[0]], 1)[0].stops
     0
@@ -95,6 +96,6 @@ class EventValues:
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Emitted code reads ``size`` values. If there are fewer events, the other values are 1, without
-        # zeros.
+        # Emitted code reads ``size`` values. If there are fewer events, the other values are the constant 1,
+        # so no zero is found for them.
         return values + [1.0] * (self.size - len(values))

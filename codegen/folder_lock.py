@@ -14,7 +14,8 @@ from pathlib import Path
 
 @contextmanager
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
-    """Lock an existing folder; a ``shared`` lock is for readers and excludes writers only.
+    """Lock an existing folder. Several readers may hold a ``shared`` lock at the same time; such a lock
+    excludes only writers.
 
     Yields whether the lock was acquired. It is not acquired if the file system has no locks, or if ``wait``
     is false and another process holds the lock.

@@ -38,8 +38,8 @@ class Integrator(RunToEnd):
 
     @cached_property
     def fields(self) -> Fields:
-        """The names and sizes of the parts of a state, such as q and mu, in the order in which a tuple
-        contains them. There are none if the integrator was not loaded from an artifact."""
+        """The name and the size of each part of a state, such as q and mu. If a state is given as a tuple,
+        its parts have this order. The result is empty if the integrator was not loaded from an artifact."""
         entries = () if self.artifact is None else self.artifact.manifest.get("state", ())
         return tuple((entry["name"], len(entry["symbols"])) for entry in entries)
 
@@ -153,7 +153,8 @@ class Integrator(RunToEnd):
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
         for time in monotone(t, times):
-            # A quotient such as 0.3/0.1 is not an integer because of rounding.
+            # Rounding can make a quotient slightly larger than the integer that is meant. The factor prevents
+            # an additional step in this case.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
                 raise ValueError(
@@ -234,8 +235,8 @@ class Integrator(RunToEnd):
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # If the next time is close, the step to it is short. The size of this step is no good proposal
-            # for later steps.
+            # If the next time is close, a single short step reaches it, and the size of this step is too
+            # small for later steps. Therefore the larger of the old and the new proposal is used.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)

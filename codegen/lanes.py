@@ -40,8 +40,8 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     """Return states as a new array of shape (size, N) with contiguous rows, in the format ``real`` of a
     module (``double`` or ``float``).
 
-    ValueError is raised unless ``states`` is an array of N states of ``size`` real numbers, N >= 1, or a
-    tuple of such arrays, one for each part of a state.
+    ``states`` must be an array of N states of ``size`` real numbers, N >= 1, or a tuple of arrays, one for
+    each part of the states. For any other argument, ValueError is raised.
 
     >>> columns([[1, 2, 3], [4, 5, 6]], 3, "double").tolist()
     [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]
@@ -71,7 +71,8 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
 
 
 def in_place(out: object, size: int, real: str) -> Any:
-    """Return the transpose of ``out``, an array of shape (N, size) in Fortran order; both share one memory.
+    """Return the transpose of ``out``, an array of shape (N, size) in Fortran order, without a copy of the
+    numbers.
 
     ValueError is raised for an array of another shape, memory order or type, and for an array that is not
     writeable.

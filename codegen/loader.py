@@ -27,9 +27,9 @@ from orderconds.errors import InputError
 def load(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Integrator:
     """Return the integrator of an artifact, or of a module in a folder with a manifest.
 
-    ``module`` and ``target`` choose a module if the folder has several. C code is compiled, or a compiled
-    file is read from the cache. Errors: CompilerMissing, CompileError, and InputError for a folder without
-    such a module.
+    If the folder contains several modules, ``module`` and ``target`` choose one of them. C code is compiled,
+    or a compiled file is read from the cache. Errors: CompilerMissing, CompileError, and InputError for a
+    folder without such a module.
     """
     artifact, interface, defaults = _opened(source, module, target)
     if interface.dimension:
@@ -112,8 +112,9 @@ def load_compiled(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Integrator:
     """Return the integrator of a C module; the module is compiled unless the cache contains it."""
-    # These flags let the compiler turn loops over many systems into vector instructions. It needs -O3,
-    # permission for all instructions of this machine, and square roots that need not set errno.
+    # These flags let the compiler turn loops over many systems into vector instructions. For this purpose the
+    # compiler needs -O3, permission to use all instructions of this machine, and square roots that do not set
+    # errno.
     flags = (*FLAGS, *(VECTOR_FLAGS if interface.batch else ()))
     try:
         return CompiledIntegrator(interface, defaults, build(files, flags))
@@ -138,7 +139,8 @@ def load_compiled_lattice(
     try:
         return CompiledLattice(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
-        # The cached file has the recorded digest, but it is not the library of this module.
+        # The cached file has the recorded digest, but it is not the library of this module. The module is
+        # built again.
         return CompiledLattice(interface, defaults, build(files, flags, again=True))
 
 
@@ -150,7 +152,8 @@ def load_compiled_spectral(
     try:
         return CompiledSpectral(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
-        # The cached file has the recorded digest, but it is not the library of this module.
+        # The cached file has the recorded digest, but it is not the library of this module. The module is
+        # built again.
         return CompiledSpectral(interface, defaults, build(files, flags, again=True))
 
 

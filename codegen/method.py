@@ -41,9 +41,10 @@ class Method:
     """A family, its ``cutoff`` if it has one (the number of brackets after which dexp^{-1} is truncated), and
     a tableau.
 
-    ``coefficients`` is None for a family without tableau; ``cutoff`` is then the number in its label.
-    ``adaptive`` adds the result of the embedded method to each step, for an error estimate. ``step`` is the
-    name of a step that the scene states as a function of matrices; such a method has no tableau.
+    ``coefficients`` is None for a family without tableau; ``cutoff`` is then the number in the label, such as
+    12 in ``taylor(12)``. If ``adaptive`` is True, each step also computes the result of the embedded method,
+    for an error estimate. ``step`` is the name of a step that the scene states as a function of matrices;
+    such a method has no tableau.
     """
 
     family: str
@@ -171,8 +172,8 @@ class Method:
         return replace(self, coefficients=lower, adaptive=False)
 
     def abscissae(self) -> tuple[Element, ...]:
-        """Return the abscissae c_i: the sum of all coefficients of stage i, if the method is written as a
-        commutator-free method."""
+        """Return the abscissae c_i. The method is written as a commutator-free method; c_i is then the sum of
+        all coefficients in the exponents of stage i."""
         return self.commutator_free().as_runge_kutta(self.ring).c
 
 
@@ -248,11 +249,12 @@ def _claimed(tableau: Tableau) -> tuple[str, ...]:
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau that claims no order under the families that can read it."""
+    """Return the error for a tableau that claims no order in any of the families that can read the
+    tableau."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
-    # If the family has a cut-off, the hint contains one, because a name without a cut-off would be refused,
-    # too.
+    # If the family has a cut-off, the label in the hint contains a cut-off. A label without a cut-off would
+    # be refused again.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
@@ -337,8 +339,9 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Yield the computed order of a tableau in each family in which a file of this tableau should claim an
-    order. If ``family`` is given, only the variants of this family are used."""
+    """Yield the order of a tableau, computed from the order conditions, for each family in which the file of
+    such a tableau should claim an order. If ``family`` is given, only this family and its cut-offs are
+    considered."""
     from orderconds.checking import check, claimable_families
 
     for member in claimable_families(tableau):
@@ -349,7 +352,7 @@ def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
 
 
 def family_in(given: object) -> str:
-    """Return the family that an argument names; '' if it names none.
+    """Return the family that an argument names; '' if the argument names no family.
 
     >>> family_in("rkmk(2):rk4"), family_in("taylor(12)"), family_in("rk4")
     ('rkmk', 'taylor', '')
@@ -387,8 +390,8 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
 
 def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
-    """Return the method of a tableau in the family that a text names; if the text names none, the claims of
-    the tableau determine the family."""
+    """Return the method of a tableau in the family that a text names. If the text names no family, the orders
+    that the tableau claims determine the family."""
     assert match is not None
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:

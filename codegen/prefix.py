@@ -15,10 +15,11 @@ such a name."""
 
 
 def default_prefix(scene: Problem, method: Method) -> str:
-    """Return the prefix SCENE_FAMILY_TABLEAU_, or SCENE_TABLEAU_ if the tableau's name starts with the
-    family.
+    """Return the prefix SCENE_FAMILY_TABLEAU_, or SCENE_TABLEAU_ if the name of the tableau starts with the
+    name of the family.
 
-    A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
+    If the method has a cut-off, this number is appended to the name of the family:
+    ``free_rigid_body_rkmk2_rk4_``.
     """
     family = STEP if method.step else method.family + ("" if method.cutoff is None else str(method.cutoff))
     tableau = method.name
@@ -31,11 +32,12 @@ def default_prefix(scene: Problem, method: Method) -> str:
 
 
 def prefix_of(name: str, hint: str = "") -> str:
-    """Return a prefix that ends in one underscore; raise an InputError if it is not an identifier of C and
-    Python.
+    """Return ``name`` with exactly one underscore at its end; raise an InputError if the name cannot be a
+    prefix.
 
-    The names of the files begin with the prefix. It must not be a keyword, because Python cannot import a
-    module with this name. It must not be the name of a header or module that emitted code includes.
+    The prefix must be an identifier, because names in C and Python begin with it. Without the underscore it
+    is the name of the Python module. Therefore it must not be a keyword of Python, nor the name of a header
+    or module that emitted code includes.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

@@ -89,7 +89,8 @@ def contents(listed: list[Entry]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Difference:
-    """A file of the folder that differs from the list.
+    """A difference between the folder and the files that the list requires: one path and the kind of
+    difference.
 
     ``kind`` is ``missing``, ``different``, ``stale`` (emitted, but not by a listed module) or ``unknown``
     (never emitted, so it must not be removed).
@@ -139,7 +140,8 @@ def ignored(path: str) -> bool:
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
     """Write the files, remove stale files, and return the differences that existed before writing."""
     changed = compare(directory, files)
-    # Manifests are written last, because they identify emitted files.
+    # Manifests are written last: until then, the old manifests still tell ``emitted`` which files were
+    # emitted.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))
     try:
         for difference in last:

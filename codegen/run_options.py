@@ -24,9 +24,9 @@ def extension_of(method: Method, scene: Problem) -> Continuous:
     """Return the kernels of the continuous extension of a method.
 
     The order of the extension is the order that the tableau's extension has for differential equations in a
-    vector space, but at most the order of the method. This is correct, because the coordinates of the
-    solution satisfy a differential equation in the Lie algebra, which is a vector space. :class:`MethodError`
-    is raised for a method without an extension.
+    vector space, but at most the order of the method. The order in a vector space suffices, because the
+    coordinates of the solution satisfy a differential equation in the Lie algebra, a vector space.
+    :class:`MethodError` is raised for a method without an extension.
     """
     from orderconds.checking.continuous import extension_order
 

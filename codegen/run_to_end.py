@@ -44,8 +44,8 @@ class RunToEnd(ABC):
         shorter. They ignore the tolerances and bounds. Output times and events do not change the steps,
         except that a terminal event ends the run. ``end`` is by default the last output time.
 
-        TypeError is raised for a module without this run (``emit(..., integrate=True)``), ValueError for
-        times that are not in order or not between t and end. StepFailed is raised if a step fails, or if
+        TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised for
+        times that are not in order, or not between t and end. StepFailed is raised if a step fails, or if
         ``limit`` steps do not reach the end; its ``arrival`` has all results before the failure.
         """
         if not self.interface.integrated:
@@ -74,8 +74,8 @@ class RunToEnd(ABC):
         limit: int,
         times: Sequence[float],
     ) -> Arrival:
-        """Integrate to the end. A call returns early if its buffer of events is full; the next call then
-        continues from there."""
+        """Integrate to the end. A call of ``_integrate`` returns early if its buffer of events is full; the
+        next call then continues where it stopped."""
         t, end, h = span
         restore = begun.form.restore
         rows: list[Sequence[float]] = []

@@ -195,13 +195,13 @@ class CompiledSpectral(Spectral):
         return u, status, int(completed[0])
 
     def _memory(self, name: str, n: int) -> Floats:
-        """Return an array whose length the function ``name`` of the module states."""
+        """Return an uninitialised array; the C function ``name`` of the module returns its length."""
         import numpy as np
 
         return np.empty(int(self._function(name)(n)))
 
     def _numpy(self) -> tuple[Any, Any]:
-        """Return the transforms of NumPy as functions of C."""
+        """Return the transforms of NumPy as callbacks that C code can call."""
         import numpy as np
 
         def doubles(pointer: Any, n: int) -> Floats:

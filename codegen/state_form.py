@@ -119,7 +119,7 @@ def _fields_text(fields: Fields) -> str:
 
 @dataclass(frozen=True)
 class Batch:
-    """The states of a batch; the methods join results of single states to a result of the batch."""
+    """The states of a batch; :meth:`joined` combines the results of all states into one result."""
 
     states: tuple[State, ...]
 

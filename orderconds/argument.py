@@ -25,7 +25,8 @@ CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)
 """The least and the largest number of decimal places of refined coefficients."""
 TOLERANCE = (0, 2**40)
-"""The least and the largest uncertainty that a caller may state for doubles, in units of rounding."""
+"""The least and the largest uncertainty that a caller may state for doubles, in units of rounding
+(2^-53)."""
 SOLVED_STAGES = (1, 40)
 SOLVED_ORDER = (1, 12)
 EXPONENTIALS = (1, 12)

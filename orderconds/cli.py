@@ -106,7 +106,7 @@ class Program(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command that the first argument names. If there is no such command, the error message
+        """Return the command whose name is the first argument. If there is no such command, the error message
         suggests a similar name."""
         name = args[0]
         command = None if name.startswith("-") else self.get_command(ctx, name)
@@ -151,8 +151,8 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line. A closed pipe is also handled here, because click prints the text of --help
-        during parsing."""
+        """Parse the command line. A closed pipe is handled here as in :meth:`invoke`, because click prints
+        the text of --help during parsing."""
         with past_click():
             return super().make_context(*args, **extra)
 

@@ -27,9 +27,9 @@ class OrderCondition:
     is the canonical text of its tree or word. ``source`` is the formula, or a function that returns the
     formula and is called when the formula is needed. ``key`` is the condition in the encoding of the family,
     from which the family evaluates the left-hand side. ``relation`` is None for an independent condition. For
-    a dependent condition, ``relation`` is a polynomial in the left-hand sides of independent conditions. Its
-    value equals the left-hand side of the dependent condition for every method of the family. In this
-    polynomial ``<tree>`` denotes the left-hand side for a tree, for example ``3 <o(|L(o o))> - <o> <o(o)>``.
+    a dependent condition, ``relation`` is a polynomial in the left-hand sides of independent conditions. For
+    every method of the family, the polynomial equals the left-hand side of the dependent condition. In the
+    polynomial, ``<tree>`` denotes the left-hand side for a tree, for example ``3 <o(|L(o o))> - <o> <o(o)>``.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

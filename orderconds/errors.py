@@ -11,7 +11,7 @@ from __future__ import annotations
 class InputError(Exception):
     """Bad input or usage.
 
-    ``found`` describes the problem, ``where`` names the file, key or option, ``expected`` describes valid
+    ``found`` describes the problem, ``where`` is the file, key or option, ``expected`` describes valid
     input, and ``hint`` is a suggestion. Empty parts are omitted from the message.
     """
 

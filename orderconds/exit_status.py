@@ -39,7 +39,7 @@ MAX_TEXT = 300
 
 
 class Terminated(KeyboardInterrupt):
-    """The program received one of :data:`SIGNALS`."""
+    """The error that is raised when the program receives one of :data:`SIGNALS`."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)
@@ -47,7 +47,8 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """A termination that bypasses the error handling of click."""
+    """The error that replaces an interrupt or a closed pipe, so that click does not handle it. ``cause`` is
+    the original error."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()
@@ -194,7 +195,8 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # A signal that the caller ignores is also ignored by this program; for example, nohup ignores SIGHUP.
+        # If the caller ignores a signal, this program must ignore the signal as well; for example, nohup
+        # ignores SIGHUP. Therefore a handler is installed only in place of the default handler.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 

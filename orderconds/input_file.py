@@ -1,6 +1,6 @@
 """Reading of files that a user names. Only regular files are read, and only up to a maximal number of bytes.
 
-Other files may have no end: a read from a pipe or a device could block for ever or fill the memory.
+Pipes and devices are refused, because a read from them could block for ever or fill the memory.
 """
 
 from __future__ import annotations
@@ -71,8 +71,10 @@ def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -
     >>> len(content_of(__file__)) > 1000
     True
     """
-    _require_regular(os.stat(path, follow_symlinks=not own), own)  # Opening a device may have side effects.
-    # If another process has replaced the file by a pipe, opening it without O_NONBLOCK would block.
+    # The type is tested before the file is opened, because opening a device may have side effects.
+    _require_regular(os.stat(path, follow_symlinks=not own), own)
+    # Between the test and this line, another process may have replaced the file by a pipe. Opening a pipe
+    # without O_NONBLOCK would block.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags | (getattr(os, "O_NOFOLLOW", 0) if own else 0))
     with open(descriptor, "rb") as stream:

@@ -1,5 +1,5 @@
-"""Packages that import each of their modules when one of its names is first used (PEP 562). Therefore the
-import of such a package is fast."""
+"""Packages with fast import: each module of such a package is imported when a name that the module defines is
+first used (PEP 562)."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class _LazyPackage(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        # The import system stores an imported module as an attribute of its package. If a function of the
-        # interface has the same name as the module, the function remains the attribute. Statements "from
-        # package.module import name" do not need the attribute.
+        # The import system tries to store an imported module as an attribute of its package. The module is
+        # not stored if an object of the interface has the same name, because the attribute must remain this
+        # object. Statements "from package.module import name" do not need the attribute.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 
@@ -30,11 +30,11 @@ class _LazyPackage(ModuleType):
 
 
 def lazy(package: str, **names: tuple[str, ...]) -> None:
-    """Change an imported package so that it imports a module when one of the names of the module is first
-    used. A call of ``dir`` imports no module.
+    """Change an imported package: from now on, a module of the package is imported when one of the names of
+    the module is first used. A call of ``dir`` imports no module.
 
-    ``names`` maps each module of the package to names that the module defines. If a name is also the name of
-    a module inside the package, the attribute of the package is the object and not the module.
+    ``names`` maps each module of the package to names that the module defines. If the package contains an
+    object and a module of the same name, the attribute with this name is the object.
 
     >>> import orderconds
     >>> callable(orderconds.check), "derive" in dir(orderconds)
@@ -47,7 +47,9 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        # If the module ``name`` was imported before this call, the module is the attribute. It is removed.
+        # If a module called ``name`` was imported before this call, it is an attribute of the package. The
+        # attribute is removed, because the package would otherwise return the module and not the object with
+        # this name.
         if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

@@ -55,7 +55,7 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
 
 
 def is_temporary(name: str) -> bool:
-    """Return True if a name has the form of the temporary files of :func:`write_files`.
+    """Return True if a file with this name may be a temporary file of :func:`write_files`.
 
     >>> is_temporary(".rigid.c.k3_x91ab" + SUFFIX), is_temporary(".rigid.c")
     (True, False)

@@ -1,7 +1,7 @@
 """Parallel execution of jobs in worker processes. The workers end when the process that started them ends.
 
-Jobs and results consist of strings, numbers of Python, and records that contain these, because the exact
-numbers of flint cannot be pickled.
+Jobs and results must not contain exact numbers of flint, because these cannot be pickled. They consist of
+strings, numbers of Python, and records of strings and numbers.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ def in_processes(
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
     ``processes`` is the number of worker processes, by default the number of processors. A single job runs in
-    this process. Jobs that a worker process starts run in that worker. If the iteration ends before the last
-    job, the workers are terminated. An error that a job raises in a worker is raised again in this process.
-    Raises InputError if a worker was killed.
+    this process. If a worker process itself calls this function, the jobs run in that worker. If the
+    iteration ends before the last job, the workers are terminated. An error that a job raises in a worker is
+    raised again in this process. Raises InputError if a worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]
@@ -106,7 +106,8 @@ def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]
 
 
 def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
-    """Receive jobs, each in a tuple, until an empty tuple arrives. Only the parent process handles Ctrl-C."""
+    """Run the jobs that arrive at the connection, each in a tuple, and send the results back. Return when an
+    empty tuple arrives. Ctrl-C is ignored, because the parent process handles it."""
     import threading
 
     global _is_worker

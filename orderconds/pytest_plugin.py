@@ -1,12 +1,13 @@
 """A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each file a test of its claims.
 
-Without one of its flags the plugin does nothing. The other flags correspond to options of ``orderconds
-check``: ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
+The plugin does nothing unless one of its flags is given. The following flags correspond to options of
+``orderconds check``: ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
 ``--orderconds-execute`` and ``--orderconds-tolerance``. Files of every supported format are examined. A
 tableau that claims no order is skipped, and its computed order is reported. With
 ``--orderconds-require-claims`` such a tableau fails. A file that contains no tableau, such as
-``pyproject.toml``, is skipped. The names of skipped files and the reasons are printed at the end. A file that
-the command line names is always collected. Python modules are parsed and not imported.
+``pyproject.toml``, is skipped. The names of skipped files and the reasons are printed at the end. A file
+whose own path is on the command line is not skipped, unless the file is a Python module. Python modules are
+parsed and not imported.
 """
 
 from __future__ import annotations
@@ -71,7 +72,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
     """Prevent pytest from importing a Python file that contains a tableau. Without this function, pytest
-    imports every Python file that the command line names."""
+    would import every Python file whose path is on the command line."""
     if not _is_on(parent.config) or _is_test_module(module_path, parent.config):
         return None
     from orderconds.exchange.folder import reason_to_skip
@@ -83,8 +84,8 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
 
 
 def _asked(path: Path, config: pytest.Config) -> bool:
-    """Return True if the command line of pytest names this file or a folder that contains it. Pytest also
-    visits files that the command line does not name."""
+    """Return True if the command line of pytest contains the path of this file or of a folder that contains
+    the file. The test is necessary because pytest also visits other files."""
     places = (config.invocation_params.dir / argument.partition("::")[0] for argument in config.args)
     return any(path.is_relative_to(place) or path.is_relative_to(place.resolve()) for place in places)
 
@@ -102,10 +103,10 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
 
 
 class NoTests(pytest.File):
-    """A module without tests."""
+    """A Python module that is not imported and therefore contains no tests for pytest."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Return an empty list, because the module contains no tests."""
+        """Return an empty sequence: no tests are collected from the module."""
         return ()
 
 
@@ -154,4 +155,5 @@ class TableauItem(pytest.Item):
 
 
 class ClaimFails(AssertionError):
-    """A claim of the file does not hold, or cannot be decided, or is missing."""
+    """The error for a file with a claim that does not hold or cannot be decided, or without a required
+    claim."""

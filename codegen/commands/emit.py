@@ -201,8 +201,8 @@ def explained(compiled: Compiled) -> dict[str, object]:
 
 
 def family_note(compiled: Compiled, method: str) -> str:
-    """Return a note that names the chosen family if the user named only a tableau on a Hamiltonian scene;
-    otherwise ''.
+    """Return a note with the chosen family if the scene is Hamiltonian and the user gave only a tableau;
+    otherwise return ''.
 
     On a Hamiltonian scene, different families preserve different quantities.
     """

@@ -20,8 +20,8 @@ from codegen.scene.problem import TIME, Problem
 
 
 def with_field_by_parts(problem: Problem) -> Problem:
-    """Return the problem with its field written as the sum of the fields of the parts; if this takes more
-    operations, return the problem unchanged."""
+    """Return the problem with its field written as the sum of the fields of the parts, if the sum needs fewer
+    operations. Otherwise return the problem unchanged."""
     if problem.hamiltonian is None or not problem.parts:
         return problem
     if problem.stated or problem.inputs or problem.forced:

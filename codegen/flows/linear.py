@@ -63,7 +63,8 @@ class Linear(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a linear flow for a quadratic part on T*R^n, where L is J times the Hessian; else None."""
+    """Return a linear flow for a quadratic part on T*R^n; None on other groups. L is J times the Hessian of
+    the part, where J = (0, 1; -1, 0)."""
     if not formula.problem.group.abelian:
         return None
     origin = (CONSTANTS.rational(0),) * len(formula.qs)

@@ -13,7 +13,7 @@ Square = tuple[Fraction, list[Fraction]]
 
 
 def squares(B: Matrix) -> list[Square]:
-    """Return (d, e) with B = sum d e e^T, by Lagrange's reduction.
+    """Return pairs (d, e) such that B is the sum of d e e^T over the pairs, by Lagrange's reduction.
 
     >>> squares([[Fraction(0), Fraction(1)], [Fraction(1), Fraction(0)]])
     [(Fraction(1, 2), [Fraction(1, 1), Fraction(1, 1)]), (Fraction(-1, 2), [Fraction(1, 1), Fraction(-1, 1)])]
@@ -49,8 +49,9 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 def isotropic_part(B: Matrix) -> Fraction:
     """Return a number a such that B - a I is the sum of few squares with small coefficients.
 
-    The number a is the double eigenvalue of a 3 x 3 matrix if there is one, else the middle entry of a
-    diagonal matrix.
+    For a diagonal B, a is an entry that occurs twice, or the middle entry if there is no such entry. For
+    other matrices a is the candidate that needs the fewest squares; for a 3 x 3 matrix with a double
+    eigenvalue, this is the double eigenvalue.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
@@ -64,7 +65,7 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # B - a I has rank one only if all its 2 x 2 minors vanish. The value a is computed from
-                    # one of these minors.
+                    # B - a I is a single square only if it has rank one, so all its 2 x 2 minors vanish. This
+                    # minor is linear in a, and its zero is the candidate.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -1,10 +1,10 @@
 """Recognition: the exact flows of a Hamiltonian's parts, from their formulas alone.
 
-Each kind of flow has a function that examines the formula of a part. It returns the part with its flows, the
-part with the reason why no flow is known, or None if another kind of flow may apply. V(q) is a kick. On T*R^n
-a function of the momentum alone is a drift. A quadratic function of q and mu is a linear flow if the square
-of its matrix is diagonal. On other groups a quadratic function of the momentum, in the body frame or in the
-space frame, is a sum of rotations (:mod:`codegen.flows.top`).
+Each kind of flow has a function that examines the formula of a part. The result is one of three: the part
+with its flows, the part with the reason why no flow is known, or None if another kind of flow may apply. V(q)
+is a kick. On T*R^n a function of the momentum alone is a drift. A quadratic function of q and mu is a linear
+flow if the square of its matrix is diagonal. On other groups a quadratic function of the momentum, in the
+body frame or in the space frame, is a sum of rotations (:mod:`codegen.flows.top`).
 """
 
 from __future__ import annotations

@@ -1,4 +1,5 @@
-"""Exact flows of the parts of a lattice. They move all sites, so no formula for a single state exists."""
+"""Exact flows of the parts of a lattice. A flow moves all sites, so no formula for the state of a single site
+exists."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Functions of ad_x as quadratic polynomials in ad_x, on a Lie algebra with ad_x^3 = -z ad_x.
 
-On such an algebra each function of ad_x, each product of functions and each inverse is 1 + b ad_x + c ad_x^2,
-where b and c are functions of z. On so(3), z = x.x. On sl(2), z = 4 det x has either sign. The Stumpff
-functions c_k of z give the coefficients of exponentials.
+On such an algebra each power series in ad_x with the constant term 1 is equal to 1 + b ad_x + c ad_x^2, where
+b and c are functions of z. Products and inverses of such series also have this form. On so(3), z = x.x. On
+sl(2), z = 4 det x has either sign. The Stumpff functions c_k of z give the coefficients of exponentials.
 """
 
 from __future__ import annotations
@@ -99,7 +99,8 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
     """Return b and c of the inverse of 1 + b t + c t^2.
 
-    On the plane orthogonal to x, t^2 = -z, so the function acts as the complex number 1 - c z + i b sqrt(z).
+    For so(3), t^2 = -z on the plane orthogonal to x, so t acts there as i sqrt(z), and the function as the
+    complex number 1 - c z + i b sqrt(z).
     """
     one: S = d.rational(1)
     p = one - c * z

@@ -81,7 +81,7 @@ class LieGroup(ABC):
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations of the group in its coordinates: pairs of a name and a residual.
 
-        The residuals vanish exactly on the group.
+        The residuals are zero for every element of the group.
         """
         return ()
 
@@ -125,7 +125,7 @@ class LieGroup(ABC):
         return offered
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return sympy symbols of the coordinates of an element: ``name`` with an index."""
+        """Return sympy symbols of the coordinates of an element: ``name`` followed by an index."""
         from sympy import Symbol
 
         return [Symbol(f"{name}{i}", real=True) for i in range(self.size)]
@@ -137,7 +137,7 @@ class LieGroup(ABC):
         return Matrix(self.symbols(name))
 
     def dual(self, name: str) -> sympy.Matrix:
-        """Return a sympy column of ``dim`` symbols for a covector: ``name`` with an index."""
+        """Return a sympy column of ``dim`` symbols for a covector: ``name`` followed by an index."""
         from sympy import Matrix, Symbol
 
         return Matrix([Symbol(f"{name}{i}", real=True) for i in range(self.dim)])

@@ -2,9 +2,9 @@
 
 A group declares a capability by inheriting its class. Code that needs a capability calls
 ``group.offers(Capability)``, which returns None for a group without the capability, or
-``group.require(Capability)``, which raises an error that names the capability. Do not use ``isinstance``: the
-class of direct products inherits several capabilities, but a product has one of them only if all its factors
-have it.
+``group.require(Capability)``, which raises an error with the name of the capability. Do not use
+``isinstance``: the class of direct products inherits several capabilities, but a product has such a
+capability only if all its factors have it.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     import sympy
 
 Term = tuple[S, Sequence[Factor], Vector[S]]
-"""(f, W, v): the term f W(ad_x) v, where f is a scalar and W a word of functions of ad_x."""
+"""(f, W, v): the term f W(ad_x) v, where f is a scalar, and the word W is a product of functions of ad_x."""
 
 
 class Coadjoint(LieGroup):
@@ -115,7 +115,8 @@ class LeftTranslation(Coadjoint):
 
     @abstractmethod
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the equations of the group as rules that replace products of two of its ``size`` symbols."""
+        """Return the equations of the group as rules. Each rule replaces the product of two coordinates;
+        ``q`` contains the symbols of all coordinates."""
 
     @abstractmethod
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -134,8 +135,8 @@ class BodyFrame(LeftTranslation):
 
     @abstractmethod
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x). Each row of the result is computed from the same row of g, so rows that are not
-        used need not be computed."""
+        """Return g exp(x). Row i of the result depends only on x and on row i of g. The compiler can
+        therefore omit rows that are not used."""
 
 
 class ClosedFormSeries(Coadjoint):
@@ -283,8 +284,8 @@ class Covered(LieGroup):
     """The group is covered by another group, its ``cover``, whose elements have fewer coordinates.
 
     The covering map is a homomorphism and a local diffeomorphism, so the equations of the group lift to the
-    cover. ``covering_formula`` states the covering map for the header of emitted code; q is an element of the
-    cover, g the element of the group.
+    cover. ``covering_formula`` is the text of the covering map in the header of emitted code. In this text q
+    is an element of the cover, and g is the element of the group.
     """
 
     provides: ClassVar[str] = "covering group"
@@ -307,8 +308,8 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element of the cover's algebra that the derivative of the covering map at e maps to
-        x."""
+        """Return the element of the cover's algebra whose image is x under the derivative of the covering map
+        at e."""
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -321,7 +322,8 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return an element of the cover that the covering map maps to g, by the formula with this index."""
+        """Return an element of the cover whose image under the covering map is g. It is computed by the
+        formula with the index ``formula``."""
 
 
 class Rotations(MatrixElements):
@@ -378,7 +380,8 @@ class CotangentBundle(LieGroup):
 
 
 class Projection(LieGroup):
-    """The group has a projection, which moves coordinates near the group back to it."""
+    """The group has a projection: it maps coordinates that nearly satisfy the equations of the group to
+    coordinates that satisfy them more accurately."""
 
     provides: ClassVar[str] = "projection onto the group"
 
@@ -396,7 +399,8 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return sets of coordinates. Each set can be computed from the coordinates outside the set."""
+        """Return sets of indices of coordinates. The coordinates of one set can be computed from all other
+        coordinates."""
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:

@@ -14,7 +14,8 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The word of dexp_x; on the dual, of dexp*_x."""
+"""The function dexp_x as a word, that is, as a product of functions with one factor. On the dual the word is
+dexp*_x."""
 
 
 class CubicAd(ClosedFormSeries):

@@ -14,8 +14,8 @@ class LargeGroup(LieGroup):
     """A group of large matrices, of which only the name and the dimensions are known: it has no operations.
 
     The operations would need arrays with n^2 entries, so each of them raises
-    :class:`codegen.errors.SceneError`. ``families`` names the families whose methods can be emitted; the
-    message of the error contains these names.
+    :class:`codegen.errors.SceneError`. ``families`` is a text with the names of the families whose methods
+    can be emitted. The message of the error contains this text.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:

@@ -74,7 +74,7 @@ def matmul(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
 
 
 def matvec(a: Vector[S], v: Vector[S]) -> Vector[S]:
-    """Return the matrix a times the vector v."""
+    """Return the product of the matrix ``a`` and the vector ``v``."""
     n = len(v)
     return tuple(dot(a[i : i + n], v) for i in range(0, len(a), n))
 
@@ -117,7 +117,7 @@ def product(d: Domain, a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
 
 
 WITHOUT_PIVOTS = 3
-"""Matrices with at most this number of rows are inverted by a recursion without pivots."""
+"""Matrices with at most this number of rows are inverted by a recursion that needs no elimination."""
 
 
 def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
@@ -141,10 +141,11 @@ def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
 
 
 def solved_near_identity(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
-    """Return x with a x = b for an n x n matrix a and a matrix b of n rows, by elimination without pivots.
+    """Return the solution x of ``a`` x = ``b`` by elimination without row exchanges; ``a`` has n rows and
+    columns, ``b`` has n rows.
 
-    The pivots are close to 1 if a is close to the unit matrix. They are positive if the symmetric part of a
-    is positive definite, for example if a is the sum of the unit matrix and a skew matrix.
+    The pivots are close to 1 if ``a`` is close to the unit matrix. They are positive if the symmetric part of
+    ``a`` is positive definite, for example if ``a`` is the sum of the unit matrix and a skew matrix.
     """
     width = len(b) // n
     rows = [[*a[n * i : n * i + n], *b[width * i : width * i + width]] for i in range(n)]

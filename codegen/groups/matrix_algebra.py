@@ -17,11 +17,11 @@ Matrices are indexed row by row."""
 
 @dataclass(frozen=True)
 class MatrixAlgebra:
-    """The span of n x n matrices that is closed under [A, B] = AB - BA.
+    """A vector space of n x n matrices that is closed under [A, B] = AB - BA, with a basis.
 
-    ``dual`` is the dual basis in the span: the coordinate i of a matrix A is the sum of the products of the
-    entries of ``dual[i]`` and A. ``constants`` are the non-zero structure constants: (i, j, k, c) for the
-    component c of [e_i, e_j] along e_k.
+    ``dual`` is the dual basis, which spans the same space: the coordinate i of a matrix A is the sum of the
+    products of the entries of ``dual[i]`` and A. ``constants`` are the non-zero structure constants: (i, j,
+    k, c) for the component c of [e_i, e_j] along e_k.
     """
 
     n: int
@@ -46,7 +46,8 @@ class MatrixAlgebra:
         """The least k such that every product of k matrices with the pattern of the basis is zero; 0 if there
         is no such k.
 
-        A matrix has this pattern if it is zero at each place where all basis matrices are zero."""
+        A matrix has this pattern if each entry is zero for which the entries of all basis matrices are
+        zero."""
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
         paths, k = {(i, i) for i in range(n)}, 0
@@ -121,7 +122,8 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
             for j, y in entries:
                 gram[i][j] = gram[i].get(j, Fraction(0)) + x * y
     dual: list[Sparse] = [()] * len(basis)
-    # Matrices of different components are orthogonal, so each component is inverted separately.
+    # Basis matrices in different components are orthogonal, so the block of the Gram matrix for each
+    # component is inverted separately.
     for component in _components(gram):
         inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
         if inverse is None or not all(basis[i] for i in component):
@@ -138,7 +140,8 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
 
 
 def _components(gram: Sequence[dict[int, Fraction]]) -> list[list[int]]:
-    """Return the connected components of the graph whose edges are the non-zero entries."""
+    """Return the connected components of a graph. Its vertices are the basis matrices, and its edges are the
+    non-zero entries of their Gram matrix."""
     components: list[list[int]] = []
     seen: set[int] = set()
     for start in range(len(gram)):
@@ -156,14 +159,15 @@ def _components(gram: Sequence[dict[int, Fraction]]) -> list[list[int]]:
 
 
 class _Coordinates:
-    """The coordinates of matrices in a span."""
+    """Computes the coordinates of a matrix with respect to a basis."""
 
     def __init__(self, name: str, basis: Sequence[Sparse], dual: Sequence[Sparse], n: int) -> None:
         self.name, self.basis = name, basis
         self.places = _by_place(dual, n * n)
 
     def of(self, matrix: dict[int, Fraction]) -> list[tuple[int, Fraction]]:
-        """Return the non-zero coordinates; raise SceneError for a matrix outside the span."""
+        """Return the non-zero coordinates; raise SceneError for a matrix that is no combination of the
+        basis."""
         x: dict[int, Fraction] = {}
         for place, value in matrix.items():
             for i, weight in self.places[place]:

@@ -10,7 +10,8 @@ from codegen.ir.decimals import exact
 
 
 def rational_rows(name: str, matrix: object) -> tuple[tuple[Fraction, ...], ...]:
-    """Return the rows of a list of rows, a sympy matrix or a NumPy array.
+    """Return the rows of a matrix as exact fractions; the matrix is a list of rows, a sympy matrix or a NumPy
+    array.
 
     A float is read as the shortest decimal number that rounds to it. :class:`SceneError` is raised for other
     arguments and other entries; ``name`` is the name of the group in the message.

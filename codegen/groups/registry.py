@@ -1,5 +1,5 @@
-"""Registries of classes by name: classes of this package, which are imported on first use, and registered
-classes."""
+"""Registries, which find a class by its name. They contain classes of this package, which are imported on
+first use, and classes that were added by :func:`codegen.groups.register`."""
 
 from __future__ import annotations
 

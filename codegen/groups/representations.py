@@ -93,18 +93,20 @@ class Representation(ABC):
         return False
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return a function of ad_(x, u) applied to (y, v), where (x, u) and (y, v) contain one copy."""
+        """Return the product ``word`` of functions of ad_(x, u), applied to (y, v). The vectors u and v have
+        one copy."""
         raise self._missing("series")
 
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return a function of ad*_(x, u) applied to (m, p), where (x, u) and (m, p) contain one copy."""
+        """Return the product ``word`` of functions of ad*_(x, u), applied to (m, p). The vector u and the
+        covector p have one copy."""
         raise self._missing("dual_series")
 
     def _missing(self, method: str) -> SceneError:
-        """Return the error for a method that a subclass lacks, although its value of ``closed`` requires
-        it."""
+        """Return the error for a subclass without the method ``method``, although the result of
+        :meth:`closed` requires this method."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
             expected="the methods series and dual_series if closed returns True, else the method gradient",
@@ -119,8 +121,9 @@ class Representation(ABC):
 class AlgebraVectors(Representation):
     """Copies of the Lie algebra, on which the group acts by Ad: for SO(3) these are vectors of R^3.
 
-    x.v = [x, v] and phi(x) = dexp_x. The algebra together with one copy is the algebra over dual numbers
-    x + u e with e^2 = 0, so the functions of ad are those of the group over dual numbers.
+    x.v = [x, v] and phi(x) = dexp_x. A pair (x, u) of an element of the algebra and a vector of one copy is
+    the dual number x + u e with e^2 = 0. The functions of ad_(x, u) are therefore computed by the formulas of
+    the group, evaluated with dual numbers.
     """
 
     of_algebra = True
@@ -168,7 +171,8 @@ class AlgebraVectors(Representation):
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the function of ad over dual numbers."""
+        """Return the product ``word`` of functions of ad, computed by the formula of the group with dual
+        numbers."""
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
         return tuple(a.real for a in result), tuple(a.rate for a in result)
@@ -176,16 +180,19 @@ class AlgebraVectors(Representation):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the function of ad* over dual numbers.
+        """Return the product ``word`` of functions of ad*, computed by the formula of the group with dual
+        numbers.
 
-        <m, y> + <p, v> is the coefficient of e in <p + m e, y + v e>, so p is the real part.
+        The pairing <m, y> + <p, v> is the coefficient of e in <p + m e, y + v e>. Therefore (m, p) becomes
+        the dual number p + m e, whose real part is p.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
         return tuple(a.rate for a in result), tuple(a.real for a in result)
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the rotations of R^3; for other groups Ad_g is not the matrix of g."""
+        """Return the group if it consists of the rotation matrices of R^3. For other groups return None,
+        because Ad_g is not the matrix of g."""
         rotations = group.offers(Rotations)
         return rotations if rotations is not None and rotations.order == rotations.dim else None
 
@@ -245,8 +252,8 @@ class MatrixColumns(Representation):
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of p.translation(x, u) with respect to x and to u.
 
-        Both follow from the derivative of the exponential of [[x, u], [0, 0]], because the transpose of
-        the derivative at a matrix is the derivative at the transposed matrix.
+        Both are computed by one derivative of the matrix exponential. Let M = [[x, u], [0, 0]]. The
+        derivative of exp at M is a linear map, and the transpose of this map is the derivative of exp at M^T.
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)
@@ -306,7 +313,8 @@ class PlaneVectors(MatrixColumns):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the transposed map of :meth:`series`."""
+        """Return the result of the transposed linear map: the transpose of the map of :meth:`series`, applied
+        to ``p``."""
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)
         turned = c * w

@@ -121,7 +121,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return (-dot(g[1:], x), *(g[0] * a + b for a, b in pairs))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x where v = x.g: the imaginary part of v times the conjugate of g."""
+        """Return x such that v = x.g: the imaginary part of the product of v and the conjugate of g."""
         turned = cross(v[1:], g[1:])
         return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
 

@@ -112,7 +112,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return tuple(m + c2 * a + c3 * b for m, a, b in zip(mu, first, second, strict=True))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g: w J applied to the rotation, and the velocity of the translation a under x."""
+        """Return x.g: the pair of w J (c, s) and w J a + u, the velocity of the point a."""
         w = x[0]
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
 
@@ -126,7 +126,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of a motion: ``name`` with c, s, 0 and 1."""
+        """Return the symbols of a motion: ``name`` followed by c, s, 0 or 1."""
         from sympy import Symbol
 
         return [Symbol(f"{name}{i}", real=True) for i in ("c", "s", "0", "1")]

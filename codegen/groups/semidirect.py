@@ -50,8 +50,8 @@ class Semidirect(
     ``representation`` is rho. (g, a) maps the point z of V to rho(g) z + a. The coordinates of g come before
     the coordinates of a. An element of the algebra is (x, u): the velocity of the point z is x.z + u. The
     brackets are [(x, u), (y, v)] = ([x, y], x.v - y.u), and exp(x, u) = (exp x, phi(x) u) with phi(x) = sum
-    of x^k/(k+1)!. The product has a capability if the linear factor has it and the formulas of the
-    representation permit it.
+    of x^k/(k+1)!. The product has a capability if the linear factor has it and the representation has the
+    formulas for this capability.
     """
 
     covering_formula = "the image of q in the linear factor; the vectors are those of q"
@@ -81,7 +81,7 @@ class Semidirect(
         return tuple(g[: self.linear.size]), tuple(g[self.linear.size :])
 
     def _copies(self, v: Vector[S]) -> Iterator[Vector[S]]:
-        """Yield the copies of a vector."""
+        """Yield the part of a vector in each copy of the space."""
         return (tuple(v[i : i + self.width]) for i in range(0, len(v), self.width))
 
     def _each(self, operation: Callable[..., Vector[S]], *vectors: Vector[S]) -> Vector[S]:
@@ -90,8 +90,8 @@ class Semidirect(
         return tuple(chain.from_iterable(operation(*row) for row in rows))
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product if it has a capability; None if the linear factor or the representation
-        lacks the formulas for this capability."""
+        """Return this product if it has the capability. Return None if the linear factor or the
+        representation has no formulas for it."""
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
             return own
@@ -252,8 +252,8 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # On the dual, the results of all copies for the linear factor are added. Therefore only the first
-            # copy gets w.
+            # On the dual, ``head`` is added over all copies. Only the first copy gets w, because otherwise w
+            # would be counted once for each copy.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -294,7 +294,7 @@ class Semidirect(
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pair (g, a) with g projected."""
+        """Return the pair (g, a), where g is projected onto the linear factor."""
         q, a = self._element(g)
         return self.linear.require(Projection).project(d, q) + a
 
@@ -367,17 +367,19 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of the linear part of q under its covering map, and the vector of q."""
+        """Return the image of q: the covering map of the linear factor is applied to the linear part of q,
+        and the vector of q is not changed."""
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of the projected linear part of q under its covering map, and the vector of q."""
+        """Return the result of :meth:`covering` for the projection of q: only the linear part of q is
+        projected."""
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the lifted velocity of the linear factor, and u."""
+        """Return the pair of the lifted velocity of the linear factor and the unchanged vector u."""
         y, u = self._split(x)
         return self._covered().lifted_velocity(d, y) + u
 
@@ -386,12 +388,13 @@ class Semidirect(
         return self._covered().pivots(d, self._element(g)[0])
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return the lift of the linear part of g to the cover, and the vector of g."""
+        """Return the pair of a lift of the linear part of g to the cover and the unchanged vector of g."""
         q, a = self._element(g)
         return self._covered().lift(d, q, formula) + a
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of the linear factor, and ``name`` with an index for each component of a.
+        """Return the symbols of the linear factor, and, for each component of a, the symbol ``name`` followed
+        by an index.
 
         If the linear factor has one of these symbols, the letter v precedes the index.
         """

@@ -27,7 +27,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
     """Rotations of the plane as (c, s), the cosine and the sine of the angle.
 
     An element of the algebra is the angular velocity w, and exp(w) = (c_0(w^2), w c_1(w^2)) with the Stumpff
-    functions c_k. The group is abelian, so Ad and dexp are the identity.
+    functions c_k. The group is abelian, so Ad and dexp are identity maps.
     """
 
     name = "SO(2)"
@@ -112,7 +112,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (matrix[2],)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of the cosine and the sine: ``name`` with c and s."""
+        """Return the symbols of the cosine and the sine: ``name`` followed by c or s."""
         from sympy import Symbol
 
         return [Symbol(f"{name}{i}", real=True) for i in "cs"]

@@ -147,8 +147,8 @@ class SO3(
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return the product of functions of ad_x, or of ad*_x = -ad_x, applied to v.
 
-        As ad_x^3 = -z ad_x with z = x.x, each function is 1 + b ad_x + c ad_x^2, and products and inverses
-        also have this form.
+        Since ad_x^3 = -z ad_x with z = x.x, each of these functions is equal to 1 + b ad_x + c ad_x^2 with
+        two numbers b and c, and so is their product.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)
@@ -198,7 +198,7 @@ class SO3(
         return tuple(columns[j][i] for i in range(3) for j in range(3))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x where v = x.g. The entries of x are off-diagonal entries of the skew matrix v g^T =
+        """Return x such that v = x.g. The entries of x are off-diagonal entries of the skew matrix v g^T =
         hat(x)."""
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
@@ -316,7 +316,7 @@ class SO3(
         return (diagonal[0], xy - wz, xz + wy, xy + wz, diagonal[1], yz - wx, xz - wy, yz + wx, diagonal[2])
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return x/2: exp(x/2) is a quaternion of half the angle."""
+        """Return x/2, because the quaternion exp(x/2) rotates vectors by the angle |x|."""
         return tuple(d.rational(1, 2) * a for a in x)
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:

@@ -61,7 +61,7 @@ class SU2(S3):
         return S3.left_velocity(self, d, g, _half(d, x))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x where v = x.g: twice the imaginary part of v times the conjugate of g."""
+        """Return x such that v = x.g: twice the imaginary part of the product of v and the conjugate of g."""
         return tuple(d.rational(2) * a for a in S3.rate(self, d, v, g))
 
 

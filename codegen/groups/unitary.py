@@ -23,7 +23,8 @@ class Unitary(RotationGroup):
         self._generate(f"U({n})", n, [{(j, j): 1} for j in range(n)])
 
     def _generate(self, name: str, n: int, diagonal: Sequence[dict[tuple[int, int], int]]) -> None:
-        """Construct the group; ``diagonal`` are the imaginary parts of the diagonal matrices."""
+        """Construct the group. ``diagonal`` contains the imaginary part of each diagonal matrix of the basis,
+        as a table from (row, column) to the entry."""
         pairs = [(j, k) for j in range(n) for k in range(j + 1, n)]
         basis = []
         for j, k in pairs:
@@ -32,8 +33,8 @@ class Unitary(RotationGroup):
         RotationGroup.__init__(self, name, [*basis, *(_real(n, {}, imaginary) for imaginary in diagonal)])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return g^T g = 1, and the equations of the blocks: the diagonal blocks are equal, the other blocks
-        opposite."""
+        """Return g^T g = 1, and the equations of the blocks: the two diagonal blocks are equal, and the sum
+        of the other two blocks is zero."""
         n, width = self.rows, self.n
         places = [(i, j) for i in range(n) for j in range(n)]
         blocks = [g[width * i + j] - g[width * (n + i) + n + j] for i, j in places]

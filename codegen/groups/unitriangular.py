@@ -21,7 +21,7 @@ class Unitriangular(MatrixGroup):
         super().__init__(f"UT({n})", [elementary(n, place) for place in self.places])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the constant entries."""
+        """Return an equation for each entry that is constant, that is, always 0 or 1."""
         fixed = [(i, j) for i in range(self.n) for j in range(self.n) if (i, j) not in self.places]
         unit: Vector[S] = self.identity(d)
         places = [(i, j, self.n * i + j) for i, j in fixed]

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 
-# Factors have an order <, by which simplified words are sorted, so that equal products become equal tuples.
+# With ``order=True`` factors can be compared by <. Simplified words are sorted by this comparison, so that
+# equal products become equal tuples.
 @dataclass(frozen=True, order=True)
 class Factor:
     """phi(scale t)^power, where phi is exp(t), dexp(t) = (e^t - 1)/t, or dexpinv(t), the series of 1/dexp(t)
@@ -33,7 +34,7 @@ class Factor:
         return Factor(self.function, self.scale * by, self.order, self.power)
 
     def inverse(self) -> Factor:
-        """Return 1/phi."""
+        """Return the reciprocal of this factor."""
         return Factor(self.function, self.scale, self.order, -self.power)
 
 

@@ -16,9 +16,9 @@ from codegen.ir.kernel import Kernel, Let
 def chain(kernel: Kernel) -> int:
     """Return the largest number of nested Stumpff functions, at least 1.
 
-    A kernel with implicit equations has depth 1, because its solution is as accurate as the equations. A
-    kernel with deferred flows also has depth 1, because a flow does not multiply the angle errors of earlier
-    flows.
+    A kernel with implicit equations has depth 1, because the solution of the equations does not multiply
+    earlier rounding errors. A kernel with deferred flows also has depth 1, because a flow does not multiply
+    the angle errors of earlier flows.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()

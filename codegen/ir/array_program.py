@@ -1,7 +1,7 @@
 """Array programs: assignments of whole matrices, which emitted code computes by loops.
 
 The text of a loop does not depend on the number of rows, so emitted code stays short for large matrices. A
-:class:`Matrix` names an array, or a rectangular part of an array. Each assignment changes one matrix. The
+:class:`Matrix` is an array, or a rectangular part of an array. Each assignment changes one matrix. The
 scalars in a program are expressions (:mod:`codegen.ir.expr`); entries of constant matrices may contain the
 symbols :data:`ROW` and :data:`COLUMN` for their indices, which begin at zero.
 """
@@ -45,7 +45,7 @@ class Matrix:
         return self.start + row * self.step + column
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
-        """Return the part of this matrix that begins at an entry."""
+        """Return the part of this matrix whose first entry is in this row and column."""
         return Matrix(self.name, rows, columns, self.place(row, column), self.step)
 
     @property
@@ -119,7 +119,8 @@ def _valued(
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
         # The indices are replaced by numbers first. A selection that depends on the indices, such as their
-        # minimum, then becomes one of its two formulas, which is smooth.
+        # minimum, then becomes one of its two formulas. Without this, a domain of power series could fail at
+        # the point where the two formulas meet.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -176,7 +177,7 @@ class Term:
 class Combination:
     """target = the sum of the terms; zero without terms.
 
-    A term may be the target itself, if it is the first and is not transposed.
+    The target itself may occur only in the first term, and there it may not be transposed.
     """
 
     target: Matrix
@@ -186,7 +187,7 @@ class Combination:
 ArrayStatement = Multiplication | Apply | Combination
 
 Renaming = Callable[[Matrix], Matrix]
-"""A function that returns the matrix to be used in place of a matrix."""
+"""A function that returns, for each matrix of a program, the matrix that replaces it."""
 
 
 @dataclass(frozen=True)
@@ -198,7 +199,8 @@ class ArrayProgram:
     result: Matrix
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the scalars of the program."""
+        """Yield the scalar expressions in the program: coefficients, and formulas of the entries of constant
+        matrices."""
         for statement in self.body:
             if isinstance(statement, Combination):
                 yield from (term.coefficient for term in statement.terms)
@@ -212,7 +214,8 @@ class ArrayProgram:
     def evaluate(
         self, domain: Domain, argument: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> list[Scalar]:
-        """Return the entries of the result, row by row; ``symbols`` are the values of other symbols."""
+        """Return the entries of the result, row by row; ``symbols`` contains the values of the symbols in the
+        program's expressions, except the symbols of the indices."""
         arrays: Arrays = {self.argument.name: list(argument)}
         for statement in self.body:
             evaluated(statement, domain, arrays, symbols)
@@ -308,7 +311,8 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
 
 
 def operations(statement: ArrayStatement) -> dict[str, int]:
-    """Return the number of additions and products of a statement, without the formulas of entries."""
+    """Return the number of additions and products of a statement. The operations in the formulas of matrix
+    entries are not counted."""
     size = statement.target.size
     match statement:
         case Multiplication():

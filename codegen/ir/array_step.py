@@ -1,8 +1,8 @@
 """A step on n x k matrices with orthonormal columns, by loops over arrays, without n x n matrices.
 
 All generators of a step have the form B S B^T with one n x r matrix B, the basis, and skew r x r matrices S,
-the cores. The first k columns of B are the state X_0. Each evaluation of the field adds k columns, so the
-size r of a core is k times one more than the number of evaluations. With the Gram matrix G = B^T B,
+the cores. The first k columns of B are the state X_0. Each evaluation of the field adds k columns, so r = k
+(m + 1) for a step with m evaluations. With the Gram matrix G = B^T B,
 
     [B S B^T, B T B^T] = B (S G T - T G S) B^T,
     exp(B S B^T) B C = B (C + S phi(G S) G C),   phi(z) = (exp(z) - 1)/z.
@@ -27,8 +27,8 @@ from codegen.ir.array_program import (
 from codegen.ir.expr import Expr
 
 TERMS = 8
-"""The number of terms of phi that is assumed in counts of operations. The number in a run depends on the norm
-of the argument; this is a typical value."""
+"""The typical number of terms of phi, which is used to count operations. In a run the number of terms depends
+on the norm of the argument."""
 
 MOST_TERMS = 18
 """The number of terms of phi at which the remainder is below the rounding errors if the norm is at most 1."""
@@ -36,7 +36,7 @@ MOST_TERMS = 18
 
 @dataclass(frozen=True)
 class AddUnit:
-    """target = target + value 1, for a square matrix."""
+    """target = target + ``value`` times the unit matrix; the target is square."""
 
     target: Matrix
     value: int
@@ -44,7 +44,7 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """target = the displacement of exp(B S B^T) X, where X has the displacement ``start`` (None: zero).
+    """target = the displacement of exp(B S B^T) X, where ``start`` is the displacement of X; None means zero.
 
     ``core`` is S, ``gram`` the Gram matrix of the whole basis. ``start`` has at most as many rows as target.
     """
@@ -81,7 +81,7 @@ class ArrayStep:
     error: Matrix | None = None
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the scalars of the statements."""
+        """Yield the scalar expressions in the statements."""
         for statement in (*self.body, *self.estimate):
             if isinstance(statement, Combination):
                 yield from (term.coefficient for term in statement.terms)

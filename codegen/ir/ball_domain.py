@@ -57,7 +57,8 @@ class BallDomain:
         with self.precision():
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
-        # Arguments have the same limit as in :class:`codegen.ir.domain.PreciseDomain`.
+        # As in :class:`codegen.ir.domain.PreciseDomain`, Newton's method replaces a fixed-point iteration
+        # after three sweeps for each digit.
         self.patience = 3 * digits
 
     def precision(self) -> precision:
@@ -139,7 +140,9 @@ class BallDomain:
                 raise OverflowError(
                     "expected a matrix with finite entries of at most 2^40 for an exponential"
                 )
-            # The exponential may be smaller than the terms of its series by a factor exp(-2 norm).
+            # The exponential may be smaller than the terms of its series by a factor exp(-2 norm). This
+            # cancellation loses about 3 bits for each unit of the norm, so the working precision is increased
+            # by this number of bits.
             norm = float(called.n * max(abs(x) for x in first))
             with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
                 result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()

@@ -21,8 +21,8 @@ constant term has the expression 1."""
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
-    """Return the roots with their constants collected, or the unchanged roots if collecting saves no
-    operation.
+    """Return the roots with their constants collected, or the unchanged roots if this does not reduce the
+    number of operations.
 
     Expressions in ``kept``, and their multiples, are not expanded.
 
@@ -69,14 +69,14 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Return the powers (1/sqrt x)^n to rewrite.
 
-    The powers of an inverse root 1/sqrt x are rewritten if only odd powers n >= 3 of it are read. The result
-    maps the node number of a power to the pair (node number of 1/sqrt x, exponent n). Numeric factors are
-    ignored. Subexpressions of ``kept`` are skipped.
+    The powers of an inverse root 1/sqrt x are rewritten if all its powers that are read have odd exponents n
+    >= 3. The result maps the node number of a power to the pair (node number of 1/sqrt x, exponent n).
+    Numeric factors are ignored. Subexpressions of ``kept`` are skipped.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # Pairs of a node and an expression that reads it. The caller reads the roots; it is represented by the
-    # reader None.
+    # Pairs of a node and an expression that reads it. For a root, the second entry is None, because the
+    # caller reads the root.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
@@ -126,8 +126,8 @@ class _Gathering:
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return a node's linear combination as an expression. An inverse 1/y gets the coefficient of its
-        first reader as numerator."""
+        """Return a node's linear combination as an expression. An inverse 1/y gets as numerator the
+        coefficient of the first term in which it occurs."""
         if node.id not in self.written:
             # The expression is built when it is first read and then reused, so it stays shared.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
@@ -138,16 +138,16 @@ class _Gathering:
         """Return c (1/y) as the pair (d, e/y) with d = c/e; e is |c| of the first term that reads 1/y."""
         if not _is_inverse(atom):
             return c, atom
-        # A numerator other than 1 costs no more than the numerator 1, and saves the product of the first
-        # reader. Later readers share the division: they multiply d by the ratio of their coefficient to the
-        # coefficient of the first reader, which is often 1.
+        # A division with a numerator other than 1 costs no more than 1/y, and the first term that reads 1/y
+        # then needs no product. Later terms use the same division and multiply it by d, the ratio of their
+        # coefficient to ``numerator``, which is often 1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
-        # Irrational constants are atoms, because constants of two different fields cannot be added, and
-        # because a constant that is a ball must be rounded only once.
+        # Irrational constants are atoms for two reasons. Constants of two different fields cannot be added,
+        # and a constant that is known only as a ball would become less accurate by each operation.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":

@@ -44,10 +44,10 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
-    ``moving`` may contain the ids of the nodes that are not constant. Derivatives of a vector function with
-    respect to constant arguments are then not computed, but set to zero. The derivatives of ``quotient`` are
-    valid where its divisor is not zero. :class:`NotDifferentiable` is raised for second derivatives of
-    Stumpff functions.
+    If ``moving`` is given, it contains the ids of all nodes that are not constant. Derivatives of a vector
+    function with respect to constant arguments are then set to zero instead of being computed. The
+    derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is raised
+    for second derivatives of Stumpff functions.
     """
     space, args = node.space, node.args
     match node.op:

@@ -1,9 +1,9 @@
 """Domains: the number systems in which programs, groups and scenes are evaluated.
 
 Every group operation is implemented once, for all domains: floats, mpmath numbers, truncated power series in
-h, and expressions. Evaluation over expressions is code generation. Scalars support the arithmetic operators.
-The domain adds constants, named functions, the step h, and the test whether a fixed-point iteration has
-converged.
+h, and expressions. Evaluation over expressions gives the formulas of emitted code. Scalars support the
+arithmetic operators. The domain adds constants, named functions, the step h, and the test whether a
+fixed-point iteration has converged.
 """
 
 from __future__ import annotations
@@ -419,7 +419,8 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return a/b, or 0 if b is zero; the valuation of a must be at least the valuation of b."""
+        """Return a/b, or 0 if b is zero. The lowest power of h in a must be at least the lowest power in
+        b."""
         # If both series vanish at h = 0, their quotient may have a limit at h = 0.
         power = self.ring.valuation(b)
         if power > self.order:
@@ -445,8 +446,8 @@ class SeriesDomain:
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return True if no unknown has changed, and None in place of the size of the change, which an exact
-        comparison does not need."""
+        """Return two values: True if no unknown has changed, and None. Other domains return the size of the
+        change, which an exact comparison does not need."""
         # Each sweep of a contraction by O(h) determines one further coefficient, so order + 1 sweeps suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
@@ -457,7 +458,7 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The table of samples has the node number of the time as key, because equal times are the same
+        # The keys of the table of samples are the node numbers of times, because equal times are the same
         # expression node.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 

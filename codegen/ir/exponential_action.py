@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 HALVINGS = 13
-"""The largest number of halvings. For larger matrices the result is NaN, because it would take too long."""
+"""The largest number of halvings. If a matrix needs more, the result is NaN, because the computation would
+take too long."""
 
 SPARSE = 12
 """The largest number of rows for which a call contains only the entries of A that are not zero. Emitted code

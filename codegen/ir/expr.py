@@ -1,9 +1,9 @@
 """Scalar expressions: immutable, hash-consed within a :class:`Space`, ordered by creation.
 
 A space interns every node, so equal expressions are identical objects and are stored once. Nodes are numbered
-in the order of their creation, and each build has a new space. Hence the order of operands and the emitted
-text depend only on the input. A new node is simplified only by local rules, for constants, zeros, ones, signs
-and x - x. Sums are never flattened, because subexpressions would then no longer be shared.
+in the order of their creation, and each compilation uses a new space. Hence the order of operands and the
+emitted text depend only on the input. A new node is simplified only by local rules, for constants, zeros,
+ones, signs and x - x. Sums are never flattened, because subexpressions would then no longer be shared.
 
 Operations: ``const`` (a :class:`Number`), ``sym`` (a name), ``add sub mul div neg``, ``pow`` (integer
 exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`, or a result of a vector function).
@@ -156,7 +156,7 @@ class Space:
             return self.const(-a.payload)
         if a.op == "neg":
             return a.args[0]
-        # -(a - b) is replaced by b - a, which saves the negation. In floating point both are equal up to the
+        # -(a - b) is replaced by b - a, which needs no negation. In floating point both are equal up to the
         # sign of zero.
         if a.op == "sub":
             return self._make("sub", (a.args[1], a.args[0]))
@@ -360,7 +360,7 @@ _BINARY: dict[str, Callable[[Any, Any], Any]] = {
 def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]) -> list[Scalar]:
     """Evaluate roots in a domain (see :mod:`codegen.ir.domain`); ``values`` are the values of the symbols.
 
-    With an expression domain the evaluation is substitution.
+    In a domain of expressions, each symbol is replaced by an expression.
     """
     # The roots are copied to a list, because they are read twice below, and an iterator would be empty at the
     # second time.

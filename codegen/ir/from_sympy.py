@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import sympy
 
 CALLS = frozenset(MATHEMATICAL) - {"sqrt"}
-"""The functions that formulas may call; sympy writes roots as powers."""
+"""The functions that formulas may call. ``sqrt`` is not among them, because sympy writes roots as powers."""
 
 SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 """The functions of sympy that select one of several formulas."""
@@ -31,12 +31,14 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""For each function that may be infinite or undefined, an argument at which it is finite. A branch of a
-Piecewise formula is evaluated with this argument where the branch is not selected."""
+"""For each function that may be infinite or undefined, an argument at which it is finite. If the function
+occurs in a branch of a Piecewise formula, it is evaluated at this argument where the branch is not
+selected."""
 
 
 def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
-    """Return a sympy expression as a node of space; a :class:`SceneError` names a part that cannot be read.
+    """Return a sympy expression as a node of space; raise :class:`SceneError` with the part that cannot be
+    read.
 
     Rational numbers stay exact. A float is read as the shortest decimal that rounds to it, so 0.1 is 1/10.
     """
@@ -124,8 +126,8 @@ class _Reader:
         """Return an expression that is x where the branch that contains x is selected, and the number
         ``safe`` elsewhere."""
         # A branch is evaluated even where it is not selected. There a root or a quotient could raise an
-        # exception in Python or be a NaN. Its derivative is multiplied by zero there, but zero times NaN is a
-        # NaN.
+        # exception in Python or be a NaN. The derivative of the branch is multiplied by zero there, but it
+        # may be a NaN, and zero times NaN is NaN.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))

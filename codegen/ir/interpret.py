@@ -45,8 +45,8 @@ def interpret(
     ``inputs`` has a value for each input: a scalar of the domain for a Real, else a flat tuple of scalars
     (group elements row by row). Blocks are solved by fixed-point iteration until the domain reports
     convergence. If an iteration is slow or fails, Newton's method with difference quotients solves the block,
-    provided that the domain has them and ``newton`` is true. :class:`NotConverged` names a block that needs
-    more than ``limit`` sweeps.
+    provided that the domain has them and ``newton`` is true. If a block needs more than ``limit`` sweeps,
+    :class:`NotConverged` is raised with the label of the block.
 
     If ``solutions`` is given, iterations start at its values, and the new solutions are stored in it. If
     ``near`` is given, Newton's method is used from the first sweep. ``near`` contains one list of numbers for
@@ -77,8 +77,8 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # ``near`` is a queue: each block removes the first entry, uses it as its start, and appends its
-            # solution.
+            # ``near`` is a queue: the first entry contains the first values for this block and is removed.
+            # The solution is appended, so after the step ``near`` contains the solutions in the same order.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
@@ -97,8 +97,8 @@ def _fixed_point_first(
 ) -> None:
     """Solve a block by fixed-point iteration and, if this fails and ``newton`` is true, by Newton's method.
 
-    Where the fixed-point iteration contracts, its result is accurate to rounding, and it needs no difference
-    quotients.
+    The fixed-point iteration comes first, because it needs no difference quotients, and its result is
+    accurate to rounding if it contracts.
     """
     patience = getattr(domain, "patience", limit) if newton else limit
     try:
@@ -127,8 +127,8 @@ def outward(
     step, with the body momentum. The result is mu plus the change of the space momentum. Rounding makes q
     slightly non-orthogonal, and this error then affects only the change, and not mu.
     """
-    # Both ends are converted by the same operation, so that the rounding errors of a q that is not quite
-    # orthogonal cancel in the difference.
+    # The states before and after the step are converted by the same operation. The error that a slightly
+    # non-orthogonal q causes is nearly equal in both results, so it cancels in the difference.
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
 
@@ -166,7 +166,8 @@ def _iterate(
     expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
-        # Passes may have removed unknowns; the starts for removed unknowns are skipped.
+        # An unknown begins at the solution of an earlier step, if ``expected`` contains one, and otherwise at
+        # its start.
         env[unknown] = expected.get(unknown, env[start])
     size: Scalar = None
     for _ in range(limit):
@@ -238,8 +239,8 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # It is sufficient that the change is below the increment of the difference quotients, about the
-            # square root of the rounding unit, because the next correction squares the error.
+            # A change below the increment of the difference quotients is sufficient. The increment is about
+            # the square root of the rounding unit, and the next correction squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:

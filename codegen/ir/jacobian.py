@@ -4,10 +4,10 @@ one column after the other.
 The expressions form a graph whose edges are labelled with partial derivatives. The elimination of a vertex
 multiplies the label of each incoming edge by the label of each outgoing edge. When only the variables and the
 results are left, the labels of the edges between them are the Jacobian. The order of elimination determines
-the number of products. In each step the vertex with the fewest products is eliminated: the number of its
-incoming edges times the number of its outgoing edges is least (Markowitz's rule; Griewank and Walther,
-Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two special orders, which are seldom
-the cheapest.
+the number of products. The vertex with the lowest cost is eliminated next. The cost of a vertex is the number
+of products, that is, the number of its incoming edges times the number of its outgoing edges (Markowitz's
+rule; Griewank and Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two
+special orders, which are seldom the cheapest.
 """
 
 from __future__ import annotations

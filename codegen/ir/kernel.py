@@ -27,8 +27,8 @@ includes the first flow of the next step. The symbol contains a dot, so it diffe
 scene."""
 
 ELAPSED = "elapsed.h"
-"""The symbol for the total duration of all steps of a run. A deferred flow is applied once, for this
-duration."""
+"""The symbol for the total duration of the steps for which a deferred flow is applied: all steps of a run,
+but at most :data:`LONGEST` steps."""
 
 LONGEST = 256
 """The largest number of steps for which one deferred flow is applied. The limit bounds the angles of this
@@ -93,8 +93,8 @@ class Newton:
         """The number of steps for which an inverse is used; 0 means that it is used as long as the loop
         contracts.
 
-        Computing the inverse of an n x n matrix costs a multiple of n^3. An old inverse is less accurate, so
-        a step takes more sweeps.
+        Computing the inverse of an n x n matrix costs a multiple of n^3. With a long period this cost occurs
+        in fewer steps, but an old inverse is less accurate, so a step takes more sweeps.
         """
         # With n = len(matrix), an inverse is used in about n/2 steps, so its cost of order n^3 adds a cost of
         # order n^2 to each step.
@@ -105,17 +105,17 @@ class Newton:
 class Loop:
     """Solve unknowns = images, where ``body`` computes the images, until changes are at rounding level.
 
-    ``label`` names the block in messages and statistics ("stage 2"). ``starts`` are evaluated before the
-    loop, and are empty if a :class:`Start` computes the first values. Without ``newton`` the change of the
-    unknowns is images - unknowns. The last change is not applied, so that the last values of the body were
-    computed from the final unknowns. With ``newton`` the change is the inverse of ``newton.matrix`` times
-    images - unknowns, and the last change is applied too.
+    ``label`` is the name of the block in messages and statistics, for example "stage 2". ``starts`` are
+    evaluated before the loop, and are empty if a :class:`Start` computes the first values. Without ``newton``
+    the change of the unknowns is images - unknowns. The last change is not applied, so that the last values
+    of the body were computed from the final unknowns. With ``newton`` the change is the inverse of
+    ``newton.matrix`` times images - unknowns, and the last change is applied too.
 
     The stopping rule (:mod:`codegen.run.stopping`) uses three numbers. ``tolerance`` is the largest change,
     in units of the largest unknown, at which the loop may end because the change no longer decreases.
     ``close`` is the largest change at which the measured rate of convergence may end the loop. ``limit`` is
-    the largest number of sweeps. ``only_unknowns_read`` says that only the unknowns are read after the loop,
-    so the last change may be larger.
+    the largest number of sweeps. ``only_unknowns_read`` is true if no values of the body are read after the
+    loop. The last change may then be larger.
     """
 
     label: str
@@ -141,13 +141,13 @@ class Loop:
     def close(self) -> float:
         """The largest change of the unknowns at which the test of the rate of convergence may end the loop.
 
-        Values of the body that are read after the loop were computed before the last change. Let L be the
-        Lipschitz constant of the images. Simplified Newton contracts by (h L)^2, while the values of the body
-        change by only h L times the last change. A rate that is small enough to end the loop therefore also
-        bounds the error of these values.
+        Values of the body that are read after the loop were computed before the last change. Their error is
+        about h L times this change, where L is the Lipschitz constant of the images. The rate of convergence
+        of simplified Newton is (h L)^2. If this rate is small enough to end the loop, h L is small, too, and
+        a larger last change is permitted.
         """
         # If only the unknowns are read after the loop, their error is the rate of convergence times the last
-        # change.
+        # change, so the last change may be larger.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
@@ -202,12 +202,13 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """Flows deferred across steps.
+    """The flows that a run of several steps applies only once, before its first step or after its last step.
 
     A single step calls ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with
     :data:`ELAPSED` = h. A run of several steps calls ``begin`` once, the kernel once for each step, and
     ``finish`` once. In the last step of the run LEAD = ``last`` h, in all other steps LEAD = ``later`` h.
-    ELAPSED is the duration of the whole run.
+    ELAPSED is the duration of the whole run. A long run is divided into runs of at most :data:`LONGEST`
+    steps.
     """
 
     begin: Kernel | None
@@ -312,8 +313,8 @@ class Function:
     """A function that a kernel calls in several places: it evaluates ``body`` and returns ``outputs``, both
     from ``inputs`` alone.
 
-    In expressions, a call of ``NAME.k`` is its k-th result. ``about`` describes the function by operations of
-    a program.
+    In expressions, a call of ``NAME.k`` returns the k-th result of the function called NAME. ``about``
+    describes the function by operations of a program.
     """
 
     name: str
@@ -327,16 +328,16 @@ class Function:
 class Kernel:
     """One step: state fields, scalar inputs (h, t, run-time parameters), body, new state in field order.
 
-    ``inputs`` names functions of time that the caller supplies, ``samples`` are the times at which they are
-    read. ``vary`` is the kernel of the variational equation: its state is the state of this kernel followed
-    by a variation, and its outputs are the variation of the new state. With ``substeps`` a step repeats
-    this kernel for each of its parts, and h and t are the length and the start of the part. ``outlined``
-    are functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
-    momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted code can have
-    a run with step control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or
-    makes the step ``arrays``, the step ``sites`` of a lattice, or the step ``modes`` on Fourier modes. With
-    ``batch``, emitted code also has a function that steps many independent systems, and with ``observed`` a
-    run to a given end time.
+    ``inputs`` are the names of the functions of time that the caller supplies, ``samples`` are the times at
+    which they are read. ``vary`` is the kernel of the variational equation: its state is the state of this
+    kernel followed by a variation, and its outputs are the variation of the new state. With ``substeps`` a
+    step repeats this kernel for each of its parts, and h and t are the length and the start of the part.
+    ``outlined`` are functions that the expressions of the kernel call. With ``carried`` the kernel reads and
+    returns the momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted
+    code can have a run with step control. A kernel without ``outputs`` evaluates the polynomial of its
+    ``expansion``, or makes the step ``arrays``, the step ``sites`` of a lattice, or the step ``modes`` on
+    Fourier modes. With ``batch``, emitted code also has a function that steps many independent systems, and
+    with ``observed`` a run to a given end time.
     """
 
     name: str
@@ -373,8 +374,7 @@ class Kernel:
     def start(self) -> Start | None:
         """The Start of the kernel, which computes the first values of all unknowns; None if each loop has its
         own starts."""
-        # A kernel has at most one Start, because warm starts extrapolate the unknowns of all loops as one
-        # vector.
+        # A kernel has at most one Start, because it extrapolates the unknowns of all loops as one vector.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
@@ -388,7 +388,7 @@ class Kernel:
                 yield from statement.newton.body
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield every expression root in order."""
+        """Yield the root node of every expression, in order."""
         yield from (sample.time for sample in self.samples)
         for statement in self.body:
             if isinstance(statement, Let):

@@ -20,7 +20,7 @@ TERMS = 14
 the actual degree depends on the norm."""
 
 Letter = tuple[tuple[int, Number], ...]
-"""A linear combination: pairs of the number of a node and its coefficient."""
+"""A linear combination of the matrices a_i, as pairs (i, coefficient of a_i)."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class TimeMatrix:
         return tuple(dict.fromkeys(matrix for _, matrix in self.terms))
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the coefficients, and the formulas of entries."""
+        """Yield the coefficients of the terms, and those entries of the matrices that are expressions."""
         for coefficient, matrix in self.terms:
             yield coefficient
             entries: tuple[Entry, ...] = matrix.entries
@@ -65,8 +65,9 @@ class TimeMatrix:
 
 @dataclass(frozen=True)
 class Element:
-    """A letter plus a sum of multiples of commutators. ``letter`` is the number of the letter, or None if
-    there is no letter. ``commutators`` are pairs of a coefficient and the number of a commutator."""
+    """The sum of a letter and of multiples of commutators. ``letter`` is the index of the letter in the list
+    of letters of the step, or None if there is no letter. ``commutators`` are pairs: a coefficient, and the
+    index of a commutator in the list of commutators of the step."""
 
     letter: int | None
     commutators: tuple[tuple[Number, int], ...] = ()
@@ -93,15 +94,17 @@ class LinearArrayStep:
         yield from self.matrix.expressions()
 
     def products(self, element: Element) -> int:
-        """Return the number of products of a letter and a vector that an element needs."""
+        """Return the number of products of a letter and a vector in one product of ``element`` and a
+        vector."""
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
             own += 2 * sum(map(self.products, self.commutators[number]))
         return own
 
     def operations(self) -> dict[str, int]:
-        """Return the number of additions and multiplications, with polynomials of degree :data:`TERMS` and
-        without halvings. The evaluation of formulas of entries is not counted."""
+        """Return the number of additions and multiplications of a step. For each exponential, one Taylor
+        polynomial of degree :data:`TERMS` is counted, as if no exponent had to be halved. The evaluation of
+        entries that are formulas is not counted."""
         size, k = self.argument.size, self.argument.columns
         products = TERMS * sum(map(self.products, self.exponents))
         sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0

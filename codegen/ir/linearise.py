@@ -24,16 +24,18 @@ EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4)
 """The functions with a rule for their expansion."""
 
 Pair = tuple[Expr, Expr]
-"""Coefficients of 1 and of h."""
+"""The coefficients (v_0, v_1) of an expansion v_0 + v_1 h."""
 
 
 class NotLinearised(ArithmeticError):
-    """A function with a pole or a branch point at h = 0, or without a rule for its expansion in h."""
+    """The error for a function that has a pole or a branch point at h = 0, or no rule for its expansion in
+    h."""
 
 
 @dataclass(frozen=True)
 class _Dual:
-    """A value v_0 + v_1 h and its non-zero derivatives, by the index of the unknown."""
+    """An expansion v_0 + v_1 h with its derivatives. ``slopes`` maps the index of an unknown to the
+    derivative with respect to this unknown, if the derivative is not zero."""
 
     value: Pair
     slopes: dict[int, Pair]
@@ -85,8 +87,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             if node.payload == STEP:
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
-            # Unknowns have no term of order h, because the expansion in h is for fixed values of the
-            # unknowns.
+            # An unknown u has the expansion u + 0 h, because the unknowns are fixed in the expansion in h.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":
@@ -171,10 +172,11 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])
-        # c_k is expanded at 0 only, because its derivatives are rational there. The angles tend to 0 with h.
+        # c_k is expanded at 0 only, where its derivatives are rational numbers. This suffices for steps whose
+        # arguments of Stumpff functions tend to 0 with h.
         if not low.is_zero:
             raise NotLinearised("the argument of a Stumpff function does not vanish at h = 0")
-        # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so the second derivative is twice the last coefficient.
+        # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so c_k''(0) is twice the coefficient of z^2.
         at, first, second = (space.const(Number.rational((-1) ** j, factorial(k + 2 * j))) for j in range(3))
         second = second + second
     elif function == "sqrt":
@@ -202,7 +204,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         other = {"sin": "cos", "cos": "sin"}[function]
         at, turned = space.call(function, low), space.call(other, low)
         first, second = (turned, -at) if function == "sin" else (-turned, -at)
-    # f'(v_0 + v_1 h) = f'(v_0) + f''(v_0) v_1 h.
+    # To first order in h, f'(v_0 + v_1 h) = f'(v_0) + f''(v_0) v_1 h.
     slope = (first, second * high)
     slopes = {k: _times(x, slope) for k, x in a.slopes.items()}
     return _Dual((at, first * high), _trimmed(slopes))

@@ -1,10 +1,10 @@
 """The exponential of an n x n matrix, and its derivatives, in doubles, in many digits, and over power series.
 
-Derivatives are computed with jets. Let e_1, ..., e_l be symbols whose squares are zero. A jet of level l is a
-sum of A_m e_m, where e_m is one of the 2^l products of different symbols and A_m is a matrix. With one symbol
-e, the exponential of the jet A + e E is exp(A) + e L, where L is the derivative of exp at A in the direction
-E. The matrices A_m of a jet are stored one after the other, each row by row. Bit k of the index m is set if
-e_m contains the symbol of this bit.
+Derivatives are computed with jets. Let d_0, ..., d_(l-1) be symbols whose squares are zero. A jet of level l
+is the sum of A_m e_m over 0 <= m < 2^l. Here A_m is a matrix, and e_m is the product of the symbols d_k for
+which bit k of m is set. With one symbol d, the exponential of the jet A + d E is exp(A) + d L, where L is the
+derivative of exp at A in the direction E. The matrices A_m of a jet are stored one after the other, each row
+by row.
 
 In doubles the algorithm is scaling and squaring (N. J. Higham, *Functions of Matrices*, SIAM 2008, ch. 10).
 The matrix is halved s times, until its norm is small. Then a Taylor polynomial of degree 4, 8, 12 or 16 is
@@ -35,8 +35,8 @@ Pairs = tuple[tuple[tuple[int, int], ...], ...]
 
 @cache
 def pairs(level: int) -> Pairs:
-    """For each matrix of a product of two jets, return the pairs of matrices of the factors whose products
-    are added.
+    """Return, for each matrix of the product of two jets A and B, the index pairs (j, k) for which the
+    product of A_j and B_k is a term of this matrix.
 
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
@@ -113,7 +113,8 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
 
 
 def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]:
-    """Return the Taylor polynomial of the least degree that is accurate for matrices of this norm."""
+    """Return the Taylor polynomial of the least degree that is accurate for matrices of norm at most
+    ``norm``."""
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     b2 = product(n, level, b1, b1)
@@ -135,8 +136,8 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     """Return a bound of the spectral norm of exp(scale a): the exponential of a bound of the logarithmic
     norm.
 
-    The logarithmic norm is the largest eigenvalue of the symmetric part, which Gershgorin's circles bound. It
-    is zero for a skew matrix.
+    The logarithmic norm is the largest eigenvalue of the symmetric part of the matrix. Gershgorin's circles
+    give a bound of this eigenvalue, which is zero for a skew matrix.
     """
     largest = a[0]
     for i in range(n):
@@ -152,7 +153,8 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Return total^(2^squarings); NaN if the first matrix of this jet has fewer than three correct digits.
+    """Return the jet total^(2^squarings); all entries are NaN if its first matrix has fewer than three
+    correct digits.
 
     Let u be the unit roundoff. The computed square E^2 has the error 2 |E| error(E) + n^2 u |E|^2 in the
     Frobenius norm. The spectral norm |E| is bounded by ``growth`` and by the Frobenius norm.
@@ -170,8 +172,8 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
 
 
 def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exponential of a jet of mpmath numbers, with an error of about 10^-``digits`` times its
-    norm.
+    """Return the exponential of a jet of mpmath numbers, with an error of about 10^-``digits`` times the norm
+    of the exponential.
 
     :class:`OverflowError` is raised for a norm above 2^40.
     """
@@ -179,8 +181,8 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     if not size < 2**40:
         raise OverflowError("the norm of the matrix is too large for its exponential")
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
-    # The working precision includes the digits that the squarings lose: at most the digits of the
-    # exponentials of A and -A, and one bit for each squaring.
+    # The working precision includes the digits that the squarings lose: at most log10(|exp(A)| |exp(-A)|)
+    # digits, and one bit for each squaring.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
     scale = work.mpf(2) ** -halvings
@@ -199,8 +201,9 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exponential of a jet of power series, exactly.
 
-    ArithmeticError is raised if the sum has more than ``longest`` terms: the constant terms of the first
-    matrix are then not nilpotent.
+    The exponential is a finite sum if the constant terms of the first matrix form a nilpotent matrix.
+    ArithmeticError is raised if the sum has more than ``longest`` terms, because this matrix is then not
+    nilpotent.
     """
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total

@@ -25,7 +25,8 @@ class MatrixExponential(VectorFunction):
     """The exponential of a jet of n x n matrices (:mod:`codegen.ir.matrix_exponential`).
 
     Level 0 is the exponential of a matrix. The arguments of level l + 1 are the arguments of level l followed
-    by their rates, and its results are the results of level l followed by their rates.
+    by their rates of change. The results of level l + 1 are the results of level l followed by their rates of
+    change.
     """
 
     n: int
@@ -43,7 +44,7 @@ class MatrixExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The number of operations for a polynomial of degree 12, without squarings."""
+        """A typical number of operations: a Taylor polynomial of degree 12 is assumed, without squarings."""
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
@@ -118,13 +119,13 @@ class MatrixInverse(VectorFunction):
         return {"add": self.n**3, "mul": self.n**3}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return -g^-1 r g^-1 for the rate r of g."""
+        """Return -g^-1 r g^-1, the rate of the inverse g^-1 for the rate r of the matrix g."""
         inverse = args[0].space.vector(self.name, args)
         inner = matrix_exponential.product(self.n, 0, rates, inverse)
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return None."""
+        """Return None: a call of the inverse is never replaced by expressions."""
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
@@ -136,7 +137,8 @@ class MatrixInverse(VectorFunction):
         return self._invertible(matrix_inverse.inverse(self.n, args, context.mpf(1), abs))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the inverse for power series; ZeroDivisionError if its constant terms are singular."""
+        """Return the inverse of a matrix of power series; ZeroDivisionError if the matrix of their constant
+        terms is singular."""
 
         def size(x: Scalar) -> int:
             return int(ring.valuation(x) == 0)

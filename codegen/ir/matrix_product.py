@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 
 class BilinearFunction(VectorFunction):
-    """A bilinear function of two n x n matrices. It only adds and multiplies, so it has one formula for all
-    domains.
+    """A bilinear function of two n x n matrices. Its results need only additions and multiplications, so one
+    formula suffices for doubles, mpmath numbers and power series.
     """
 
     @property
@@ -32,7 +32,7 @@ class BilinearFunction(VectorFunction):
 
     @abstractmethod
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the results in any domain."""
+        """Return the results for doubles, mpmath numbers or power series, by the same formula."""
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return f(a', b) + f(a, b'), the derivative of f(a, b) for rates a' and b' of the matrices."""
@@ -78,7 +78,7 @@ class BilinearFunction(VectorFunction):
 
 @dataclass(frozen=True)
 class MatrixProduct(BilinearFunction):
-    """The product a b."""
+    """The product a b of two matrices."""
 
     n: int
 
@@ -93,13 +93,13 @@ class MatrixProduct(BilinearFunction):
         return {"add": self.n**3 - self.n**2, "mul": self.n**3}
 
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return a b."""
+        """Return the product a b."""
         return tuple(product(self.n, 0, args[: self.size], args[self.size :]))
 
 
 @dataclass(frozen=True)
 class MatrixCommutator(BilinearFunction):
-    """The commutator a b - b a."""
+    """The commutator a b - b a of two matrices."""
 
     n: int
 
@@ -114,7 +114,7 @@ class MatrixCommutator(BilinearFunction):
         return {"add": 2 * self.n**3 - self.n**2, "mul": 2 * self.n**3}
 
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return a b - b a."""
+        """Return the commutator a b - b a."""
         a, b = args[: self.size], args[self.size :]
         pairs = zip(product(self.n, 0, a, b), product(self.n, 0, b, a), strict=True)
         return tuple(x - y for x, y in pairs)

@@ -1,9 +1,9 @@
 """Steps of semilinear equations u' = L u + N(u) on Fourier modes.
 
-L multiplies each mode by a number lambda. A step of size h is a sequence of evaluations of N. Each of them is
-evaluated at a linear combination of the old state and of earlier values of N, and the new state is a linear
-combination, too. The coefficients are functions of z = h lambda (:class:`Multiplier`). Emitted code computes
-them once for each step size.
+L multiplies each mode by a number lambda. A step of size h evaluates N several times, each time at a linear
+combination of the old state and of earlier values of N. The new state is a linear combination of the old
+state and of all values of N. The coefficients of these linear combinations are functions of z = h lambda
+(:class:`Multiplier`). Emitted code computes them once for each step size.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ EXP, PHI, BERNOULLI, POWER = "exp", "phi1", "bernoulli", "z"
 """The functions in multipliers: exp(w), phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w itself."""
 
 WIDTH = 100
-"""Formulas with more characters are written term by term."""
+"""A formula with more characters than this number is printed on several lines, one line for each term."""
 
 STATE = -1
 """The source of a term that multiplies the old state."""
@@ -31,7 +31,7 @@ STATE = -1
 
 @dataclass(frozen=True)
 class Factor:
-    """A function of ``scale`` z, where z is the product of h and the eigenvalue of L."""
+    """The value of ``function`` at ``scale`` z, where z is the product of h and the eigenvalue of L."""
 
     function: str
     scale: Number
@@ -43,7 +43,7 @@ class Factor:
 
     @property
     def order(self) -> tuple[str, float, str]:
-        """A key for sorting."""
+        """The sort key of the factor: its function, then its scale."""
         return self.function, float(self.scale), self.scale.text()
 
 
@@ -61,12 +61,12 @@ class Multiplier:
 
     @classmethod
     def constant(cls, value: Number) -> Multiplier:
-        """Return a constant."""
+        """Return the number ``value`` as a multiplier."""
         return cls({} if value.is_zero else {(): value})
 
     @classmethod
     def of(cls, function: str, scale: Number) -> Multiplier:
-        """Return function(scale z). The values at scale 0 are constants."""
+        """Return function(scale z). If the scale is 0, the result is a constant."""
         if scale.is_zero:
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
@@ -87,7 +87,7 @@ class Multiplier:
         return total
 
     def scaled(self, value: Number) -> Multiplier:
-        """Return the product with a number."""
+        """Return this multiplier times the number ``value``."""
         return self * Multiplier.constant(value)
 
     @property
@@ -168,7 +168,8 @@ class Term:
 
 @dataclass(frozen=True)
 class Evaluation:
-    """An evaluation of N at a linear combination of spectra, at the time t + ``time`` h."""
+    """An evaluation of N at the time t + ``time`` h. The terms ``point`` form the state at which N is
+    evaluated: a linear combination of the old state and of earlier values of N."""
 
     point: tuple[Term, ...]
     time: Number
@@ -235,7 +236,7 @@ class ModeStep:
     def growth(self) -> int:
         """A bound p on the growth of the tables: they are at most a constant times (1 + |z|)^p for z < 0.
 
-        The bound holds for tables without exp(c z) and c < 0. Such a step is :attr:`backwards`.
+        If :attr:`backwards` is true, the tables grow exponentially, and the bound does not hold.
         """
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
         products = [m for table in self.tables for m in table.multiplier.terms]

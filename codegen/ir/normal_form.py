@@ -164,8 +164,8 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # This test limits only the work in one product. The result may have fewer terms than the limit,
-        # because like terms are added.
+        # This test limits the work of one product. The limit is MOST_TERMS^2 pairs of terms and not
+        # MOST_TERMS, because like terms are added: a product has often far fewer terms than pairs.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}

@@ -2,9 +2,10 @@
 
 Tableau coefficients stay exact (rational, algebraic) or certified (balls) until they are printed. Programs
 represent them as a :class:`Number`. Two numbers are equal when their rings give equal keys. Two overlapping
-balls do not prove that two numbers are equal. Therefore the keys of a ball tableau contain the names of
-coefficients in the tableau's file: coefficients with the same name are equal. The difference of equal numbers
-is exactly 0, and their quotient is exactly 1. Multiplication by 1 does not make a ball wider.
+balls do not prove that two numbers are equal. Therefore, if the coefficients of a tableau are balls, their
+keys contain the names of the coefficients in the file of the tableau: coefficients with the same name are
+equal. The difference of equal numbers is exactly 0, and their quotient is exactly 1. Multiplication by 1 does
+not make a ball wider.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ def is_normal(value: Fraction) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Number:
-    """An exact or certified real number; rational values are stored as elements of QQ."""
+    """A real number, given exactly or by a ball that contains it; rational numbers are elements of QQ."""
 
     ring: Ring = field(repr=False)
     element: Element = field(repr=False)
@@ -45,8 +46,8 @@ class Number:
     @cached_property
     def key(self) -> tuple[object, ...]:
         """A value that identifies this number: two numbers are equal if and only if their keys are equal."""
-        # Keys make equality decidable for balls, too: coefficients with one name in a tableau file have equal
-        # keys.
+        # Keys make equality decidable for balls, too: coefficients with the same name in a tableau file have
+        # equal keys.
         return tuple(self.ring.key(self.element))
 
     def __eq__(self, other: object) -> bool:

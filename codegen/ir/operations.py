@@ -32,7 +32,8 @@ class Problem(Protocol):
     domain."""
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of an operation of the group or the scene, by the name of its function.
+        """Return the results of the function called ``name``, which the group, its action or the scene
+        provides.
 
         ``order`` is the number of brackets after which dexp^{-1} is truncated, and None for all other
         operations.
@@ -42,8 +43,8 @@ class Problem(Protocol):
         """Return the state after the exact flow of one part of the splitting for the time tau."""
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Return the product of the functions of ad_x in ``word`` applied to v; with ``dual``, ad*_x replaces
-        ad_x.
+        """Apply an operator to v and return the result. The operator is the product of the functions of ad_x
+        in ``word``; if ``dual`` is true, ad*_x replaces ad_x.
         """
 
     def dimension(self) -> int:
@@ -55,14 +56,14 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """The kinds of the arguments and of the results, for an operation whose kinds do not depend on its
-    parameters.
+    """The kinds of the arguments and of the results, if these kinds do not depend on the parameters of the
+    operation.
     """
     # Passes use linearity to move factors and sums out of an operation, for example ad_x(c v + w) = c ad_x v
     # + ad_x w.
     linear_in_last: ClassVar[bool] = False
     """True if the result is linear in the last argument."""
-    # The cost of a method is the number of its evaluations of the scene and of its exponentials.
+    # The cost of a method is measured by two numbers: its evaluations of the scene, and its exponentials.
     evaluates_scene: ClassVar[bool] = False
     """True if the operation counts as one evaluation of the field or of the derivatives of the
     Hamiltonian."""
@@ -76,7 +77,8 @@ class Operation(ABC):
     @property
     @abstractmethod
     def name(self) -> str:
-        """The printed name, by which programs also count their operations."""
+        """The name of the operation in printed programs. Programs also count their operations by this
+        name."""
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the results."""
@@ -84,7 +86,7 @@ class Operation(ABC):
 
     @abstractmethod
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if an assignment of these kinds is well-formed."""
@@ -116,7 +118,7 @@ class Zero(Operation):
         return self.kind in LINEAR and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         # The components are zeros of the domain, because a plain 0 would have another type than other
         # scalars.
         return ((domain.rational(0),) * problem.dimension(),)
@@ -131,14 +133,14 @@ class Linear(Operation):
     noun = "sum{s}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of a combination in the algebra; :meth:`accepts` also admits the other vector
-        spaces."""
+        """Return the kinds for a combination in the algebra; :meth:`accepts` also admits combinations in the
+        dual."""
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if there is one argument for each coefficient, at least one, and all have the kind of
-        the result."""
-        # A combination has the kind of its arguments, so it needs at least one. An empty sum is a
+        """Return True if the number of arguments equals the number of coefficients and is not zero, and all
+        arguments have the kind of the result."""
+        # A combination has the kind of its arguments, so it needs at least one argument. An empty sum is a
         # :class:`Zero`, which stores its kind.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
@@ -185,7 +187,7 @@ class Advance(Operation):
         return super().applied([*args, self.coefficient.text()])
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         return (args[0] + self.coefficient.evaluate(domain),)
 
 
@@ -199,7 +201,7 @@ class OfGroup(Operation):
         return self.name
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         return problem.apply(domain, self.function, None, args)
 
 
@@ -213,7 +215,7 @@ class Identity(OfGroup):
 
 @dataclass(frozen=True)
 class Exp(OfGroup):
-    """exp(x)."""
+    """The group element exp(x) for an element x of the Lie algebra."""
 
     name = "exp"
     exponentials = 1
@@ -223,7 +225,8 @@ class Exp(OfGroup):
 
 @dataclass(frozen=True)
 class ElementAt(OfGroup):
-    """tau(x) for the coordinate map tau of the scene (:mod:`codegen.groups.coordinate_maps`)."""
+    """The group element tau(x) for the coordinate map tau of the scene
+    (:mod:`codegen.groups.coordinate_maps`)."""
 
     name = "element_at"
     exponentials = 1
@@ -233,7 +236,8 @@ class ElementAt(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDifferential(OfGroup):
-    """dtau^{-1}_x y for the coordinate map tau of the scene, without truncation."""
+    """The element dtau^{-1}_x y of the Lie algebra for the coordinate map tau of the scene, without
+    truncation."""
 
     linear_in_last = True
     name = "inverse_differential"
@@ -261,7 +265,7 @@ class MultiplyExp(OfGroup):
 
 @dataclass(frozen=True)
 class Act(OfGroup):
-    """g.y."""
+    """The point g.y, to which the group element g moves the point y."""
 
     name = "act"
     takes, gives = G + P, P
@@ -289,7 +293,7 @@ class Adjoint(OfGroup):
 
     @property
     def name(self) -> str:
-        """The name by which programs count their operations."""
+        """The name under which programs count this operation."""
         return f"Ad{'*' if self.dual else ''}{'^-1' if self.inverse else ''}"
 
     @property
@@ -319,7 +323,7 @@ class Bracket(OfGroup):
 
     @property
     def name(self) -> str:
-        """The name by which programs count their operations."""
+        """The name under which programs count this operation."""
         return "ad*" if self.dual else "ad"
 
     @property
@@ -344,13 +348,14 @@ class InverseDexp(Operation):
 
     @property
     def name(self) -> str:
-        """The name by which programs count their operations."""
+        """The name under which programs count this operation."""
         return "dexpinv*" if self.dual else "dexpinv"
 
     @property
     def word(self) -> Word:
         """The operation, written as a function of ad_x."""
-        # A pass joins this function and neighbouring functions of the same ad_x in one word.
+        # If further functions of the same ad_x are applied to the result, a pass joins all these functions in
+        # one word.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -363,7 +368,7 @@ class InverseDexp(Operation):
         return A + own, own
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         # The order is passed to the group, because the number of brackets depends on the method and not on
         # the group.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
@@ -387,13 +392,13 @@ class InverseDexpSlope(Operation):
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         return problem.apply(domain, "P", self.order, args)
 
 
 @dataclass(frozen=True)
 class DualDexp(OfGroup):
-    """dexp*_x mu."""
+    """The dual of the linear map dexp_x, applied to mu."""
 
     linear_in_last = True
     name = "dexp*"
@@ -418,7 +423,7 @@ class AdSeries(Operation):
 
     @property
     def name(self) -> str:
-        """The name by which programs count their operations."""
+        """The name under which programs count this operation."""
         return "series*" if self.dual else "series"
 
     def text(self) -> str:
@@ -437,5 +442,5 @@ class AdSeries(Operation):
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         return (problem.series(domain, self.word, self.dual, *args),)

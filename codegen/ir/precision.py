@@ -46,7 +46,8 @@ class Precision:
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:
-        """Convert a tolerance for doubles to this format: it remains the same multiple of the unit roundoff.
+        """Convert a tolerance for doubles to this format: the result is the same multiple of the unit
+        roundoff.
 
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True

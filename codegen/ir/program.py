@@ -2,7 +2,7 @@
 
 A value has one of five kinds (:class:`codegen.ir.values.Kind`). Each variable is assigned once. Equations
 that depend on one another form a :class:`Solve` block u = g(u). A block has unknowns u, a body that computes
-values from the unknowns, and images, which are the values g(u) of the body that must equal the unknowns. A
+values from the unknowns, and images: those values g(u) of the body that equal the unknowns at the solution. A
 method is lowered to *one* block with all its stages; the passes find the order in which stages can be solved
 one after the other.
 
@@ -35,7 +35,7 @@ from codegen.ir.values import Coefficient, Kind, Var
 
 @dataclass(frozen=True)
 class Assign:
-    """targets = operation(args)."""
+    """The statement ``targets = operation(args)``."""
 
     targets: tuple[Var, ...]
     operation: Operation
@@ -73,8 +73,9 @@ class Solve:
 
     Statements after the block may read values of the body, which are then evaluated at the solution.
     ``starts`` are the first values of the unknowns: they have the kinds of the unknowns and are known before
-    the block. ``residuals`` may be empty. Otherwise there is one residual for each unknown, with the scale of
-    the unknown. All residuals are zero if and only if all unknowns equal their images.
+    the block. ``residuals`` may be empty. Otherwise there is one residual for each unknown. The residual must
+    be about as large as the error of the unknown. All residuals are zero if and only if all unknowns equal
+    their images.
     """
 
     label: str
@@ -82,8 +83,8 @@ class Solve:
     starts: tuple[Var, ...]
     body: tuple[Assign, ...]
     images: tuple[Var, ...]
-    # Residuals must have the scale of the unknowns, because the stopping rule compares residuals with
-    # unknowns.
+    # A residual must be about as large as the error of its unknown, because the stopping rule compares
+    # residuals with unknowns.
     residuals: tuple[Var, ...] = ()
 
 
@@ -178,7 +179,8 @@ class Builder:
 
     def fresh(self, name: str, kind: Kind) -> Var:
         """Return a variable called name; a number is appended if the name is taken."""
-        # The given name stays recognisable, because people read programs in --explain and in headers.
+        # A number is appended to the given name, so that people who read printed programs still recognise the
+        # name.
         candidate, n = name, 1
         while candidate in self.taken:
             n += 1
@@ -194,7 +196,7 @@ class Builder:
         return var
 
     def identity(self, target: str) -> Var:
-        """Append target = e."""
+        """Append target = e, where e is the neutral element of the group."""
         return self.add(Identity(), target)
 
     def exp(self, target: str, x: Var) -> Var:

@@ -94,7 +94,7 @@ class Legendre(OfGroup):
 
 @dataclass(frozen=True)
 class Energy(OfGroup):
-    """H(y)."""
+    """The energy H(y) at the point y."""
 
     name = "energy"
     takes, gives = P, R
@@ -103,8 +103,8 @@ class Energy(OfGroup):
 
 @dataclass(frozen=True)
 class Differential(OfGroup):
-    """The differential R*_y dH of the energy at y: its pairing with e is d/deps H(exp(eps e).y) at eps =
-    0."""
+    """The differential R*_y dH of the energy at y: its pairing with an element e of the Lie algebra is d/deps
+    H(exp(eps e).y) at eps = 0."""
 
     name = "differential"
     evaluates_scene = True
@@ -156,13 +156,13 @@ class TaylorStep(Operation):
         return P + R if self.timed else P, P
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         return problem.apply(domain, self.name, self.degree, args)
 
 
 @dataclass(frozen=True)
 class CayleyElement(OfGroup):
-    """cay(x) = (1 - x/2)^-1 (1 + x/2)."""
+    """The Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2) of an element x of the Lie algebra."""
 
     name = "cay"
     exponentials = 1
@@ -172,8 +172,8 @@ class CayleyElement(OfGroup):
 
 @dataclass(frozen=True)
 class Sandwich(OfGroup):
-    """The product x y x of matrices or of quaternions. For a quadratic group it is in the Lie algebra if x
-    and y are."""
+    """The product x y x of matrices or of quaternions. For a quadratic group the product is in the Lie
+    algebra if x and y are in the Lie algebra."""
 
     linear_in_last = True
     name = "sandwich"
@@ -218,7 +218,7 @@ class FlowOf(Operation):
         return G + D + (R if self.timed else NONE), G + D
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         return problem.flow(domain, self.part, self.duration.evaluate(domain), args)
 
 
@@ -269,7 +269,7 @@ class FlowFor(Operation):
         return G + D + (R if self.timed else NONE) + R, G + D
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         # The duration is the last argument, so that state and time have the same positions as in FlowOf.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 CHOOSE, ABSOLUTE = "choose", "fabs"
 
 SELECTING = (CHOOSE, ABSOLUTE)
-"""The functions of this module, without the tables."""
+"""The functions that select a formula and have a fixed name. Tables also select a formula, but are not in
+this list."""
 
 
 class Kink(ArithmeticError):

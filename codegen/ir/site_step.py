@@ -29,7 +29,7 @@ BYTES = 8
 
 @dataclass(frozen=True)
 class Row:
-    """A row of an array."""
+    """Row ``number`` of the array ``array``."""
 
     array: str
     number: int
@@ -49,12 +49,12 @@ class Load:
 class Sweep:
     """One loop over all sites: output k of ``kernel`` is stored in row k of ``stores``.
 
-    ``about`` describes the sweep by operations of the program. A site at the boundary has no neighbours
-    outside the lattice: there output k of ``outside`` is used in place of the number that load k of
-    ``read_outside`` would read. ``outside`` is None if nothing has to be replaced, as in a periodic lattice.
-    A sweep over pairs of neighbours has an ``axis``. Its neighbour 0 is the other site of the pair, and the
-    second half of its stores is at this neighbour. A sweep that ends an iteration for the equations u = g(u)
-    has the symbols ``unknowns``. Its first outputs are their images g(u), which replace the unknowns. Such a
+    ``about`` describes the sweep by operations of the program. If a neighbour lies outside the lattice,
+    output k of ``outside`` replaces the number that load k of ``read_outside`` would read there. ``outside``
+    is None if nothing has to be replaced, as in a periodic lattice. A sweep over pairs of neighbours has an
+    ``axis``. For such a sweep, neighbour 0 is the other site of the pair, and the second half of ``stores``
+    belongs to this other site. A sweep that ends an iteration for the equations u = g(u) has the symbols
+    ``unknowns``. The first outputs of its kernel are the images g(u), which replace the unknowns. Such a
     sweep also stores two numbers for each site, in the rows ``measured``: the largest change of an unknown,
     and the largest absolute value of an unknown.
     """
@@ -113,9 +113,9 @@ class SiteNewton:
 @dataclass(frozen=True)
 class SiteBlock:
     """Equations u = g(u) for unknowns at all sites. The sweeps with the indices ``first`` to ``last`` compute
-    the images g(u) and replace the unknowns by them. With ``newton``, they store the residuals g(u) - u
-    instead. They are repeated until the unknowns of all sites converge. Sweeps before ``first`` store the
-    first values of the unknowns."""
+    the images g(u) and replace the unknowns by them. If ``newton`` is given, these sweeps store the residuals
+    g(u) - u instead, and Newton's method changes the unknowns. The sweeps are repeated until the unknowns of
+    all sites converge. Sweeps before ``first`` store the first values of the unknowns."""
 
     label: str
     unknowns: tuple[str, ...]
@@ -127,8 +127,8 @@ class SiteBlock:
 @dataclass(frozen=True)
 class SiteFlow:
     """One flow of a step that composes flows. ``sweep`` is the index of the sweep, and ``duration`` is in
-    units of h. ``colour`` (0 or 1) is the set of pairs: the parity of the index of the first site of each
-    pair."""
+    units of h. In a sweep over pairs, ``colour`` (0 or 1) selects the pairs: it is the parity of the index of
+    the first site of each pair."""
 
     sweep: int
     colour: int
@@ -139,9 +139,9 @@ class SiteFlow:
 class SiteStep:
     """One step of a lattice: sweeps in order, and the number of ``rows`` in which they store values.
 
-    If there are ``flows``, the step is this sequence of sweeps. The first and the last flow sweep over all
-    sites. The first flow reads the old state; all others change the new state in place. ``blocks`` are the
-    equations of an implicit method, in order.
+    If there are ``flows``, the step executes the sweeps of these flows, one after the other. The sweeps of
+    the first and of the last flow visit every site. The first sweep reads the old state; all other sweeps
+    change the new state in place. ``blocks`` are the equations of an implicit method, in order.
     """
 
     dimension: int
@@ -214,7 +214,7 @@ def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     """Return the numbers of doubles that sweeps read and write for each site. A number that a sweep reads at
     several sites is counted once, because the other reads find it in the cache."""
     listed = list(sweeps)
-    # The pairs of one set contain each site once.
+    # A sweep over pairs is counted in the same way, because its pairs contain each site at most once.
     read = sum(len(sweep.rows_read) for sweep in listed)
     return read, sum(map(_stored, listed))
 

@@ -28,7 +28,7 @@ class StatedStep(Operation):
         return f"{self.name}({self.step})"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         y, t = args
         scene = cast("Problem", problem)
         return (scene.stated_step(domain, self.step, y, t),)

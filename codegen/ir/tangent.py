@@ -21,7 +21,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
     ((y * dx), 0)
     """
     known: dict[int, Expr] = {}
-    # One call of a derivative gives the tangents of all results of a vector function.
+    # The tangents of all results of a vector function are computed together; this table stores them until
+    # their nodes are visited.
     together: dict[tuple[str, tuple[int, ...]], tuple[Expr, ...]] = {}
     for node in walk(roots):
         # A symbol without a seed is constant.
@@ -51,8 +52,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
         # that is not constant.
         for k, rate in moving:
             total = total + slopes[k] * rate
-        # Terms may cancel. A zero is not entered in the table, so that nodes that contain this node treat it
-        # as constant.
+        # Terms may cancel. A zero is not entered in the table, so that all nodes that have this node as an
+        # argument treat the argument as constant.
         if not total.is_zero:
             known[node.id] = total
     return tuple(known.get(root.id, root.space.zero) for root in roots)

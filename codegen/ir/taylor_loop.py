@@ -73,8 +73,8 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
         x = work.of(slope)
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
-    # The list grows in the loop: a sine in a derivative needs the series of the cosine, which needs further
-    # sums.
+    # The list ``work.pairs`` grows in this loop: a sine in a derivative needs the series of the cosine, which
+    # needs further sums.
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
@@ -151,7 +151,7 @@ class _Loop:
         return self.space.sym(f"first.{self.positions[x.id]}")
 
     def inner(self, a: Series, b: Series) -> Expr:
-        """Return the sum of a_j b_{n-j} over 0 < j < n."""
+        """Return the symbol of the inner sum of a and b, which is the sum of a_j b_{n-j} over 0 < j < n."""
         key = min(id(a), id(b)), max(id(a), id(b))
         if key not in self.places:
             self.places[key] = len(self.pairs)
@@ -159,7 +159,7 @@ class _Loop:
         return self.space.sym(f"sum.{self.places[key]}")
 
     def product(self, a: Series, b: Series) -> Expr:
-        """Return coefficient n of a b."""
+        """Return coefficient n of the product of the series a and b."""
         x, y = self.known[id(a)], self.known[id(b)]
         if x is None or y is None:
             constant, other = (a, y) if x is None else (b, x)
@@ -198,13 +198,15 @@ class _Loop:
                 return self.function(series)
 
     def function(self, series: Series) -> Expr:
-        """Return coefficient n of a root, a power or a function."""
+        """Return coefficient n of a series that is not a result of arithmetic, for example of a root, a power
+        or a sine."""
         space = self.space
         match series:
             case Root(a=a):
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # sum_j (e j - (n - j)) a_j p_{n-j}/n = sum_j ((e + 1) j/n - 1) a_j p_{n-j}
+                # The recurrence of p = a^e is written such that only the slopes j a_j have the factor 1/n:
+                # sum_j (e j - (n - j)) a_j p_{n-j}/n = sum_j ((e + 1) j/n - 1) a_j p_{n-j}.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest

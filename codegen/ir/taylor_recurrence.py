@@ -1,7 +1,7 @@
 """Taylor coefficients of the solution of y' = F(y, t): the series of the expressions of F.
 
-Each product of two series costs a convolution. Therefore products, quotients and roots of one expression are
-written as a power of it, and numeric factors are moved out of products.
+Each product of two series costs a convolution. Therefore products, quotients and roots of powers of one
+expression are written as a single power of this expression, and numeric factors are moved out of products.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ class _Builder:
         return node.args
 
     def monomial(self, root: Expr) -> tuple[Number, Expr, Fraction]:
-        """Return (c, x, e) such that the node equals c x^e, for a number c, an expression x and a rational
+        """Return (c, x, e) such that ``root`` equals c x^e, for a number c, an expression x and a rational
         exponent e."""
         for node in walk([root], lambda n: n.id in self.monomials):
             if node.id not in self.monomials:
@@ -168,7 +168,7 @@ class _Builder:
         return Given(self.domain, self.domain.rational(1))
 
     def multiple(self, number: Number, a: Series) -> Series:
-        """Return c a."""
+        """Return the product of a number and a series."""
         return a if number.is_one else Multiple(self.domain, number, a)
 
     def power(self, a: Series, base: Expr, exponent: Fraction) -> Series:
@@ -209,7 +209,7 @@ class _Builder:
                 self.shared[key] = Logarithm(domain, a)
             case "sin" | "cos":
                 # The recurrence of the sine contains coefficients of the cosine, and the recurrence of the
-                # cosine contains coefficients of the sine.
+                # cosine contains coefficients of the sine. Both series are therefore created together.
                 sine, cosine = (
                     Circular(domain, "sin", a, slope, False),
                     Circular(domain, "cos", a, slope, True),

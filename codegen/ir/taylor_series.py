@@ -66,21 +66,21 @@ class Given(Series):
 
 
 class Sum(Series):
-    """a + b, or a - b."""
+    """The sum a + b of two series, or their difference a - b."""
 
     def __init__(self, domain: Domain, a: Series, b: Series, minus: bool) -> None:
         super().__init__(domain)
         self.a, self.b, self.minus = a, b, minus
 
     def following(self, n: int) -> Coefficient:
-        """Return a_n + b_n, or a_n - b_n."""
+        """Return coefficient n of the result: a_n + b_n, or a_n - b_n."""
         return (
             _subtract(self.a.term(n), self.b.term(n)) if self.minus else _add(self.a.term(n), self.b.term(n))
         )
 
 
 class Multiple(Series):
-    """c a for a number c."""
+    """The product c a of a number c and a series a."""
 
     def __init__(self, domain: Domain, number: Number, a: Series) -> None:
         super().__init__(domain)
@@ -92,7 +92,7 @@ class Multiple(Series):
 
 
 class Convolution(Series):
-    """a b."""
+    """The product a b of two series."""
 
     def __init__(self, domain: Domain, a: Series, b: Series) -> None:
         super().__init__(domain)
@@ -104,7 +104,7 @@ class Convolution(Series):
 
 
 class Quotient(Series):
-    """a/b."""
+    """The quotient a/b of two series."""
 
     def __init__(self, domain: Domain, a: Series, b: Series) -> None:
         super().__init__(domain)
@@ -112,7 +112,7 @@ class Quotient(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return (a_n - sum_{j>0} b_j q_{n-j})/b_0."""
+        """Return coefficient n of the quotient q = a/b: (a_n - sum_{0<j<=n} b_j q_{n-j})/b_0."""
         if n == 0:
             self.inverse = self.domain.rational(1) / self.b.term(0)
             return multiplied(self.a.term(0), self.inverse)
@@ -129,7 +129,7 @@ class Root(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0)."""
+        """Return coefficient n of the root s: (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0) for n > 0."""
         if n == 0:
             root = self.domain.call("sqrt", self.a.term(0))
             self.inverse = self.domain.rational(1, 2) / root
@@ -139,7 +139,7 @@ class Root(Series):
 
 
 class Power(Series):
-    """a^e for a rational number e with the denominator 1 or 2."""
+    """The power a^e of a series, for a rational number e with the denominator 1 or 2."""
 
     def __init__(self, domain: Domain, a: Series, exponent: Fraction) -> None:
         super().__init__(domain)
@@ -148,7 +148,7 @@ class Power(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_{j>0} (e j - (n - j)) a_j p_{n-j}/(n a_0)."""
+        """Return coefficient n of p = a^e: for n > 0, sum_{0<j<=n} (e j - (n - j)) a_j p_{n-j}/(n a_0)."""
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self._first(self.a.term(0))
@@ -172,7 +172,7 @@ class Power(Series):
 
 
 class Square(Series):
-    """a^2."""
+    """The square a^2 of a series."""
 
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
@@ -184,7 +184,7 @@ class Square(Series):
 
 
 class Slope(Series):
-    """j a_j, the coefficients of t a'(t)."""
+    """The series t a'(t), which has the coefficients j a_j."""
 
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
@@ -196,21 +196,21 @@ class Slope(Series):
 
 
 class Exponential(Series):
-    """exp(a)."""
+    """The exponential exp(a) of a series."""
 
     def __init__(self, domain: Domain, a: Series, slope: Series) -> None:
         super().__init__(domain)
         self.a, self.slope = a, slope
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_{j>0} j a_j e_{n-j}/n."""
+        """Return coefficient n of e = exp(a): sum_{0<j<=n} j a_j e_{n-j}/n for n > 0."""
         if n == 0:
             return self.domain.call("exp", self.a.term(0))
         return _mean(self.domain, self.slope, self, n)
 
 
 class Logarithm(Series):
-    """log(a)."""
+    """The logarithm log(a) of a series."""
 
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
@@ -219,7 +219,7 @@ class Logarithm(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return (a_n - sum_{0<j<n} j l_j a_{n-j}/n)/a_0."""
+        """Return coefficient n of l = log(a): (a_n - sum_{0<j<n} j l_j a_{n-j}/n)/a_0 for n > 0."""
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self.domain.call("log", self.a.term(0))
@@ -229,7 +229,8 @@ class Logarithm(Series):
 
 
 class Antiderivative(Series):
-    """f(a) for a function f of the mathematical library, from f(a)' = r a'. The series r is ``rate``."""
+    """The series f(a) for a function f of the mathematical library. It is computed from f(a)' = r a', where
+    the series r is ``rate``."""
 
     rate: Series
 
@@ -238,15 +239,15 @@ class Antiderivative(Series):
         self.name, self.a, self.slope = name, a, slope
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_{j>0} j a_j r_{n-j}/n."""
+        """Return coefficient n of f(a): sum_{0<j<=n} j a_j r_{n-j}/n for n > 0."""
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
         return _mean(self.domain, self.slope, self.rate, n)
 
 
 class Circular(Series):
-    """sin(a) or cos(a), according to its name; ``other`` is the series of the cosine or sine of the same
-    argument."""
+    """The sine or the cosine of a series a, according to ``name``; ``other`` is the other one of these two
+    series."""
 
     other: Circular
 
@@ -255,7 +256,8 @@ class Circular(Series):
         self.name, self.a, self.slope, self.minus = name, a, slope, minus
 
     def following(self, n: int) -> Coefficient:
-        """Return +-sum_{j>0} j a_j o_{n-j}/n for the coefficients o of the other function."""
+        """Return coefficient n: for n > 0, sum_{0<j<=n} j a_j o_{n-j}/n with the coefficients o of ``other``,
+        or minus this sum for the cosine."""
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
         mean = _mean(self.domain, self.slope, self.other, n)
@@ -273,7 +275,7 @@ class Angle(Series):
         self.rates = Quotient(domain, x, size), Quotient(domain, y, size)
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_{j>0} (j y_j (x/r)_{n-j} - j x_j (y/r)_{n-j})/n."""
+        """Return coefficient n: for n > 0, sum_{0<j<=n} (j y_j (x/r)_{n-j} - j x_j (y/r)_{n-j})/n."""
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
@@ -288,7 +290,7 @@ class Chosen(Series):
         self.test, self.a, self.b = test, a, b
 
     def following(self, n: int) -> Coefficient:
-        """Return a_n or b_n."""
+        """Return a_n or b_n, as the sign decides."""
         a, b = self.a.term(n), self.b.term(n)
         if a is None and b is None:
             return None
@@ -310,7 +312,8 @@ class Start(Series):
 
 def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
     """Return the series of a table at a: the polynomial of the interval that contains a_0."""
-    # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum. Horner's rule needs a product for each power.
+    # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum. Horner's rule takes one product of series for
+    # each power.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
     while derivatives[-1].degree:
@@ -328,7 +331,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
 
 
 def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
-    """Return sum_j a_j b_{n-j}, for 0 <= j <= n."""
+    """Return coefficient n of the product a b: the sum of a_j b_{n-j} over 0 <= j <= n."""
     if a is b:
         return _square(domain, a, n)
     return _total(multiplied(a.term(j), b.term(n - j)) for j in _late_last(n, range(n + 1)))
@@ -358,7 +361,7 @@ def _late_last(n: int, indices: range) -> list[int]:
 
 
 def _total(terms: Iterable[Coefficient]) -> Coefficient:
-    """Return the sum of terms in order."""
+    """Return the sum of terms, added in the given order."""
     total: Coefficient = None
     for x in terms:
         total = _add(total, x)

@@ -1,4 +1,5 @@
-"""The operation of step programs that advances the momentum u of the time for a linear step y -> M(t) y."""
+"""The operation of step programs that advances u, the momentum conjugate to the time, for a linear step y ->
+M(t) y."""
 
 from __future__ import annotations
 
@@ -20,12 +21,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeMomentum(Operation):
-    """The point (Y, u + Y^T J Y'/2), where Y' is the derivative of the step with respect to t for fixed y, h.
+    """The point (Y, u + Y^T J Y'/2), where Y' is the derivative of Y with respect to t for fixed y and h.
 
     The arguments are the points (y, u) and (Y, u) before and after the step, and the time t. ``step`` is the
     program that computes (Y, u) from the inputs (y, u) and t. If the domain consists of expressions, Y is
-    differentiated directly. In all other domains ``step`` is first evaluated in expressions; their derivative
-    is formed, and its value in the domain is computed.
+    differentiated directly. In all other domains, ``step`` is first evaluated with symbols. The resulting
+    expressions are differentiated, and the derivatives are evaluated in the domain.
     """
 
     step: Program
@@ -34,7 +35,7 @@ class TimeMomentum(Operation):
     noun = "momentum{s} of the time"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
+        """Return the results; arguments and results are values of ``domain``."""
         start, end, t = args
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)

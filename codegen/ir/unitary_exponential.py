@@ -9,8 +9,9 @@ of openQCD). H is first halved s times, until the bound 2 (p/3)^(1/2) of its eig
 result is squared s times. The squares are computed as products of matrices and not from p and q. For a large
 matrix the rounding error of q would change exp X by much more than the rounding errors of the entries of X.
 
-The arguments are the coordinates of X. For j < k, row by row, these are the coefficients of E_jk - E_kj and
-of i (E_jk + E_kj); the last two are the coefficients of i (E_11 - E_22) and i (E_22 - E_33).
+The arguments are the eight coordinates of X. Let E_jk be the matrix with the entry 1 at (j, k) and zeros
+elsewhere. For each j < k, row by row, there are two coordinates: the coefficients of E_jk - E_kj and of i
+(E_jk + E_kj). The last two coordinates are the coefficients of i (E_11 - E_22) and i (E_22 - E_33).
 """
 
 from __future__ import annotations
@@ -81,7 +82,8 @@ class SpecialUnitaryExponential(VectorFunction):
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of the general exponential."""
+        """Return the derivative of the results, computed as the derivative of the exponential
+        :data:`GENERAL`."""
         zero = args[0].space.zero
         both = (*embedded(args, zero), *embedded(rates, zero))
         general = MatrixExponential(2 * ROWS, 1)
@@ -178,7 +180,8 @@ def determinant(x: Sequence[Any]) -> Any:
 def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
     """Return H^2: its diagonal, then real and imaginary part of the entries above the diagonal.
 
-    For j < k the entry of H is b - i a with the coordinates a and b.
+    For j < k, the entry (j, k) of H is b - i a, where a and b are the two coordinates of X for this pair (j,
+    k).
     """
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
@@ -201,7 +204,8 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         imaginary[(ROWS + 1) * j] = (v[2] * square[j] + v[1] * h) + v[0]
     for m, (j, k) in enumerate(PLACES):
         a, b, re, im = x[2 * m], x[2 * m + 1], square[ROWS + 2 * m], square[ROWS + 2 * m + 1]
-        # Real and imaginary part of the entries (j, k) of the two Hermitian matrices.
+        # (p, q) and (r, s) are the real and imaginary parts of the entries (j, k) of the Hermitian matrices
+        # u_0 + u_1 H + u_2 H^2 and v_0 + v_1 H + v_2 H^2.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
@@ -210,14 +214,15 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
 
 
 def _polynomial(y: list[float], norm: float) -> list[float]:
-    """Return the Taylor polynomial of the least degree that is accurate for matrices of this norm."""
+    """Return the Taylor polynomial of the least degree that is accurate for matrices of norm at most
+    ``norm``."""
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     p, q = half_trace(y), determinant(y)
     parts = [c[4 * groups], 0.0, 0.0], [0.0, 0.0, 0.0]
     for group in reversed(range(groups)):
         for k in (3, 2, 1, 0):
-            # i^k = 1, i, -1, -i
+            # i^k = 1, i, -1, -i for k = 0, 1, 2, 3.
             added = (0.0, c[4 * group + k]) if k % 2 else (c[4 * group + k], 0.0)
             for part, term in zip(parts, added, strict=True):
                 signed = -term if k >= 2 else term

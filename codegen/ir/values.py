@@ -31,7 +31,7 @@ class Var:
 
 @dataclass(frozen=True)
 class Coefficient:
-    """value * h**power."""
+    """The coefficient ``value`` * h**``power`` of a linear combination."""
 
     value: Number
     power: int = 0
@@ -53,7 +53,7 @@ class Coefficient:
         return f"{self.value.text()}{h}"
 
     def evaluate(self, domain: Domain) -> Scalar:
-        """Return the coefficient in a domain."""
+        """Return the value of the coefficient in a domain."""
         value = domain.number(self.value)
         # h^p c is computed as one scalar. Terms with equal coefficients share this scalar.
         for _ in range(self.power):

@@ -1,7 +1,7 @@
 """Vector functions: functions of arrays whose result is an array, for example the matrix exponential.
 
-In expressions each result is a node: a call of ``NAME.k`` with all scalars of the arrays as arguments is the
-k-th result (:mod:`codegen.ir.vector_calls`). Nodes with the same arguments share one call in emitted code.
+In expressions, result k is a node: the call of the function ``NAME.k``, whose arguments are all scalars of
+the arrays (:mod:`codegen.ir.vector_calls`). Nodes with the same arguments share one call in emitted code.
 """
 
 from __future__ import annotations

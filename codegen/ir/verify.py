@@ -48,7 +48,7 @@ class _Verifier:
 
     def define(self, var: Var, at: str | Assign) -> None:
         """Record a definition; raise :class:`IllFormed` for a name that is already defined."""
-        # Names are compared and not variables, because two variables of one name and different kinds would
+        # The test compares names, not variables: two variables with the same name and different kinds would
         # have the same identifier in emitted code.
         if var.name in self.names:
             raise IllFormed(f"{self.program.name}: {var.name} is assigned twice, at {_place(at)}")

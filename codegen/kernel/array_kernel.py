@@ -101,7 +101,8 @@ def _model(timed: bool) -> Problem:
 def array_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of an explicit program on a scene whose field is given by formulas of matrices.
 
-    MethodError is raised for implicit stages and for operations without a formula for generators of low rank.
+    MethodError is raised for implicit stages and for operations that have no formula for elements of the form
+    B S B^T, where B is the basis and S the core.
     """
     assert scene.matrices is not None
     step = _Builder(program, scene, scene.matrices).step()
@@ -115,7 +116,7 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass
 class _Builder:
-    """Collects the statements of one step; :mod:`codegen.ir.array_step` defines basis, core and
+    """Collects the statements of one step; :mod:`codegen.ir.array_step` explains the words basis, core and
     displacement."""
 
     program: Program
@@ -137,7 +138,7 @@ class _Builder:
         self.one = self.domain.space.one
 
     def step(self) -> ArrayStep:
-        """Return the step."""
+        """Return the step of the program, as statements about arrays."""
         first = self.basis.part(0, 0, self.matrices.rows, self.k)
         self.sum(first, (self.one, self.argument))
         self.body.append(Multiplication(self.gram.part(0, 0, self.k, self.k), first, first, True))
@@ -205,7 +206,8 @@ class _Builder:
         return target
 
     def displaced(self, target: Matrix, displacement: Matrix | None) -> None:
-        """Append target = X_0 + B D."""
+        """Append target = X_0 + B D, where D is the displacement; without a displacement, append target =
+        X_0."""
         self.sum(target, (self.one, self.argument))
         if displacement is not None:
             columns = self.basis.part(0, 0, self.matrices.rows, displacement.rows)
@@ -248,7 +250,8 @@ class _Builder:
         return core
 
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
-        """Return a statement of the field, in which the parameters and the time have their values."""
+        """Return a statement of the field in which the values of the parameters and of the time replace their
+        symbols."""
         values = {**self.scene.scalars(self.domain, t)}
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 

@@ -63,8 +63,9 @@ class Assignments:
                     inside.append(Let(name, value))
             # An exact matrix depends on the unknowns and reads body values, so it comes after the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # In the last sweep, Newton's method corrects the unknowns after the body. The body values of this
-            # sweep were computed from the unknowns before the correction.
+            # In the last sweep, Newton's method corrects the unknowns after the body has been computed. If
+            # the block has residuals, or if little work is needed, body values that are read later are
+            # therefore computed again from the corrected unknowns.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -83,7 +84,8 @@ class Assignments:
         return tuple(self.body)
 
     def _prepare(self) -> None:
-        """Find for each node the number of its uses, and the last block whose unknowns it depends on."""
+        """Find for each node the number of its uses, and the last block on whose unknowns the node
+        depends."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         # Entries of Newton's matrix count as readers, so a body value that a matrix reads gets a name.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
@@ -127,7 +129,8 @@ class Assignments:
 
     def _newton(self, block: Block) -> Newton:
         """Return Newton's matrix with the assignments that it needs in addition to the existing ones."""
-        # The matrix is computed in some sweeps only, so no later line may read names defined for it.
+        # The matrix is computed in some sweeps only, so no later statement may read the names that are
+        # defined for the matrix.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
@@ -140,19 +143,18 @@ class Assignments:
     def _is_short(self, k: int) -> bool:
         """Return True if the values of block k that are read after the loop should be computed again."""
         rest = [*self._later(k), *self.roots]
-        # If it costs less than half of a sweep, the values are computed again from the final unknowns, as in
-        # one more sweep.
+        # The values are computed again from the final unknowns if this costs less than half of a sweep.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
         """Return the cost of the operations in ``roots`` that depend on block k and on no later block."""
-        # Nodes that do not depend on block k, or depend on a later block, are computed once in either case.
+        # All other nodes are computed once, whether or not the values of block k are computed again.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
     def _forget(self, k: int) -> None:
         """Delete the names of body values of block k, so that later statements compute these values again."""
-        # If a value has no entry, ``_place`` computes it again, from the corrected unknowns.
+        # If a value has no entry in ``done``, ``_place`` computes it again, from the corrected unknowns.
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
             if self.level[node.id] == k and node.args:
@@ -169,8 +171,8 @@ class Assignments:
             # inside the loop.
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
-            # The node is built without simplification, so that its value is rounded like the shared
-            # expression.
+            # The node is built without simplification, so that the named subexpressions do not change its
+            # rounding error.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
             # A value from outside the loop needs a name even if it has one reader. Without a name it would be

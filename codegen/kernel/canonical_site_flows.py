@@ -1,8 +1,8 @@
 """From splittings of a Hamiltonian lattice to sweeps.
 
-Flows of one site that follow one another in a step form one sweep, so the state is read and written once for
-all of them. A kick reads the elements q of neighbours and changes only the momenta, so its sweep can work in
-place.
+Flows that move each site without its neighbours form one sweep if they follow one another in a step. The
+state is then read and written once for all of them. A kick reads the elements q of neighbours but changes
+only the momenta, so the sweep of a kick can overwrite the state.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ def canonical_kernel(scene: Problem, label: str, word: Sequence[tuple[Summand, N
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # The durations of the flows of a sweep are multiples of the first. Runs with the same multiples use
-        # the same sweep.
+        # A run is a sequence of flows that form one sweep. In the sweep, all durations are multiples of the
+        # first duration, so runs with the same flows and the same multiples share a sweep.
         first = run[0][2]
         ratios = [(name, flow, duration / first) for name, flow, duration in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -84,7 +84,8 @@ def _copy(scene: Problem, label: str) -> Sweep:
 
 
 def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
-    """Return the sweep for flows of single sites; in its kernel h is the duration of the first flow."""
+    """Return the sweep for flows of single sites. In the kernel of the sweep, h is the duration of the first
+    flow."""
     ends = _moved(scene, SharedArguments(), run)
     loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))
     stores = tuple(Row(RESULT, k) for k in range(len(scene.symbols)))
@@ -92,7 +93,7 @@ def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 
 
 def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
-    """Return the sweep for a kick; in its kernel h is the duration."""
+    """Return the sweep for a kick. In the kernel of the sweep, h is the duration of the kick."""
     sites = scene.sites
     assert sites is not None
     domain = SharedArguments()
@@ -116,7 +117,8 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 
 
 def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> list[Expr]:
-    """Return the coordinates of a site after the flows."""
+    """Return the coordinates of a site after the flows of ``run``, as functions of the coordinates before
+    them."""
     assert scene.sites is not None
     group, size = scene.group.require(Coadjoint), len(scene.state[0].symbols)
     fixed = {s: domain.space.sym(s) for s in scene.sites.names} | scene.scalars(domain)

@@ -37,7 +37,7 @@ class Frames:
 
     @property
     def _size(self) -> int:
-        """The number of components of the state before the momentum."""
+        """The number of coordinates of the group element q. In the state, they precede the momentum."""
         group = self.scene.body_group or self.scene.group
         return int(group.size)
 

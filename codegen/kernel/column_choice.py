@@ -77,8 +77,8 @@ def _shortest(kernels: Sequence[Kernel]) -> Kernel:
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
-    """Return the estimated time of a step, in units of an addition, and its number of operations. Of two
-    kernels with equal times, the kernel with fewer operations is used.
+    """Return the estimated time of a step, in units of an addition, and the number of operations of the step.
+    Of two kernels with equal times, the kernel with fewer operations is used.
     """
     nodes = walk(kernel.expressions())
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)

@@ -37,8 +37,9 @@ repeat this comparison, edit the value and run ``orderconds regenerate --check``
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products, each with at most one late value. A late value is the result of a slow operation. For
-each late value: the sign, the product of the fixed factors, and the product of the other factors.
+"""A sum of products, each with at most one late value: the result of a slow operation. The dictionary
+contains, for each late value, a sign, the product of the factors that are constant in a run, and the product
+of the other factors.
 
 The key None belongs to the product without a late value."""
 
@@ -160,7 +161,7 @@ class _Chains:
                     continue
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # A product is linear in late values if its other factor is known earlier.
+                # A product is linear in the late values of one factor if the other factor is known earlier.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
@@ -201,8 +202,8 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # Late values are slow results, such as sines. This node is not linear in the late values before it,
-        # so the node counts as a late value itself.
+        # Either this node is the result of a slow operation, such as a sine, or it is not linear in late
+        # values. In both cases the node itself counts as a late value.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
@@ -232,7 +233,7 @@ class _Chains:
         return value if sign > 0 else self._known(-value)
 
     def _combined(self, node: Expr) -> Expr:
-        """Return a product with its fixed factors multiplied first; they do not change between steps."""
+        """Return a product in which the factors that are constant in a run are multiplied first."""
         if node.op != "mul":
             return node
         # c1 (c2 x) = (c1 c2) x, for a fixed c1 on either side.

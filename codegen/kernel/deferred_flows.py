@@ -25,7 +25,8 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Parted:
-    """A program split into three; ``begin`` or ``finish`` is None if it would contain no flows.
+    """A program that is split into three programs; ``begin`` or ``finish`` is None if it would contain no
+    flows.
 
     ``begin`` is applied before the first step, ``core`` in each step and ``finish`` after the last step.
     ``core`` reads a variable :data:`LEAD`, the duration of its joined flow, and ``finish`` a variable
@@ -60,8 +61,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # The durations of the first joined flow hold for all of them: ``_joined`` returns only flows with equal
-    # durations.
+    # ``_joined`` returns only flows with equal durations, so the durations of the first joined flow are those
+    # of all joined flows.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]

@@ -26,7 +26,7 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
     """Return the kernels of a program whose outputs are the coefficients of a continuous extension."""
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))
-    # Functions are not outlined, because their names could be equal to names of functions of the step.
+    # ``COMBINED`` excludes outlined functions, whose names could be equal to names of functions of the step.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
     degree = len(program.outputs)
     return Continuous(coefficients, _moved(coefficients, problem), degree, order)

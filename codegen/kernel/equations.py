@@ -86,8 +86,8 @@ def compared(
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
         rows = linear.jacobian(residuals)
-    # A residual may have a pole or branch point at h = 0. None is returned, and the caller uses the exact
-    # matrix.
+    # A residual may have a pole or a branch point at h = 0. In this case None is returned, and the caller
+    # uses the exact matrix.
     except NotLinearised:
         return None
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)

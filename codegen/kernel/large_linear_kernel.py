@@ -105,7 +105,7 @@ class _Builder:
     moments: dict[Var, Expr] = field(default_factory=dict)
 
     def step(self) -> LinearArrayStep:
-        """Return the step."""
+        """Return the step of the program: its nodes, letters, commutators and exponents."""
         statements: dict[Var, Assign] = {}
         for statement in self.program.body:
             if not isinstance(statement, Assign):
@@ -175,7 +175,7 @@ class _Builder:
                 raise refused(self.scene, what, "exponents that are sums and brackets of values of A")
 
     def node(self, time: Expr) -> int:
-        """Return the number of the node at a time; evaluations of A at equal times are one node."""
+        """Return the index of the node at a time; evaluations of A at equal times share a node."""
         if time not in self.times:
             self.times.append(time)
         return self.times.index(time)
@@ -231,7 +231,7 @@ class _Builder:
         return Element(letter, tuple((c, number) for number, c in value.commutators.items()))
 
     def matrix(self) -> TimeMatrix:
-        """Return A(t) with the values of parameters that are not arguments of the emitted code."""
+        """Return A(t); parameters that are not arguments of the emitted code are replaced by their values."""
         space = self.domain.space
         values = {**self.scene.scalars(self.domain, space.sym(TIME))}
         values |= {index: space.sym(index) for index in (ROW, COLUMN)}
@@ -272,8 +272,8 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 
 
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
-    """Return two letters with the same commutator; if possible, the coefficients of one of them add up to
-    zero."""
+    """Return two letters whose commutator equals [x, y]. If possible, the coefficients of one of these
+    letters add up to zero."""
     totals = [_total(x), _total(y)]
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y

@@ -71,7 +71,7 @@ ZERO = Number.rational(0)
 @dataclass(frozen=True)
 class _Element:
     """The element h^power (a, b) of the algebra, where b is a linear combination of values of N. The zero
-    element has every power."""
+    element may be combined with elements of any power."""
 
     a: Number
     b: Sum
@@ -266,7 +266,8 @@ class _Execution:
     def _bracket(self, x: _Element, y: _Element) -> _Element:
         z = Multiplier.of(POWER, ONE)
         b = _sum([(z.scaled(x.a), y.b), (z.scaled(-y.a), x.b)])
-        # lambda is z/h, so the power of h is one less than in the product of the elements.
+        # The bracket contains the factor lambda = z/h, so its power of h is one less than the sum of the
+        # powers of x and y.
         return _Element(ZERO, b, x.power + y.power - 1)
 
     def _truncated(self, x: _Element, y: _Element, order: int) -> _Element:

@@ -72,7 +72,8 @@ class _AtZero(ExprDomain):
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return the call of a function: a constant if the argument is zero, otherwise a call node."""
-        # The closed forms of Stumpff functions are 0/0 at zero: use the first coefficients of their series.
+        # The closed forms of Stumpff functions are 0/0 at zero. Their values at zero are the first
+        # coefficients of their series, which :data:`AT_ZERO` contains.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]
             if value is None:
@@ -101,7 +102,8 @@ def inverse(rows: Rows) -> Rows:
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor
-    # The inverse takes one division and n^2 products, because a division costs several products.
+    # The inverse is computed with one division and n^2 products and not with n^2 divisions, because a
+    # division costs several products.
     factor = space.one / determinant
     return tuple(tuple(factor * cofactors[j][i] for j in range(n)) for i in range(n))
 

@@ -67,10 +67,11 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Return the number of each operation of a kernel, as :func:`operations` counts them.
 
-    A kernel without outputs is one of three kinds. For a Taylor polynomial, the computation of its
-    coefficients and its evaluation are counted. For a step with whole matrices, a typical number of terms of
-    each exponential is assumed. For a lattice, the operations of one site are counted; a flow of pairs counts
-    as one pair for each site. For a step on Fourier modes, transforms are counted.
+    Some kernels have no outputs, and their operations are counted in other ways. For a Taylor polynomial, the
+    computation of its coefficients and its evaluation are counted. For a step with whole matrices, a typical
+    number of terms of each exponential is assumed. For a lattice, the operations of one site are counted; for
+    a flow of pairs, these are the operations of one pair. For a step on Fourier modes, only the Fourier
+    transforms are counted.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}

@@ -102,7 +102,7 @@ def function(
     # The last assignment of the tree is its root. Only the results of the root are read outside the tree.
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
     outputs = tuple(ends[k] for k in read)
-    # An argument is dropped if only results that the function does not return depend on it.
+    # An argument is dropped if no result that the function returns depends on this argument.
     taken = inputs.read(outputs)
     own_inputs = [inputs.symbols[p].payload for p in taken]
     parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))

@@ -1,9 +1,10 @@
-"""Repeated trees: groups of assignments that occur several times, for one outlined function each.
+"""Repeated trees: groups of assignments that occur several times. Each of these groups becomes one outlined
+function.
 
-If only one operation reads a value, one function can compute both the value and the result of this operation:
-the two form a tree. Pairs of trees that occur often are joined to larger trees; pairs that save the most
-lines are joined first. Trees with equal keys have the same operations, but may have different operands and
-different coefficients in their sums.
+If only one operation reads a value, a single function can compute the value and the result of the operation
+that reads the value. The two operations then form a tree. Pairs of trees that occur often are joined to
+larger trees; pairs that save the most lines are joined first. Trees with equal keys have the same operations,
+but may have different operands and different coefficients in their sums.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ PairKey = tuple[Key, Key, Key]
 
 @dataclass(frozen=True)
 class Execution:
-    """An assignment as executed: the values of its arguments, its results, and the number of its block."""
+    """One executed assignment: the values of its arguments, its results, and the number of its block."""
 
     assign: Assign
     args: tuple[Values, ...]
@@ -93,7 +94,7 @@ class Trees:
         """Record an assignment in the block with number ``place``; -1 means outside blocks.
 
         ``joined`` is false if the results were not computed by the operation alone, or depend on more than
-        its arguments. Such an assignment is not joined with others.
+        ``args``. Such an assignment is not joined with others.
         """
         assign, args = self._from_the_whole(assign, args)
         self.executions.append(
@@ -140,7 +141,7 @@ class Trees:
                 # the function.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # A kind of pair includes the key of the joined tree, because two equal trees may be
+                    # The kind of a pair includes the key of the joined tree, because two equal trees may be
                     # connected in different ways.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
@@ -171,8 +172,8 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # If a tree of the pair also occurs outside such pairs, its own function remains, and the joined
-        # function repeats the lines of this function.
+        # If a tree of the pair also occurs outside such pairs, the function of this tree remains, and the
+        # function of the joined tree repeats the lines of the remaining function.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Joining replaces two calls by one at each occurrence, which saves about three lines of text.
         return k * 3 - copies

@@ -28,7 +28,7 @@ STUMPFF = {f"stumpff{k}": k for k in range(4)}
 
 @dataclass(frozen=True)
 class Assignment:
-    """The statement name = value, executed once."""
+    """The statement ``name = value``, executed once."""
 
     name: str
     value: Expr
@@ -36,7 +36,8 @@ class Assignment:
 
 @dataclass(frozen=True)
 class SharedCall:
-    """The statement names[i] = c_(orders[i])(argument), all results from one call."""
+    """One call that computes several Stumpff functions: ``names[i]`` is c_k(``argument``) for k =
+    ``orders[i]``."""
 
     names: tuple[str, ...]
     orders: tuple[int, ...]
@@ -50,8 +51,8 @@ class SharedCall:
 
 @dataclass(frozen=True)
 class Invocation:
-    """The statement name = function(arguments): one call returns all results of an outlined function or of a
-    vector function. The arguments of a vector function are passed as arrays.
+    """The statement ``name = function(arguments)``, in which one call returns all results of an outlined
+    function or of a vector function. The arguments of a vector function are passed as arrays.
     """
 
     name: str
@@ -171,7 +172,7 @@ def arrange(kernel: Kernel) -> Arrangement:
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
     )
-    # Errors are computed together with the outputs, so that they share calls.
+    # Error estimates are rewritten together with the outputs, so that both share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
     # The required Stumpff functions c_k are recorded before all statements, because the first call for an
     # argument computes every c_k that a later statement needs.

@@ -22,7 +22,8 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites, offset_text
 
 RECOMPUTED = (Linear, Zero, Advance)
-"""Operations whose results are computed again in each sweep that reads them, except stored sums."""
+"""Operations whose results are usually not stored: each sweep that reads such a result computes it again.
+Only sums that :mod:`codegen.kernel.site_plan` selects are stored."""
 
 EVALUATED = (Field, HamiltonianDerivatives)
 """Operations that read the states of neighbours."""
@@ -30,8 +31,8 @@ EVALUATED = (Field, HamiltonianDerivatives)
 
 @dataclass(frozen=True)
 class Content:
-    """The content of a sweep: a description, the rows that it stores with the variables whose values it
-    stores there, and the unknowns that it replaces by their images."""
+    """The content of a sweep: the description ``about``, and pairs ``stored`` of rows and the variable whose
+    value is stored in these rows. ``unknowns`` are the unknowns that the sweep replaces by their images."""
 
     about: str
     stored: tuple[tuple[tuple[Row, ...], Var], ...]
@@ -40,7 +41,7 @@ class Content:
 
 
 def blocks_of(problem: Problem) -> tuple[slice, ...]:
-    """Return the places of the blocks of a state among all coordinates."""
+    """Return, for each block of a state, the slice of its coordinates among all coordinates."""
     ends = tuple(accumulate(len(block.symbols) for block in problem.state))
     return tuple(slice(first, last) for first, last in zip((0, *ends), ends, strict=False))
 
@@ -141,7 +142,8 @@ class Execution:
         stores = tuple(row for rows, _ in content.stored for row in rows)
         unknowns = tuple(s for var in content.unknowns for s in self._names(var))
         kernel = self._scheduled(ends)
-        # The change of an unknown is computed from its old value, which the kernel need not read.
+        # The sweep needs the old values of the unknowns even if the kernel does not read them, because it
+        # also measures how much the unknowns change.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"} | set(unknowns)
         around = [s for s in read if s in self.ghosts]
         outside = None

@@ -25,7 +25,8 @@ from codegen.scene.sites import SitePart
 def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:
     """Return the program and the kernel of a splitting of a lattice.
 
-    MethodError is raised for a scene that depends on time, and for a tableau that does not suit the parts.
+    MethodError is raised for a scene that depends on time, and for a tableau that cannot be used with the
+    parts of the scene.
     """
     assert scene.sites is not None
     if not scene.autonomous:
@@ -62,7 +63,7 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
 
 
 def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
-    """Return the sweep for the flow of a part; in its kernel h is the duration of the flow."""
+    """Return the sweep for the flow of a part; in the kernel of the sweep, h is the duration of the flow."""
     domain, dim, size = SharedArguments(), scene.group.dim, len(scene.symbols)
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     symbols = {s: domain.space.sym(s) for own in names for s in own}

@@ -1,8 +1,8 @@
 """The matrix of Newton's method for the equations of a chain, to first order in h.
 
 The images of the unknowns of a site depend on the unknowns of the site and of its two neighbours, because the
-field reads the stages of the neighbours. The stages of all three sites are expressed by their unknowns, and
-the images are differentiated.
+field reads the stages of the neighbours. The stages of all three sites are expressed as functions of the
+unknowns of these sites. The images are then differentiated with respect to these unknowns.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ LEFT, RIGHT = (-1,), (1,)
 class Linearisation:
     """The derivatives of the images of one block by the unknowns of three sites.
 
-    ``rows`` are the rows of stored variables, ``given`` the variables of the old state, and ``makers`` the
-    assignments of variables.
+    ``rows`` are the rows of stored variables, ``given`` the variables of the old state, and ``makers`` maps
+    each computed variable to its assignment.
     """
 
     problem: Problem
@@ -86,8 +86,8 @@ class Linearisation:
         return SiteNewton(kernel, loads, exists, size, residual, border, matrix)
 
     def _columns(self) -> tuple[int | None, int, int | None]:
-        """Return the sites of the three blocks of a row; None for a neighbour that the field does not
-        read."""
+        """Return the three sites to whose unknowns the blocks of a matrix row belong: the left neighbour, the
+        site itself, and the right neighbour. A neighbour that the field does not read is None."""
         offsets = self.sites.offsets
         left, right = (offsets.index(x) if x in offsets else None for x in (LEFT, RIGHT))
         return left, OWN, right

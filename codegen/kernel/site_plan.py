@@ -26,7 +26,8 @@ from codegen.scene.problem import Problem
 from codegen.scene.sites import Sites
 
 MEASURED = 2
-"""The number of rows with the changes and the sizes of unknowns."""
+"""The number of rows that describe an iteration: for each site, one row stores the largest change of an
+unknown, the other row the largest absolute value of an unknown."""
 
 
 @dataclass
@@ -69,7 +70,7 @@ class Planner:
     newton: bool = False
 
     def step(self) -> SiteStep:
-        """Return the step."""
+        """Return the step of the program as a sequence of sweeps."""
         self._place()
         self._choose_sums()
         outputs = tuple(self.renamed.get(var, var) for _, var in self.program.outputs)
@@ -123,13 +124,13 @@ class Planner:
         )
 
     def _points(self, assign: Assign) -> tuple[Var, ...]:
-        """Return the arguments that an assignment reads at neighbours, too."""
+        """Return the arguments that an assignment reads both at its own site and at neighbours."""
         if not isinstance(assign.operation, EVALUATED):
             return ()
         return tuple(assign.args[k] for k in self.coupled)
 
     def _place(self) -> None:
-        """Find for each variable the first sweep that can compute it."""
+        """Find, for each variable, the first sweep that can compute the variable."""
         least = 0
         for var in self.program.inputs:
             self.sweep_of[var] = 0
@@ -168,7 +169,8 @@ class Planner:
         assign = self._rename(statement)
         self.order.append(assign)
         places = [self.sweep_of[arg] for arg in assign.args]
-        # Unknowns and the old state are stored already.
+        # A point that the field reads at neighbours must first be stored by an earlier sweep. Unknowns and
+        # the old state are stored already, so only points that an assignment computes are considered.
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         for target in assign.targets:
@@ -178,8 +180,9 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the sums to store: those that are the only reader of a term which the same sweep computes.
 
-        Without the sum, this term would be stored. A 2N scheme then stores one element of the Lie algebra for
-        any number of stages. In programs with equations no sums are stored.
+        If such a sum were not stored, the term would have to be stored. A 2N scheme (a low-storage
+        Runge-Kutta method) then stores only one element of the Lie algebra, whatever the number of stages. In
+        programs with equations no sums are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -196,7 +199,7 @@ class Planner:
                 self.sums.add(target)
 
     def _require(self, number: int, need: _Needs, roots: Iterable[Var]) -> None:
-        """Find the variables that a sweep needs for ``roots``."""
+        """Find the variables that a sweep needs to compute ``roots``, and add them to ``need``."""
         waiting = list(roots)
         while waiting:
             var = waiting.pop()
@@ -232,7 +235,8 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # A sweep may overwrite values that it reads for the last time, unless other sites read them too.
+            # A sweep may overwrite a value that no later sweep reads. If the sweep reads the value at
+            # neighbours, only the next sweep may overwrite the value.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]

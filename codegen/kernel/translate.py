@@ -72,8 +72,8 @@ def to_kernel(
     of a long step do not become functions (:mod:`codegen.kernel.outlining`).
 
     Raises :class:`codegen.errors.SceneError` if an operation of the group has no closed form,
-    :class:`codegen.ir.differentiate.NotDifferentiable` if Newton's method has no matrix, and
-    ZeroDivisionError if the matrix does not exist to first order.
+    :class:`codegen.ir.differentiate.NotDifferentiable` if the matrix of Newton's method contains a derivative
+    that does not exist, and ZeroDivisionError if the matrix does not exist to first order.
     """
     return _Translation(program, scene, solvers, variations, chains, whole, outlining).kernel()
 
@@ -122,7 +122,8 @@ class _Translation:
     def remember(self, var: Var) -> None:
         """Name the expressions of a variable after the variable."""
         for k, x in enumerate(flatten(var.kind, self.env[var])):
-            # If several variables have the same expression, it is named after the first of these variables.
+            # If several variables have the same expression, the expression is named after the first of these
+            # variables.
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(self, assign: Assign) -> None:
@@ -179,7 +180,7 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # Variations differentiate the images u = g(u), so residuals must not replace the images.
+        # With variations, the images g(u) are differentiated, so residuals must not replace the images.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
         # If the block has residuals, they are used with a first-order matrix, because this matrix costs less
@@ -237,7 +238,8 @@ class _Translation:
     def varied(self, variations: Variations, outputs: State) -> State:
         """Return the variation of the new state; add equations for the variations of all unknowns."""
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # The equations follow the block, because their coefficients are values at the solution of the block.
+        # The equations for the variations of the unknowns follow their block, because the coefficients of
+        # these equations are values at the solution of the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
         # Tangents are exact derivatives of the executed step, except that the stopping rule is not
@@ -245,7 +247,7 @@ class _Translation:
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
 
     def kernel(self) -> Kernel:
-        """Return the kernel."""
+        """Execute all statements of the program, and return its kernel."""
         start = self.begin()
         for statement in self.program.body:
             if isinstance(statement, Assign):

@@ -38,8 +38,8 @@ REPORT_HAMILTONIANS = {
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
 """Default methods of the report with step-size control. A figure has only eight colours for methods, and
-methods with equal steps need seven colours on Hamiltonian scenes. On these scenes only the first method of
-this list is used."""
+methods with equal steps need seven colours on Hamiltonian scenes. On these scenes, therefore, only the first
+method of this list is used."""
 
 README_METHODS = {
     "dipole": (

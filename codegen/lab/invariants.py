@@ -80,8 +80,9 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # The divisor is replaced by its absolute value and not by its magnitude. The magnitude may be
-            # larger, and the quotient would then be too small.
+            # The divisor is replaced by its absolute value and not by its magnitude. The magnitude of the
+            # divisor may be larger than its absolute value, and the magnitude of the quotient would then be
+            # too small.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

@@ -72,7 +72,7 @@ class Measurement(ABC, Generic[R]):
         return None
 
     def files(self, result: R, subject: Subject) -> Mapping[str, str]:
-        """Return files to write beside the page, by name."""
+        """Return the files to write into the folder of the page: the content of each file by its name."""
         return {}
 
     def result(self, subject: Subject) -> R:

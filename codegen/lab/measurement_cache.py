@@ -24,10 +24,12 @@ from orderconds.input_file import MAX_WRITTEN_BYTES, content_of
 T = TypeVar("T")
 
 FORMAT = 1
-"""Version of the file format. It is part of every key, so a new version ignores old entries."""
+"""Version of the file format. The version is part of every key, so a program with a new version does not read
+entries of an old version."""
 
 FOLDER = ".measured"
-"""Name of the folder that contains the entries. It is next to the results of an unfinished report."""
+"""Name of the folder that contains the entries of a report. The folder is in the folder into which the report
+is written, until the report is complete."""
 
 DIGEST = 32
 """The number of bytes of the SHA-256 digest at the start of an entry."""

@@ -58,7 +58,10 @@ def of_arrays(library: Scalar) -> Functions:
 
 
 def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
-    """Return the function with the given name; raise ArithmeticError if it is missing."""
+    """Return the function that a formula calls; raise ArithmeticError if ``functions`` does not contain it.
+
+    ``name`` is the name of a function, or a table of a scene. ``constant`` converts the numbers of a table.
+    """
     key = TABLES if isinstance(name, PiecewisePolynomial) else name
     if key not in functions:
         message = f"the function {key} is not defined for these numbers"
@@ -72,7 +75,8 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
 
 
 def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
-    """Return the converted numbers: the knots, the bases, and for each power its coefficients."""
+    """Return the numbers of a piecewise polynomial, converted by ``constant``: the list of knots, the list of
+    bases, and for each power the list of its coefficients in all pieces."""
     columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
     return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]
 

@@ -27,13 +27,13 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""After an event, the program determines on which side of each boundary the solution is. It evaluates the
-solution at the event time plus AHEAD. AHEAD is much longer than the error of the event time, and much shorter
-than every time scale.
+"""After an event, the program determines which case of each selection applies. For this purpose it evaluates
+the solution at the event time plus AHEAD. AHEAD is much longer than the error of the event time, and much
+shorter than every time scale of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
-"""The times after an event at which the fields on both sides are compared."""
+"""The times after an event at which the field before the event and the field after it are compared."""
 
 VANISHING = 1e-30
 """A margin counts as zero if its absolute value is less than VANISHING."""
@@ -49,8 +49,8 @@ MOST = 9
 
 @dataclass(frozen=True)
 class PiecewiseField:
-    """The smooth fields of a scene, one for each combination of sides; ``compiled`` stores the compiled
-    fields.
+    """The smooth fields of a scene. The field contains selections (operations with several cases), and there
+    is one smooth field for each combination of cases. ``compiled`` stores the compiled fields.
     """
 
     scene: Problem
@@ -69,7 +69,8 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return the field on the given sides and the margins of these sides, as functions of (state, t)."""
+        """Return the smooth field for the given sides (one case of each selection) and the margins, as
+        functions of (state, t). The margin of a selection is positive while its given case applies."""
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
             name, symbols = self.scene.name, self.scene.symbols
@@ -78,7 +79,8 @@ class PiecewiseField:
         return self.compiled[sides]
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
-        """Return the sides of all selections just after (y, t), on the solution through this point."""
+        """Return the side of each selection (the case that applies) just after the time t, on the solution
+        through (y, t)."""
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         ahead = arb(AHEAD)
         slopes = (whole if flow is None else flow)(y, t)
@@ -94,8 +96,8 @@ class PiecewiseField:
         event.
 
         The number of continuous derivatives is -1 for a field that jumps. :class:`SceneError` is raised if
-        the field on the other side points back to the first side, so that the solution would stay on the
-        boundary.
+        the field after the event points back to the side before the event. The solution would then stay on
+        the boundary between the two sides.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -124,9 +126,10 @@ Advance = Callable[..., tuple[Vector, float]]
 
 
 class Sided:
-    """The field on the present sides, as a function of (state, t), and the events up to the present time.
+    """The smooth field for the present sides, as a function of (state, t), and the events up to the present
+    time.
 
-    ``kinks`` contains the number of continuous derivatives at each event.
+    ``kinks`` contains the number of continuous derivatives of the field at each event.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -148,9 +151,9 @@ class Sided:
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if a margin is negative in a step. Margins are tested at the end of the step, and at
-        the last :data:`SUBSTEPS` points at which the field was evaluated in this step. For a very short step
-        only the end is tested.
+        """Return True if a step leaves the present sides: a margin is negative. Margins are tested at the end
+        of the step, and at the last :data:`SUBSTEPS` points at which the field was evaluated in this step.
+        For a very short step only the end is tested.
         """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):
@@ -158,14 +161,14 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Change to the other side at the first event in a step, and return time and state of the event.
-        Return None if a shorter step must be tried.
+        """Find the first event in a step, change to the field that applies after the event, and return the
+        time and the state of the event. Return None if a shorter step must be tried.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # A margin that vanishes at the beginning belongs to the previous event, and its zero is not the next
-        # event.
+        # A margin that vanishes at the beginning of the step is zero because of the previous event. The root
+        # search would find this event again, so a shorter step must be tried.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 

@@ -2,8 +2,9 @@
 
 The reference uses no Lie group: the modified midpoint rule is applied to y' = f(y).y in the coordinates of
 the state and extrapolated in the squared step (Hairer, Norsett and Wanner I, section II.9). Therefore an
-error in the exponential of a group or in a method does not occur in the reference, and the comparison shows
-it. Two runs of different order and tolerance must agree, and their distance is the stated uncertainty.
+error in the code of a group exponential or of a method does not occur in the reference, and a comparison with
+the reference shows the error. Two runs of different order and tolerance must agree, and their distance is the
+stated uncertainty.
 """
 
 from __future__ import annotations
@@ -86,8 +87,9 @@ def cached_reference(
 ) -> Reference:
     """Return the reference of a scene from the cache; compute and store it if it is missing.
 
-    The default of ``cache`` is the cache of this user. If the clock reaches ``end``, the computation stops.
-    The function raises the same errors as :func:`reference`.
+    The default of ``cache`` is the cache of this user. ``end`` is a time of the clock ``time.monotonic``. The
+    function raises the same errors as :func:`reference`, for example if the computation is not finished at
+    the time ``end``.
     """
 
     def compute() -> _Stored:

@@ -79,7 +79,7 @@ class ScenePage:
     """The results of one scene: the part of the overview, the lines for the terminal, the JSON, and ``held``,
     which is True if all measurements succeeded and passed their checks.
 
-    Worker processes return objects of this class, so it contains only plain data.
+    Worker processes return objects of this class, so the objects contain only plain data.
     """
 
     summary: Summary
@@ -91,11 +91,11 @@ class ScenePage:
 def report(request: Request, directory: str | Path, progress: Progress) -> tuple[Path, tuple[ScenePage, ...]]:
     """Measure all scenes, write the pages into a folder, and return the path of the overview and the pages.
 
-    The page of a scene is written as soon as it is complete. A hidden folder stores the results
-    until the report is complete, so that an interrupted report can continue. ``progress`` receives each
-    measurement of a single scene, or the name of each finished scene. :class:`InputError` is raised before
-    the first measurement if a name is unknown, if there is no C compiler, or if the folder cannot be written
-    to.
+    The page of a scene is written as soon as it is complete. A hidden folder stores the results until the
+    report is complete, so that an interrupted report can continue. ``progress`` is called with the name of
+    each measurement if there is one scene, otherwise with the name of each finished scene.
+    :class:`InputError` is raised before the first measurement if a name is unknown, if there is no C
+    compiler, or if the folder cannot be written to.
     """
     folder = Path(directory)
     request.check()

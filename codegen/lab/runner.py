@@ -64,7 +64,7 @@ class Interpreted:
 
     @cached_property
     def problem(self) -> Problem:
-        """The scene in the form that the family of the method integrates."""
+        """The problem that the family of the method integrates, such as the field of a Hamiltonian scene."""
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:

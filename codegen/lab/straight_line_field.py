@@ -71,7 +71,8 @@ def velocity(scene: Problem) -> StraightLine:
 def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) -> StraightLine:
     """Return expressions in the symbols of a state and the time as straight-line code.
 
-    ``name`` is the name of the scene; ``symbols`` are y[0], y[1], ... in order.
+    ``name`` is the name of the scene. ``symbols`` are the symbols of the state; in the code the first of them
+    is y[0], the second y[1], and so on.
     """
     constants: list[Number] = []
     names: dict[int, str] = {}

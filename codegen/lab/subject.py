@@ -58,8 +58,8 @@ class Effort:
 
         If there are more than :data:`MANY` scenes, all searches together take MANY times the time of one
         search. The growth of rounding errors is then measured only if endurance runs are made. ``processes``
-        is the number of scenes that are measured at the same time. A search then uses one processor instead
-        of all processors, so it takes longer by this factor.
+        is the number of scenes that are measured at the same time. If it is greater than one, a search uses
+        one processor instead of all processors, so the time of a search is multiplied by ``processes``.
 
         >>> few, many = USUAL.shared(4), USUAL.shared(16)
         >>> few == USUAL, many.search, many.rounding, USUAL.shared(16, processes=2).search
@@ -195,7 +195,7 @@ class Subject:
         return MethodResults(tuple(results), tuple(failures))
 
     def report_command(self, part: str) -> str:
-        """Return the command line that repeats one measurement of this page."""
+        """Return the command line that repeats the measurement ``part`` of this page."""
         words = ["orderconds report", bare(self.name), *self._methods()]
         return " ".join([*words, f"--only {part}", "-o DIR"])
 

@@ -6,7 +6,7 @@ program measures this overhead with a run of zero steps and subtracts it, so tha
 compared.
 
 All runs that are compared are timed by :func:`span_times`: emitted methods with equal steps or with step-size
-control, in diagrams and in races, and the integrators of other software.
+control, both for diagrams and in searches for the fastest method, and the integrators of other software.
 """
 
 from __future__ import annotations
@@ -93,8 +93,8 @@ def spans(run: Callable[[int], object], steps: int) -> int:
     """Return the number of time spans over which a run is timed; the run has ``steps`` steps for each span.
 
     ``run(n)`` runs over n spans. The number of spans is doubled until the run takes :data:`RESOLVED` seconds,
-    has :data:`LEAST_STEPS` steps, or fails. A run may fail because the solution does not exist so far beyond
-    the span.
+    has :data:`LEAST_STEPS` steps, or fails. A run may fail because the solution does not exist at times far
+    beyond the span.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -115,8 +115,9 @@ def _least(run: Callable[[int], object], count: int) -> float:
 class Overhead:
     """The overhead of a call: the CPU time of ``idle``, a call that makes no step.
 
-    All runs of one module in this process share the overhead. It is measured when it is needed first, and
-    again only if it leaves the time of a run unresolved. If ``idle`` is None, the overhead is negligible.
+    All runs of one module in this process have the same overhead. The overhead is measured when it is first
+    needed. It is measured again only if its uncertainty is too large for the time of a run. If ``idle`` is
+    None, the overhead is negligible.
     """
 
     idle: Callable[[], object] | None
@@ -145,8 +146,8 @@ class Overhead:
 def span_times(
     run: Callable[[int], int], overhead: Overhead, batch: float = BATCH, batches: int = BATCHES
 ) -> list[float]:
-    """Return the CPU seconds of a run over one time span without the overhead of a call, for each batch, in
-    increasing order.
+    """Return the CPU seconds of a run over one time span, without the overhead of a call: one value for each
+    batch, in increasing order.
 
     ``run(n)`` runs over n time spans and returns the number of steps. A short run is timed over several time
     spans (:func:`spans`), and its time is multiplied by the fraction of the steps that belong to one time

@@ -61,8 +61,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # The tableau may claim an order in a family that does not accept the scene. Then this is the reason,
-        # and _check raises an error that says so.
+        # If the tableau claims an order in a family that does not accept the scene, the call of _check raises
+        # an error with the reason. This error helps the user more than ``error``.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))
@@ -88,7 +88,8 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
 
 
 def _check(scene: Problem, own: Lowering) -> None:
-    """Raise :class:`MethodError` with the objection of a family to a scene, if the family has one."""
+    """Raise :class:`MethodError` with the reason if the family of the lowering ``own`` does not accept a
+    scene."""
     objection = own.objection(scene)
     if objection is not None:
         raise MethodError(

@@ -20,11 +20,13 @@ class Ambient(Lowering):
     in_coordinates = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene: its field has no formulas."""
+        """Return the reason why the family does not accept a scene: the field of the scene has no formulas.
+        The result is None for any other scene."""
         return without_formulas(scene)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene in the coordinates of its state; it has no group."""
+        """Return the equation for the coordinates of the state, as a scene on R^n. The group of the given
+        scene is ignored."""
         if "ambient" not in scene.derived:
             scene.derived["ambient"] = ambient(scene)
         return scene.derived["ambient"]

@@ -87,7 +87,7 @@ class Lowering(ABC):
         errors.
 
         A step that moves the point by group elements stays on the manifold. If the group is abelian, the
-        manifold has coordinates in a vector space, and every method stays on it.
+        manifold is parametrised by a vector space, and the steps of every method stay on the manifold.
         """
         from orderconds.families import family_class
 
@@ -140,10 +140,11 @@ class Lowering(ABC):
         return 0
 
     def extension(self, problem: Problem, method: Method) -> Program | None:
-        """Return a program whose outputs are the coefficients of theta, theta^2, ... of the coordinates of
-        the solution inside a step; None if the method has no continuous extension.
+        """Return a program that computes the solution inside a step; None if the method has no continuous
+        extension.
 
-        The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is this polynomial.
+        The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is a polynomial with values
+        in the Lie algebra. The outputs of the program are the coefficients of theta, theta^2, ... in sigma.
         """
         return None
 
@@ -152,7 +153,8 @@ class Lowering(ABC):
         scene."""
         from orderconds import families
 
-        # The label includes the cut-off, the number of brackets in dexp^{-1}: the conditions depend on it.
+        # The label contains the cut-off, because the conditions depend on it: the cut-off is the number of
+        # brackets in dexp^{-1}.
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
@@ -160,6 +162,6 @@ class Lowering(ABC):
         undecided."""
         from orderconds.checking import check
 
-        # The tableau is checked in only one family, so the list of results has a single entry.
+        # The result has a single entry, because the tableau is checked in one family only.
         (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return order

@@ -21,8 +21,8 @@ class CayleyLowering(LinearLowering):
     family = "cayley"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene: a field that depends on the state, or a
-        group without Cayley map."""
+        """Return the reason why the family does not accept a scene: the field depends on the state, or the
+        group has no Cayley map. The result is None for any other scene."""
         linear = super().objection(scene)
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:

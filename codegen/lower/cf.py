@@ -1,7 +1,7 @@
 """Commutator-free methods on a field: products of exponentials, no brackets.
 
-A stage, and the update, is exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j) applied to y0 or to an
-earlier stage; the first exponential acts first. The unknowns are the k_i.
+Each stage and the update have the form exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j) applied to y0
+or to an earlier stage; the exponential with the coefficients beta_1 acts first. The unknowns are the k_i.
 """
 
 from __future__ import annotations
@@ -56,10 +56,10 @@ STORAGE_OF_PAIR = (
 
 
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
-    """Return the scheme with two registers that is equal to the method on every group, if there is one.
+    """Return the scheme with two registers that is equal to the method on every group, and an exponent x.
 
-    With step-size control, the second item is the exponent of the exponential that leads from the update to
-    the update of the embedded method. Other embedded methods need the values of all stages.
+    With step-size control, the update of the embedded method must be exp(x) applied to the update of the
+    method; without step-size control, x is None. The result is None if there is no such scheme or no such x.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -106,7 +106,8 @@ def two_registers(
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
 
-    # The time of a stage is the sum of the coefficients in the exponents before it.
+    # The time of a stage, in units of h, is the sum of all coefficients in the exponents of the preceding
+    # exponentials.
     steps = [reduce(add, row) for row in scheme.increments(method.ring)]
     times = list(accumulate(steps, initial=method.ring.zero))
 
@@ -137,12 +138,12 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     k = [build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def product(stage: Stage, name: str, points: list[Var]) -> Var:
-        # A stage may start from an earlier stage, Y_i = exp(...) Y_k, which saves the exponentials of stage
-        # k.
+        # A stage may start from an earlier stage, Y_i = exp(...) Y_k. The exponentials of Y_k are then not
+        # computed again.
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
-            # All exponents of a stage are requested with one name, because Builder makes names unique by
-            # appended numbers.
+            # All exponents of a stage are given the same name, because Builder appends a number to a name
+            # that is already used.
             x = stages.combination(f"x{name}", Kind.ALG, row, k)
             # Each row gives one exponential. The first exponential is applied first, so it is the rightmost
             # factor of the product.
@@ -150,26 +151,28 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         return point
 
     def images() -> list[Var]:
-        # The tableau lists stages after the stages from which they start.
+        # A stage is listed after the stage from which it starts. The point and the time of that earlier stage
+        # are therefore already known.
         points: list[Var] = []
         times: list[Element] = []
         result = []
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # A stage starts from an earlier stage or from y0. Its time is the time of this start, plus h
-            # times the sum of the coefficients in its exponents.
+            # A stage starts from an earlier stage or from y0. The time of the stage is the time at which it
+            # starts, plus h times the sum of the coefficients in its exponents.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
-        # Like a stage, the update may start from an earlier stage.
+        # The points of the stages are stored, because the update, like a stage, may start from one of them.
         stage_points[:] = points
         return result
 
     stage_points: list[Var] = []
 
     def update() -> dict[str, Var]:
-        # The embedded solution needs its own exponentials, because it is not a linear function of the stages.
+        # The embedded solution is computed by exponentials of its own, because it is not a linear combination
+        # of stage values.
         more = {} if lower is None else {EMBEDDED: product(lower, "", stage_points)}
         return {"y": product(tableau.update, "", stage_points)} | more
 

@@ -24,7 +24,8 @@ class CrouchGrossman(FieldLowering):
         embedded = method.embedded()
         # The embedded tableau has the same stages as the method, so only its update is used.
         lower = None if embedded is None else _exponentials(embedded).update
-        # exp(h a_is k_s) ... exp(h a_i1 k_1): a commutator-free method whose exponentials have one term each.
+        # Stage i applies the product exp(h a_is k_s) ... exp(h a_i1 k_1) to y0. This is a commutator-free
+        # method in which each exponent has one term.
         return products(problem, method, _exponentials(method), lower)
 
 

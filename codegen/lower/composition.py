@@ -17,8 +17,8 @@ class CompositionLowering(FlowLowering):
     family = "composition"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the word, which is the sequence of flows of a step, and the label of its order
-        conditions."""
+        """Return the word, which is the sequence of flows of a step, and the label of the family whose order
+        conditions apply."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)

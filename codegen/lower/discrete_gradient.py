@@ -40,7 +40,8 @@ class DiscreteGradient(FieldLowering):
         """Return the reason why the family does not accept a scene. The family requires an energy that the
         field preserves."""
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
-        # If H depends on time, the energy is no invariant of the field, so a method cannot preserve it.
+        # If H depends on time, the exact solution does not preserve H, so a method that preserves H would not
+        # converge to it.
         if not scene.autonomous:
             return Objection(", which depends on time", expected)
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
@@ -67,8 +68,8 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # The function returns exp(part*h*velocity).y. All points of the step are on the curve exp(s*velocity).y
-    # through y.
+    # The function returns exp(part*h*velocity).y. All points at which a step evaluates a function of the
+    # scene have this form.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
@@ -80,30 +81,30 @@ def _program(scene: Problem, method: Method) -> Program:
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
-        # The bivector is evaluated at the midpoint. If sum b_i c_i = 1/2, the order is then two; with the
-        # bivector at y it would be one.
+        # The bivector is evaluated at the midpoint and not at y. The order is then two if sum b_i c_i = 1/2;
+        # with the bivector at y, the order would be one.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # The energies are evaluated inside the block of equations, because H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
-        # A single operation computes the quotient of H(x1) - H(x0) - <g, eta> and |eta|^2. At eta = 0 the
-        # quotient is 0/0, and the operation sets it to zero.
+        # The quotient of H(x1) - H(x0) - <g, eta> and |eta|^2 is 0/0 at eta = 0. A single operation computes
+        # the quotient, because this operation can return zero in place of 0/0.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # The equation of the block is xi = f(xi). The update uses f(xi) and not xi, because f(xi) is nearer
-        # to the solution. Errors of the energy add up over many steps.
+        # The equation of the block is xi = f(xi). The update uses f(xi) and not xi, because f(xi) is closer
+        # to the solution. This accuracy is necessary, because errors of the energy add up over many steps.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
 
 
 def _check_bivector(scene: Problem, method: Method) -> None:
-    """Raise MethodError if the bivector does not map the differential of the energy to the field at some
-    sample point."""
-    # The identity is checked at points of the orbit, because the formulas need not agree elsewhere.
+    """Raise MethodError if there is a sample point at which the bivector does not map the differential of the
+    energy to the field."""
+    # The sample points are on the orbit, because the formulas need not agree at other points.
     orbit = orbit_of(scene)
     for point in orbit.points:
         y = tuple(point[s] for s in orbit.symbols)

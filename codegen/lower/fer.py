@@ -6,6 +6,7 @@ from codegen.lower.magnus import MagnusLowering
 
 
 class FerLowering(MagnusLowering):
-    """Fer methods: the last exponent has no brackets, and all other exponents consist of brackets only."""
+    """Fer methods: the exponent that acts last has no brackets, and all other exponents are sums of
+    brackets."""
 
     family = "fer"

@@ -37,7 +37,8 @@ sequence acts first."""
 
 @dataclass(frozen=True)
 class Parts:
-    """The parts of a scene with their exact flows; ``where`` names method and scene in messages."""
+    """The parts of a scene with their exact flows. ``where`` is the method and the scene as a text for error
+    messages."""
 
     scene: Problem
     parts: tuple[Part, ...]
@@ -52,9 +53,10 @@ class Parts:
     def arranged(self) -> list[Summand]:
         """The summands in the order in which a composition applies their flows.
 
-        Kicks come first, because kicks at the ends of neighbouring steps can be joined into one flow. On a
-        lattice, steps are not joined. There a kick is last, because it reads all neighbours: then each step
-        of a composition contains one kick.
+        Kicks come first, because the kick at the end of a step and the kick at the beginning of the next step
+        can be joined into one flow. On a lattice, steps are not joined, and kicks come last. The last flow of
+        Phi* and the first flow of the next Phi are then kicks and are joined, so fewer kicks are computed. A
+        kick is the most expensive flow there, because it reads all neighbours of a site.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -63,8 +65,8 @@ class Parts:
 
 @dataclass(frozen=True)
 class Reading:
-    """A method on a scene: the word, the summand whose flow advances time, and the family of its order
-    conditions."""
+    """A method on a scene: the word, the summand whose flow advances time, and the label of the family whose
+    order conditions apply."""
 
     word: tuple[tuple[Summand, Number], ...]
     carrier: Summand | None
@@ -72,8 +74,8 @@ class Reading:
 
 
 class FlowLowering(Lowering):
-    """A family that composes exact flows. The problem from which it forms programs contains the flows in the
-    word of the method."""
+    """A family of methods that compose exact flows. :meth:`problem` adds to the scene the flows that the word
+    of the method contains; :meth:`lower` forms the program from this extended scene."""
 
     hamiltonian = True
 
@@ -86,8 +88,8 @@ class FlowLowering(Lowering):
             return None if listed else Objection(", a lattice without parts", expected, hint)
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
-        # A scene with a wrench has no Hamiltonian, and a run-time input changes during a flow, so neither
-        # scene has exact flows.
+        # A scene with a wrench has no Hamiltonian. In a scene with run-time inputs, the inputs change during
+        # a flow. The exact flows are known in neither case.
         if scene.forced or scene.inputs:
             what = "a wrench" if scene.forced else "run-time inputs"
             return Objection(
@@ -122,14 +124,14 @@ class FlowLowering(Lowering):
 
     @abstractmethod
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the word of a method and the label of its family of conditions.
+        """Return the word of a method, and the label of the family whose order conditions apply to the word.
 
         :class:`codegen.errors.MethodError` is raised for a tableau that does not suit the parts.
         """
 
     def read(self, scene: Problem, method: Method) -> Reading:
-        """Return the word of a method on a Hamiltonian scene with parts, its carrier (the summand whose flow
-        advances time), and its order conditions.
+        """Return the word of a method on a Hamiltonian scene with parts, the carrier (the summand whose flow
+        advances time), and the label of the family whose order conditions apply.
 
         :class:`codegen.errors.MethodError` is raised for a part without exact flow, a tableau for another
         number of parts, and parts that all depend on time.
@@ -156,8 +158,8 @@ class FlowLowering(Lowering):
             # The flows of one summand commute, so they may be applied in any order.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The time advances after the flow of the carrier. The carrier does not depend on t, so its flow
-            # does not need the time.
+            # The time advances together with the flow of the carrier. The operation may follow the flow,
+            # because the carrier does not depend on t.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -202,8 +204,8 @@ def is_kick(summand: Summand) -> bool:
 
 
 def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
-    """Return the summands with kicks first, because kicks at the ends of neighbouring steps can be joined
-    into one flow."""
+    """Return the summands with kicks first. The kick at the end of a step and the kick at the beginning of
+    the next step can then be joined into one flow."""
     # The sort is stable, so the other summands keep the order of the scene.
     return sorted(summands, key=lambda summand: not is_kick(summand))
 
@@ -226,14 +228,14 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
     """Yield the word with neighbouring flows of one summand joined, and without flows of duration zero."""
     joined: Word = []
     for summand, x in word:
-        # A flow of duration zero is the identity. It is dropped, and the flows before and after it may then
-        # be joined.
+        # A flow of duration zero is the identity, so it is dropped. The flows before and after it are then
+        # neighbours and may be joined.
         if x.is_zero:
             continue
         if joined and joined[-1][0] is summand:
             total = joined.pop()[1] + x
-            # The durations cancel, so the joined flow is dropped. The flows before and after it are now
-            # neighbours, and the next flow is compared with the last flow that remains.
+            # If the durations cancel, the joined flow is dropped. The next flow of the word then follows the
+            # last flow in ``joined``, and the two may be joined.
             if total.is_zero:
                 continue
             x = total

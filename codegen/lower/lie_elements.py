@@ -1,9 +1,9 @@
 """Lie elements in the values of a field at nodes: the exponents of methods for y' = A(t).y.
 
 A tableau of format ``magnus`` defines elements of the Lie algebra as combinations of brackets of h A(t + c_i
-h). A value is stored as a variable and a power of h that is not multiplied out. For example, the bracket of
-two values at nodes has the power 2. In a combination, only terms whose power exceeds the least power are
-multiplied by a power of h. So few multiplications by h are needed.
+h). A value h^p x is stored as the pair of the variable x and the power p, without the product. For example,
+the bracket of two values at nodes has the power 2. In a combination, only the terms whose power exceeds the
+least power are multiplied by a power of h. Therefore few multiplications by h are needed.
 """
 
 from __future__ import annotations
@@ -41,12 +41,12 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append target = the combination, with all powers of h multiplied out."""
+        """Append target = the combination. All factors h are included in the value of the variable."""
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:
-        """Append a combination. By default, the least power of h of the terms is the power that is not
-        multiplied out."""
+        """Append a combination, and return it as h^power times a variable. By default, ``power`` is the least
+        power of h in the terms."""
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
         terms = [(x, value) for x, value in terms if not x.is_zero]
         least = min((value.power for _, value in terms), default=1) if power is None else power

@@ -34,7 +34,8 @@ class LinearLowering(FieldLowering):
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene: a field that depends on the state."""
+        """Return the reason why the family does not accept a scene: its field depends on the state. The
+        result is None for any other scene."""
         if scene.linear or scene.carries_momentum:
             return None
         return Objection(
@@ -42,7 +43,7 @@ class LinearLowering(FieldLowering):
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene as a vector field that contains the time alone."""
+        """Return the scene as a vector field that depends on the time alone, and not on the state."""
         if not scene.carries_momentum:
             return super().problem(scene, method)
         if "linear" not in scene.derived:
@@ -71,7 +72,8 @@ class LinearLowering(FieldLowering):
         nodes = [stages.f(f"k{i + 1}", y, c) for i, c in enumerate(tableau.c)]
         values = LieElements(stages.builder, method, nodes, dict(tableau.elements))
         point = y
-        # The first exponent acts first, so it is the rightmost factor of the product.
+        # The exponentials act one after the other, the first exponent first. In the product, the first
+        # exponential is therefore the rightmost factor.
         for number, combination in enumerate(tableau.exponents, start=1):
             point = self.move(stages, values.exponent(f"x{number}", combination), point)
         inputs = stages.inputs + (() if stages.time is None else (stages.time,))
@@ -92,8 +94,8 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order. For a step that the scene states, this is the order that the scene states with
-        the step."""
+        """Return the order of the method. If the scene states the step of the method as a function, the scene
+        also states the order of the step, and this order is returned."""
         if not method.step:
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder

@@ -16,8 +16,8 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""The bracket programs already computed; a key contains the ring and the coefficients as text. The lowering
-and the certificate use the same bracket program."""
+"""The bracket programs that have been computed. They are stored, because the lowering and the certificate use
+the same bracket program. A key contains the ring and the coefficients as text."""
 
 
 def bracket_program(method: Method) -> BracketProgram:
@@ -51,7 +51,8 @@ def bracket_program(method: Method) -> BracketProgram:
             # terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
-    # The search for a bracket program takes time, so the program is stored for the certificate.
+    # The search for a bracket program takes a long time. Its result is stored, because the certificate needs
+    # the bracket program again.
     ring = method.ring
     # The key contains the exact coefficients as text, because elements of a ring may be unhashable.
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))
@@ -69,7 +70,8 @@ def lower(scene: Problem, method: Method) -> Program:
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
     build = stages.builder
-    # Stage values and brackets are in one table, because each u_i is a combination of both.
+    # Stage values and brackets are in one dictionary, because each u_i is a linear combination of stage
+    # values and brackets.
     values = {("k", i): build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)}
 
     def combination(name: str, row: Row) -> Var:

@@ -57,8 +57,9 @@ def _built_in() -> tuple[type[Lowering], ...]:
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
     """Register a lowering for all commands, and return it; this function may be used as a decorator.
 
-    ``family`` is the class of the order conditions. If it is given, it is also registered
-    (:func:`orderconds.families.register`), so that all commands of both packages support the family.
+    ``family`` is the class that defines the order conditions of the family. If the argument is given, the
+    class is registered, too (:func:`orderconds.families.register`). All commands of both packages then
+    support the family.
     :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and for a
     family that already has a lowering of another class.
     """
@@ -126,7 +127,8 @@ def families_for(scene: Problem) -> tuple[str, ...]:
 
 def _lowerings() -> dict[str, Lowering]:
     """Return all lowerings by family; built-in modules are imported at the first call."""
-    # The import is here and not at the top, because the built-in modules import this package.
+    # The built-in modules are imported at the first call and not at the top of the file, because they import
+    # this package.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

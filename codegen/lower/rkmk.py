@@ -55,10 +55,11 @@ class MuntheKaas(FieldLowering):
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the order conditions; without a cut-off they are computed from the series of the compiled
-        program.
+        """Return the order conditions. For a method without a cut-off, they are computed from the series of
+        the compiled program.
 
-        With an exact inverse differential they are the conditions of RKMK without truncation.
+        If the scene has a coordinate map other than exp, the program contains the exact inverse differential
+        of the map. The conditions are then those of RKMK with the exact dexp^{-1}.
         """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
@@ -68,7 +69,8 @@ class MuntheKaas(FieldLowering):
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The conditions are computed from the program that is compiled, so both have the same brackets.
+        # The conditions are computed from the bracket program that is also compiled. They therefore apply to
+        # the emitted code.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
@@ -114,7 +116,7 @@ def extension_with_cutoff(problem: Problem, method: Method, cutoff: int) -> Prog
 
 
 def in_coordinates(problem: Problem, method: Method) -> Program:
-    """Return the program of an RKMK method in the coordinates of the scene."""
+    """Return the program of an RKMK method with the coordinate map of the scene in place of exp."""
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
         return build.add(InverseDifferential(), target, u, k)
@@ -159,8 +161,8 @@ def _program(
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 
     def update() -> dict[str, Var]:
-        # The embedded solution combines the v_i of the method with other weights, so it costs one exponential
-        # and no evaluation of the field.
+        # The embedded solution combines the v_i of the method with other weights. Therefore only one more
+        # exponential is needed, and no further evaluation of the field.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more

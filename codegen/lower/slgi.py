@@ -74,8 +74,8 @@ def _program(scene: Problem, method: Method) -> Program:
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # In the update, n is multiplied by one exponential: Ad*_{exp(-b x)} Ad*_{exp(a x)} = Ad*_{exp(-(b -
-        # a) x)}.
+        # ``after`` is stored for the update. There only one adjoint operation acts on n, because Ad*_{exp(-b
+        # x)} Ad*_{exp(a x)} = Ad*_{exp(-(b - a) x)}.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

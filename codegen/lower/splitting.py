@@ -36,7 +36,7 @@ class SplittingLowering(FlowLowering):
     family = "splitting"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the word and the label of its conditions."""
+        """Return the word, and the label of the family whose order conditions apply."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
@@ -44,7 +44,7 @@ class SplittingLowering(FlowLowering):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
         # If a part of the Hamiltonian has several summands, the composition of their flows is not the exact
-        # flow of the part. Then the summands count as the parts.
+        # flow of the part. In this case each summand is treated as a part of its own.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
@@ -66,8 +66,8 @@ def _in_order(
 ) -> tuple[Word, str]:
     """Return the word of a tableau that has one part for each summand, and the label of its order conditions.
 
-    Parts are matched by name if tableau and scene use the same names, else by their order. The part V of a
-    Runge-Kutta-Nystroem tableau is the kick.
+    If the parts of the tableau and of the scene have the same names, they are matched by name, otherwise by
+    their order. The part V of a Runge-Kutta-Nystroem tableau is matched with the kick.
     """
     chosen = summands
     names = [part.name for part in own.parts]
@@ -106,8 +106,8 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
-    """Return (beta_i, alpha_i) of a splitting in two parts; a final flow of duration zero is added if
-    necessary."""
+    """Return the pairs (beta_i, alpha_i) of the composition of Phi and Phi* that is equal to a splitting in
+    two parts."""
     # Let A and B be the flows of the two parts, and A_{x1} B_{x2} A_{x3} ... the word. Each of Phi and Phi*
     # is a product of A and B, in opposite order. The composition of Phi*_{beta_1}, Phi_{alpha_1},
     # Phi*_{beta_2}, ... gives the same word if x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and
@@ -123,8 +123,8 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined.append((k, x))
     # The word may begin with either part, because Phi and Phi* may be exchanged.
     durations = [x for _, x in joined]
-    # The number of flows must be odd, so that the word ends with the part with which it began. A flow of
-    # duration zero is added if necessary.
+    # The recursion requires that the first flow and the last flow belong to the same part, so the number of
+    # flows must be odd. A flow of duration zero is added if necessary.
     if len(durations) % 2 == 0:
         durations.append(zero)
     composed, carried = [], durations[0]
@@ -134,5 +134,5 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
-    # The last value of ``carried`` is zero, because both parts have the same total duration.
+    # The last value of ``carried`` is not used: it is zero, because both parts have the same total duration.
     return composed

@@ -74,10 +74,11 @@ class Stages:
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # The stages of explicit tableaux are put into one block, too. A lowering only states the equations.
-        # Later passes find an order in which the stages can be computed.
+        # All stages are put into one block, even if the tableau is explicit, because a lowering only states
+        # the equations. Later passes find an order in which the stages can be computed.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
-        # The update comes after the block, because it reads values of the block's body at the solution.
+        # The statements of the update follow the block, because they read values that the body of the block
+        # computes at the solution.
         outputs = update()
         # The time is the last input, so that the state has the same position with and without time.
         inputs = self.inputs + (() if self.time is None else (self.time,))

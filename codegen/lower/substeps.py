@@ -5,10 +5,11 @@ Suppose that the stages of a tableau fall into groups with a_ij = b_j for j in a
 a_ij = 0 for j in a later group. Then the method is a composition: group k is a method with step size gamma_k
 h, where gamma_k is the sum of the b_j of this group (Lemma 3.5.4 of Bogfjellmo and Marthinsen). For
 Crouch-Grossman methods this follows from the products of exponentials. If all groups have the same
-coefficients after division by gamma_k, they are the same method with different step sizes, and one program is
-enough. The repeated method may be the method of several neighbouring groups together.
+coefficients after division by gamma_k, all substeps use the same method with different step sizes, and one
+program is enough. Several neighbouring groups together may also form the repeated method.
 
-Only implicit methods are split, because explicit stages of neighbouring substeps share computations.
+Only implicit methods are split. Explicit stages of neighbouring substeps have common subexpressions, which
+would be computed several times in separate substeps.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from orderconds.tableau import Composition, RungeKutta
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     """Return the method that a step repeats, and its substeps; None if the step repeats no method.
 
-    The family must be one whose lowering has :attr:`codegen.lower.Lowering.repeats_substeps`.
+    The lowering of the family must have ``repeats_substeps`` = True (:class:`codegen.lower.Lowering`).
 
     >>> from codegen.method import parse
     >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))
@@ -77,8 +78,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     """Divide the stages into as many groups as possible that have the same tableau. Return this tableau and
     the step lengths of the groups; None if there are no such groups.
     """
-    # The entries are Numbers and not ring elements, because Numbers are compared by keys, which is possible
-    # also for balls.
+    # The entries are Numbers and not ring elements. Numbers are compared by keys, and equal keys also show
+    # that two balls enclose the same number.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
     # A cut is a number k at which the tableau separates into two tableaux: the first consists of the stages
@@ -88,14 +89,14 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # A group consists of at least one part and at most half of the parts. Small groups are tried first,
     # because they give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # ``wide`` is the number of parts in a group. It divides the number of all parts, so the last group
-        # ends at the last cut.
+        # ``wide`` is the number of parts in a group. The number of all parts is a multiple of ``wide``, so
+        # the last group ends at the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # gamma_k, the length of the substep: a method with weights b advances by h sum b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
-        # The method of a group whose weights add up to zero does not advance the time, so the group is no
-        # substep.
+        # If the weights of a group add up to zero, the group does not advance the time. It is no substep, and
+        # this division into groups is not used.
         if any(x.is_zero for x in sums):
             continue
         scaled = [

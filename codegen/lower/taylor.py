@@ -36,8 +36,9 @@ class Taylor(Lowering):
     in_coordinates = True
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if states stay on the manifold: the projection at the end of a step reaches the
-        manifold, or the manifold is open and no projection is needed."""
+        """Return True if states stay on the manifold. This is the case if the projection at the end of a step
+        maps states onto the manifold, or if no projection is needed: the manifold is open in R^n, or it has
+        coordinates in a vector space."""
         return scene.group.abelian or reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:

@@ -61,8 +61,8 @@ def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
     """Return the weights b_i, by which the equations of the step are divided. ZeroWeight is raised for the
     first weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # A weight may be small, but a ball that contains zero is refused, because division by it is not
-        # defined.
+        # Small weights are accepted. A ball that contains zero is refused, because division by such a ball is
+        # not defined.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(
@@ -78,8 +78,8 @@ def brackets(method: Method) -> int:
     """Return the cut-off of dexp^{-1}. MethodError is raised for a method without a cut-off, because a
     program can contain only finitely many brackets."""
     if method.cutoff is None:
-        # The search for the fewest brackets is implemented for dexp^{-1} only, and the program also needs the
-        # dual and the derivative of dexp^{-1}.
+        # The cut-off cannot be replaced by a search for the fewest brackets: the search is implemented for
+        # dexp^{-1} only, and the program also needs the dual and the derivative of dexp^{-1}.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} needs a cut-off", expected=f"a number of brackets, as in {family}(2):{name}"
@@ -132,8 +132,8 @@ class ExpandedStep(ABC):
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
         # -Y gets a variable of its own, because it is an argument of the operation dexp*_{-Y}.
         self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
-        # The force n_j is a covector at Q_j. Ad*_{E_j}, with Q_j = E_j q0, transports it to q0, where the
-        # forces of all stages can be added.
+        # The force n_j is a covector at Q_j = E_j q0. Ad*_{E_j} transports the force to q0, where the forces
+        # of all stages can be added.
         self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]
         terms = [(ONE, self.mu)] + [(self.stages.times_h(self.b[j]), self.nu[j]) for j in range(self.s)]
         self.mubar = build.lin("mubar", Kind.DUAL, terms)

@@ -63,8 +63,8 @@ class _Product:
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
         """Append dexp*_{-x_J} Ad*_{(e^J)^-1} m, where e^J is the product of the first J factors."""
-        # partial[J] is the product of the factors before factor J, counted from zero. It does not contain the
-        # exponential of factor J, because dexp*_{-x} = dexp*_x Ad*_{exp(-x)} contains it.
+        # ``partial[J]`` is the product of the factors before factor J, where factors are counted from zero.
+        # The exponential of factor J itself is part of dexp*_{-x} = dexp*_x Ad*_{exp(-x)}.
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
 
@@ -97,11 +97,11 @@ def _program(scene: Problem, method: Method) -> Program:
         # The end point of the step depends on xi_i through every exponential whose exponent contains xi_i.
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
-                # The factor is beta_J^i/b_i. The factors add up to one over J, so M_i = mu0 + O(h).
+                # The factor is beta_J^i/b_i. The sum of these factors over all J is 1, so M_i = mu0 + O(h).
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
-                # The terms of mubar are appended one by one and not as a sum, so that they can cancel terms
-                # of the stages.
+                # The terms of mubar are appended one by one and not as a sum, because some of these terms may
+                # cancel terms of the stages.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
         # The discrete Lagrangian depends on xi_i through the points Q_j, too. This gives the terms with a
         # minus sign.

@@ -73,8 +73,8 @@ class _Step(ExpandedStep):
         # on later stages only.
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # If m_i depends on later stages only, all values in its formula are already known, and m_i is no
-            # unknown. An iteration with fewer unknowns needs fewer sweeps.
+            # If m_i depends on later stages only, all values in the formula for m_i are already known, and
+            # m_i need not be an unknown. An iteration with fewer unknowns needs fewer sweeps.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]

@@ -52,8 +52,8 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # For each stage: n_i, then R*_(r) M_i, then all terms of dexp*_(r) M_i except the first, with the
-        # opposite sign.
+        # The next three lists contain, for each stage: n_i; R*_(r) M_i; and the negatives of all terms of
+        # dexp*_(r) M_i except the first term.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -70,8 +70,8 @@ class _Step(ExpandedStep):
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
-        # The iterated brackets of v_i and of M_i, r of each, are computed once. dexp_(r), its dual and its
-        # derivative read them.
+        # The r iterated brackets of v_i and the r iterated brackets of M_i are computed once. They occur in
+        # dexp_(r), in its dual, and in its derivative.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
         # dexp_{(r),X} v = xi is solved for the first term, v = xi - sum_{k>=1} ad_X^k v/(k+1)!, which is a
         # contraction for small h.
@@ -97,8 +97,8 @@ class _Step(ExpandedStep):
         # ad*_{-w} (ad*_x)^i M. Terms with the same i are summed first: z is the sum of -w/(k+1)! over k.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
-            # The sum over k is formed in the algebra, before the bracket. This needs r brackets and
-            # not r (r + 1)/2, one for each term.
+            # The sum over k is formed in the algebra, before the bracket. Therefore r brackets are needed;
+            # one bracket for each term would give r (r + 1)/2 brackets.
             subscript = self.build.lin("z", Kind.ALG, inner)
             terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
         return self.build.lin(name, Kind.DUAL, terms)
@@ -106,8 +106,8 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append M_i, with one term for each coefficient."""
         build, times_h = self.build, self.stages.times_h
-        # As for v_i, the equation is solved for the term k = 0 of dexp*_(r) M_i: M_i = Lambda - ... - the
-        # other terms.
+        # As for v_i, the equation is solved for the term k = 0 of dexp*_(r) M_i, which is M_i itself. The
+        # other terms of dexp*_(r) M_i, with the opposite sign, are in ``corrections``.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
             # The force and the slope of stage j have the same factor h a_ji, because X_j depends on v_i
@@ -125,8 +125,11 @@ class _Step(ExpandedStep):
 
 
 def _rest(powers: list[Var]) -> Terms:
-    """Return -sum over k >= 1 of ad_x^k/(k+1)!, or of its dual."""
-    # The term k = 0 is the identity, for which the equation is solved.
+    """Return the terms -ad_x^k v/(k+1)! for k >= 1, or the same terms with the dual map of ad_x.
+
+    ``powers`` are v, ad_x v, ad_x^2 v, ...
+    """
+    # The term k = 0 is omitted, because it is v itself, for which the equation is solved.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

@@ -71,8 +71,8 @@ class Optimiser:
         if composed is not None:
             whole: Program = composed
             self._run(Pass("substeps", "the step repeats a shorter step", lambda _: whole))
-            # From now on the passes rewrite one substep, so the reference is this substep, computed as a
-            # step.
+            # From now on the passes rewrite one substep only, so the results of this substep, executed as a
+            # step of its own, are the reference.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -102,8 +102,8 @@ class Optimiser:
         # A program that the pass has not changed needs no comparison with the reference.
         if new == old:
             return
-        # Each result is compared with the lowered program and not with the previous result, because small
-        # deviations could accumulate.
+        # The results of the new program are compared with those of the lowered program and not with those of
+        # the previous program, because small deviations could accumulate from pass to pass.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
             raise IllFormed(f"the pass {each.name} changed the results of {old.name}: {account}")
@@ -122,36 +122,39 @@ def plain_passes(scene: Problem) -> list[Pass]:
     joined = "flows of one part are joined across flows that commute"
     vanish = "the group is abelian" if abelian_group else "dexpinv is truncated before its first bracket"
     return [
-        # This pass is the first, because it creates zeros that the next pass removes from sums.
+        # This pass precedes all others, because it replaces brackets by zeros, and the next pass removes
+        # zeros from sums.
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass follows value numbering. Only then do the fixed-point equations of stages with equal
-        # coefficients have the same variable on the right-hand side.
+        # This pass must follow value numbering, which gives the fixed-point equations of stages with equal
+        # coefficients the same variable on the right-hand side.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
-        # When two stages become one, several terms of a sum may refer to the same value, and may cancel.
+        # When two stages have been merged into one, several terms of a sum may contain the same value. Such
+        # terms are added here, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
         # After flows have been joined, the stage times of the replaced flows may be unused.
         Pass("unused values", UNUSED, dead.run),
-        # This pass follows the pass for zeros: terms that cancel would otherwise connect stages that are
-        # independent.
+        # This pass must follow the pass for zeros. Terms that cancel would otherwise count as dependencies
+        # between stages that are independent.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # The next pass takes a map out of a sum only if nothing else reads the map, so unused readers are
-        # removed first.
+        # The next pass combines values of a map in a sum only if nothing else reads these values. Therefore
+        # unused operations, which may read them, are removed first.
         Pass("unused values", UNUSED, dead.run),
-        # This pass replaces L(x) + L(y) by L(x + y), if no other sum reads L(x) or L(y): one application of L
-        # is saved. The next pass is for maps that several sums read.
+        # This pass replaces L(x) + L(y) by L(x + y), if no other sum reads L(x) or L(y). Then L is applied
+        # once and not twice. The next pass treats maps whose values are read by several sums.
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
         # Factoring produces sums of a single term, which this pass removes.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass needs the number of readers of exp(x), which is known only after value numbering has
-        # merged equal exponentials.
+        # This pass counts the operations that read exp(x), so it must follow value numbering, which merges
+        # equal exponentials.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
-        # Factoring can make values independent of a block's unknowns; this pass moves them out of the block.
+        # After factoring, some values of a block may no longer depend on the unknowns of the block. This pass
+        # moves these values out of the block.
         Pass("blocks", "stages are solved one after the other", blocks.run),
     ]
 
@@ -163,15 +166,16 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
     return [
         Pass("body frame", "the equations are written in the body frame", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # Value numbering merges variables with equal momenta. It must precede the Legendre transform, which
-        # would otherwise replace only one of these variables.
+        # Value numbering merges variables with equal momenta. This pass must precede the Legendre transform,
+        # because the Legendre transform replaces only one variable for each momentum.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The Legendre transform introduces inverses of maps. If a map is directly followed by its inverse,
         # both are removed.
         Pass("inverse maps", inverse, opposites.run),
-        # This pass follows the Legendre transform. Before it, the force of a stage depends on the unknown
-        # momentum of the stage, and this cycle prevents tearing.
+        # This pass must follow the Legendre transform. Before the Legendre transform, the force of a stage
+        # depends on the unknown momentum of the stage, and because of this cycle the pass cannot remove the
+        # force from the unknowns.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
         # After tearing has removed an unknown, a map may directly follow its inverse. Such pairs are removed.
         Pass("inverse maps", inverse, opposites.run),
@@ -179,12 +183,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # The pass for functions of ad requires that exp(x) has only one reader. This pass may remove a second
-        # reader of exp(x), and therefore precedes the pass for functions of ad.
+        # The pass for functions of ad requires that only one operation reads exp(x). This pass may remove a
+        # second operation that reads exp(x), and therefore precedes the pass for functions of ad.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # This pass follows the pass for functions of ad. Only after that pass is it known in which frame the
-        # momenta need fewer operations.
+        # This pass must follow the pass for functions of ad, because the result of that pass shows in which
+        # frame the momenta need fewer operations.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverses of maps, so the passes for maps are repeated.
         Pass("inverse maps", inverse, opposites.run),
@@ -192,7 +196,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("unused values", UNUSED, dead.run),
-        # Factoring moves coefficients into maps; this pass takes the coefficient of a single term out again.
+        # Factoring moves coefficients into the arguments of maps. If the argument of a map is a single term,
+        # this pass moves its coefficient out of the map again.
         Pass(
             "numbers outside maps",
             "numeric factors become coefficients of sums",
@@ -200,6 +205,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         ),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
-        # This pass is the last, because other passes would multiply the factor -1 back into a sum.
+        # This pass writes a sum as -1 times another sum. It follows all other passes, because some of them
+        # would multiply the factor -1 into a sum again.
         Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

@@ -1,4 +1,4 @@
-"""Remove brackets on an abelian group, because they vanish, and dexp^{-1} truncated at order 0.
+"""Remove operations without effect: brackets on an abelian group, and dexp^{-1} truncated at order 0.
 
 The pass is exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity,
 and ad and the derivative P of dexp^{-1} are zero. On any group dexp^{-1} truncated at order 0 is the
@@ -24,7 +24,7 @@ def run(program: Program, abelian: bool) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         operation = assign.operation
-        # dexp^{-1} = 1 - ad/2 + ...: truncated at order 0 it is the identity on every group.
+        # The series dexp^{-1} = 1 - ad/2 + ..., truncated at order 0, is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
             # The linear map acts on the last argument; the other arguments determine the map.

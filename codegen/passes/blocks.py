@@ -29,7 +29,7 @@ def run(program: Program) -> Program:
 
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     """Return the statements of one block in order; add the images of its unknowns to ``names``."""
-    # The import is here, because only programs with blocks need networkx.
+    # networkx is imported here and not at the top of the file, because only programs with blocks need it.
     import networkx
 
     # In the statements after a block, and in the starts of later blocks, each unknown of the block is
@@ -51,8 +51,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
                 graph.add_edge(source, k)
     # Two assignments depend on each other exactly if they are in one strongly connected component.
     condensed = networkx.condensation(graph)
-    # Inside a component the old order of assignments remains valid: an assignment depends on later
-    # assignments only through unknowns.
+    # Inside a component the old order of assignments remains valid. An assignment depends on later
+    # assignments only through unknowns, whose values are known from the previous sweep.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
     # Several orders of the components may be possible. The order closest to the old program is chosen, so
     # that a small change of a program causes a small change of emitted text.
@@ -68,40 +68,41 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
         ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
-        # If the component reads none of its unknowns, it has no cycle: it is explicit.
+        # If the component reads no unknown whose image it computes, it has no cycle: its assignments are
+        # explicit and need no block.
         if not own:
             result += renamed
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
-        # The new blocks have no residuals: :mod:`codegen.passes.legendre` adds residuals after the last
-        # split.
+        # Residuals need not be copied to the new blocks, because the old block has none:
+        # :mod:`codegen.passes.legendre` adds residuals after the last split.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
-    # Later statements read the image in place of the unknown. At the solution both are equal, and the image
-    # is also defined if its component has no cycle and is no block.
+    # Later statements read the image in place of the unknown, because both are equal at the solution. An
+    # unknown whose component has no cycle is in no block and has no value of its own.
     names.update(image)
     return result
 
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
-    """Return the image of each unknown; an image that is itself an unknown is replaced by the image of that
-    unknown. If the images form a closed chain, the result is the start value of the unknown."""
+    """Return a value for each unknown: its image, or, if the image is itself an unknown, the image of that
+    unknown, and so on. If this chain of unknowns is closed, the value is the start value of the unknown."""
     result = {}
     for unknown in image:
         var, seen = image[unknown], [unknown]
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # If the images form a closed chain, v = w and w = v, any common value is a solution. The start value
-        # of the unknown is chosen.
+        # If the chain is closed, as for the equations v = w and w = v, any common value is a solution. The
+        # start value of the unknown is chosen.
         result[unknown] = start[unknown] if var in seen else var
     return result
 
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # Unknowns of the component itself are not replaced by their images, because this would create a
-        # cycle.
+        # Unknowns of the component itself are not replaced by their images. Otherwise an assignment would
+        # read a value that depends on its own result.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

@@ -9,7 +9,8 @@ of a block read only those coordinates of q that the body's field reads. The pro
 momentum of the body (:data:`codegen.ir.program.BODY`), so consecutive steps need no transformation between
 them.
 
-A program with other operations, or of a scene without a body frame, is not changed.
+A program is not changed if the scene has no body frame, or if an operation other than the field does not
+commute with the transformation.
 """
 
 from __future__ import annotations
@@ -95,8 +96,8 @@ class _Framing:
             # is not applied.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
-            # The initial values of the unknowns are computed before the block. They are renamed first,
-            # because the body of the block defines more names.
+            # The initial values of the unknowns are computed before the block. Therefore they are renamed
+            # before the body of the block, which adds names to ``names``, is visited.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)
@@ -107,8 +108,8 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # A program with an embedded solution has two new positions, and so two new frames. Such programs are
-        # not rewritten.
+        # The step of a program with an embedded solution ends at two positions, which have different body
+        # frames. Such programs are not rewritten.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
@@ -139,7 +140,8 @@ class _Framing:
             if left in self.relative:
                 raise NotFramed
             # The product of ``left`` and the position E q is left (E q) = (left E) q, so the factor of the
-            # new position is left E. Conjugation by q preserves the product left E.
+            # new position is left E. Conjugation by q maps this product to the product of the conjugates of
+            # left and E, so the operation remains a multiplication.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # In the body frame E q is written as q E~, with the factor on the right side.
@@ -167,7 +169,7 @@ class _Framing:
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)
-        # W and N are in the frame of the stage Q = q E~; the adjoint maps of E~ transform them to the frame
-        # of q.
+        # W and N are in the body frame of the stage, Q = q E~. The adjoint maps of E~ transform W and N to
+        # the body frame at the start of the step.
         self.names[xi] = W if E is None else build.adjoint(f"b{xi.name}", E, W)
         self.names[n] = N if E is None else build.adjoint(f"b{n.name}", E, N, inverse=True)

@@ -1,7 +1,7 @@
 """Remove dead code: values on which neither the new state nor the equations for the new state depend.
 
-The pass is exact. An unknown that nothing reads is removed from its block together with its equation. A block
-is removed if nothing reads its unknowns.
+The pass is exact. An unknown that nothing reads is removed from its block together with its equation. If
+nothing reads any unknown of a block, the block is replaced by those of its assignments that are still needed.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ def run(program: Program) -> Program:
                 live.update(statement.args)
                 kept.append(statement)
             continue
-        # The statements of a block are appended in reverse order, because the whole list is reversed at the
-        # end.
+        # The remaining statements of a block are appended in reverse order, because the list ``kept`` is
+        # reversed at the end.
         kept += reversed(_trim(statement, live))
     return replace(program, body=tuple(reversed(kept)))
 
@@ -42,14 +42,15 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # zip is not strict, because a block has one residual for each unknown, or no residuals.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
-    # A list in program order is used, because the order of a set could change from run to run.
+    # The values are in a list in the order of the program and not in a set, because the order of a set could
+    # differ from run to run.
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
     # The image of a live unknown is live, and so is every value from which the image is computed.
     while wanted:
         var = wanted.pop()
-        # Values of a block may depend on each other in cycles, so the search may reach a value that it has
-        # already visited.
+        # Values of a block may depend on each other in cycles, so the search may reach a value a second time.
+        # The value is then skipped.
         if var in needed:
             continue
         needed.add(var)
@@ -68,6 +69,7 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     if not pairs:
         return body
     unknowns, starts, images = zip(*pairs, strict=True)
-    # Starts are read outside the block; only the starts of remaining unknowns are live.
+    # The start values are computed before the block, so they are added to ``live``. The start values of
+    # removed unknowns are not needed.
     live.update(starts)
     return (replace(block, unknowns=unknowns, starts=starts, images=images, body=body, residuals=kept),)

@@ -28,7 +28,8 @@ def run(program: Program) -> Program:
             # program.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
-            # Removed unknowns are also renamed in the body. Value numbering can then merge equal stages.
+            # In the body of the block, too, each removed unknown is replaced by the first unknown. Value
+            # numbering can then merge equal stages.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner
@@ -43,14 +44,14 @@ def run(program: Program) -> Program:
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
     """Return (unknown, start, image) for the first unknown of each image, and a dictionary from every other
     unknown to the first unknown with the same image."""
-    # Only the start of the first unknown is used; from the other starts the iteration would find the same
-    # solution.
+    # Only the start value of the first unknown is used. The start values of the other unknowns are not
+    # needed, because all these unknowns are equal at the solution.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}
     for unknown, start, image in zip(block.unknowns, block.starts, block.images, strict=True):
-        # An image that is itself an unknown merges nothing: :mod:`codegen.passes.blocks` follows such chains.
-
+        # If the image is itself an unknown, nothing is merged here, because :mod:`codegen.passes.blocks`
+        # replaces such an image by the image of that unknown.
         if image in block.unknowns or first.setdefault(image, unknown) == unknown:
             pairs.append((unknown, start, image))
         else:

@@ -29,8 +29,7 @@ with DIGITS decimal digits.
 The last of these steps is short enough even for a scene with a coefficient of 1e300."""
 
 REACH = 0.5
-"""The largest value of h times the largest component of the field: longer steps would amplify rounding
-errors.
+"""An upper bound of h times the largest component of the field. Longer steps would amplify rounding errors.
 
 The value need not be exact, because :data:`AGREE` is 2^15 times as large as the rounding errors observed."""
 
@@ -78,9 +77,9 @@ coefficient that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equival
 class _Step:
     """One step of the reference: the new state, and the solutions of the blocks.
 
-    ``moved`` says that the step begins at a point near the initial state and not at the initial state.
-    ``tiny`` says that the step is one of :data:`TINY_STEPS`; its results are compared relative to the change
-    of the state.
+    ``moved`` is True if the step begins at a point near the initial state, and False if it begins at the
+    initial state. ``tiny`` is True if the step size is one of :data:`TINY_STEPS`; the results of such a step
+    are compared relative to the change of the state.
     """
 
     domain: Domain
@@ -135,8 +134,8 @@ class Reference:
     Two points are used: the initial state, which may be special (an equilibrium, a symmetric position), and a
     nearby point without symmetry. The step is the longest step that moves the state by at most :data:`REACH`
     along the field, and for which the results are finite and the blocks converge. The iterations of the
-    compared program start from the solutions of the reference. If the equations of the compared program have
-    other solutions, its iterations leave these starts, and the results differ.
+    compared program start from the solutions of the reference. If these are no solutions of the equations of
+    the compared program, the iterations move away from them, and the results differ.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -154,11 +153,12 @@ class Reference:
         The steps begin at the initial state, or at a state near it.
         """
         state = _state(self.scene, FloatDomain(0.0), moved)
-        # The distance covered in a step is about h times the field, so fast fields get shorter steps.
+        # A step moves the state by about h times the field. Therefore the steps are shorter if the field is
+        # large.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # A state at which the field is not finite is skipped; the programs can then be compared at the other
-        # state.
+        # No steps begin at a state at which the field is not finite. The programs are then compared at the
+        # other state only.
         if not math.isfinite(speed):
             return
         # 2**excess is the least power of two above speed * STEPS[0] / REACH, the factor by which the longest
@@ -166,8 +166,8 @@ class Reference:
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
         last = math.inf
         for moderate in STEPS:
-            # The step size is a power of two, so powers of h have no rounding errors that could be mistaken
-            # for a difference.
+            # The step size is a power of two. Powers of h then have no rounding errors, which could be
+            # mistaken for a difference between the programs.
             step = math.ldexp(moderate, -max(excess, 0))
             if step <= last / APART and (result := self._step(program, FloatDomain(step), inputs, moved)):
                 yield result
@@ -178,7 +178,8 @@ class Reference:
                 yield result
 
     def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
-        """Return the domain of a step in many digits, and a state in it."""
+        """Return a domain with ``digits`` digits for a step of size h, and the state from which the step
+        starts."""
         domain = _Bounded(h, digits)
         state = _state(self.scene, domain, moved)
         return domain, {name: state[name] for name in self.kinds}
@@ -195,14 +196,14 @@ class Reference:
             after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
         except FAILURES:
             return None
-        # Results near the largest double are excluded, because the sum of their terms in another order may
-        # overflow.
+        # Very large results are excluded. The compared program may add the terms of such a result in another
+        # order, and a partial sum may overflow.
         finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
     def _is_short(self, step: _Step, power: int) -> bool:
-        """Return True if a tiny step changes the state only slightly. This is the case if h times each
-        coefficient is small."""
+        """Return True if a tiny step changes every number x of the state by at most 2^-(power/2) max(1,
+        abs(x)). If a change is larger, h times some coefficient of the scene is not small."""
         return all(
             abs(x - y) <= max(1, abs(x)) * 2.0 ** -(power // 2)
             for name in self.kinds.keys() & step.after.keys()
@@ -307,7 +308,7 @@ class Reference:
 
 
 def _speed(scene: Problem, state: dict[str, Value]) -> float:
-    """Return the largest component of the field, or of the Hamiltonian's derivatives, at a state."""
+    """Return the largest component of the field, or of the derivatives of the Hamiltonian, at a state."""
     domain = FloatDomain(0.0)
     coordinates = tuple(x for block in scene.state for x in state[block.name])
     try:
@@ -329,7 +330,8 @@ def _no_step(scene: Problem) -> SceneError:
 
 
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
-    """Return the initial state, or a state moved from it by the group in fixed directions.
+    """Return the initial state. If ``moved`` is True, return a nearby state: points are moved by a fixed
+    group element, and a fixed covector is added to momenta.
 
     The moved state is on the manifold up to rounding errors of the arithmetic of ``domain``.
     """
@@ -343,7 +345,8 @@ def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     for block in scene.state:
         value = start[first : first + len(block.symbols)]
         first += len(block.symbols)
-        # Momenta form a vector space. Points and elements move by the group and stay on the manifold.
+        # Momenta form a vector space, so a covector is added. Points and group elements are moved by a group
+        # element, so that they stay on the manifold.
         if moved and block.kind is Kind.DUAL:
             value = tuple(a + b for a, b in zip(value, covector, strict=True))
         elif moved:

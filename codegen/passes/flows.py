@@ -42,7 +42,8 @@ def run(program: Program, scene: Problem) -> Program:
     # compositions of flows.
     commute = commuting(scene)
     kept: list[Letter] = []
-    # Each flow is joined to an earlier flow of the same part if it commutes with all flows between them.
+    # A flow is joined to the last earlier flow of the same part if it commutes with all flows between the
+    # two.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:
@@ -59,8 +60,9 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the index of the last flow with the part and the time of ``letter``. The result is None if there
-    is no such flow, or if a flow after it does not commute with ``letter``."""
+    """Return the index in ``kept`` of the last flow with the part and the time of ``letter``. The result is
+    None if ``kept`` contains no such flow, or if some flow that follows it in ``kept`` does not commute with
+    ``letter``."""
     for at in reversed(range(len(kept))):
         # If a part of the splitting depends on time, its flow uses the vector field at a fixed stage time.
         # Flows with different stage times are therefore flows of different fields.
@@ -117,8 +119,8 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # All sample points are on the manifold: formulas of flows may use the equations that define the
-        # group, and such flows may commute only on the manifold.
+        # The sample points are on the manifold of states. The formulas of flows may use the equations that
+        # define this manifold, so at other points the results may differ even if the flows commute.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)

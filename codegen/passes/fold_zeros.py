@@ -77,7 +77,8 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
-    # If a sum equals a single value, its readers read this value, and the sum is removed.
+    # If a sum equals a single value, the operations that read the sum now read this value, and the sum is
+    # removed.
     if len(terms) == 1 and terms[0][0].is_one:
         return (terms[0][1],)
     return rewriter.emit(Assign.of_terms(assign.targets[0], terms))

@@ -3,8 +3,8 @@ become one function.
 
 The pass is exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations with
 multiples of one x is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a
-closed form for this product: on SO(3) it is 1 + b ad_x + c ad_x^2. If a single adjoint operation reads
-exp(x), the element exp(x) need not be computed.
+closed form for this product: on SO(3) it is 1 + b ad_x + c ad_x^2. If an adjoint operation is the only
+operation that reads exp(x), the element exp(x) need not be computed.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
     # If the argument of f(ad_x) is a sum of functions of ad_x, f is applied to each term. All terms of the
-    # new sum can then be computed with two brackets.
+    # new sum together can then be computed with two brackets.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
@@ -105,8 +105,8 @@ Part = tuple[Var, Word, Var]
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
     """Return (s, (y, W, v)) if var is defined as W(ad_y) v and x = s y; None otherwise."""
     source = rewriter.definitions.get(var)
-    # If a function of ad has several readers, it is not joined with one of them, because it would then be
-    # computed twice.
+    # If several operations read the value W(ad_y) v, it is joined with none of them. Otherwise W would be
+    # evaluated twice: in the joined function, and for the other operations.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])
@@ -116,7 +116,8 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Append the result of a function of ad_x applied to a sum of such functions, computed term by term."""
+    """Append the sum ``total`` with the function ``word`` of ad_x applied to each term; return its target.
+    The terms are described by ``parts`` and are themselves functions of multiples of ad_x."""
     terms = []
     for scale, (y, inner, v) in parts:
         joined = simplified((*inner, *(f.scaled(scale) for f in word)))
@@ -150,7 +151,8 @@ def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
-    # If all quotients of coefficients are equal to s, then x = s y. The scale of a factor must be rational.
+    # If all quotients of coefficients are equal to s, then x = s y. Callers use s as the scale of a factor,
+    # which must be a rational number.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 
@@ -164,8 +166,8 @@ def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], N
         source = definitions.get(var)
         if source is not None and source.terms:
             for k, arg in source.terms:
-                # Sums are expanded down to variables: h xi/2 and h xi are recognised as proportional only by
-                # the variable xi.
+                # Sums are expanded until only variables remain that are not sums. For example, h xi/2 and h
+                # xi are two different variables, but the expanded terms show that both are multiples of xi.
                 waiting.append((c * k.value, power + k.power, arg))
             continue
         old = total.get((var.name, power))

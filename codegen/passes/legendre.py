@@ -3,8 +3,8 @@
 The pass is exact. W(Q, P) is the velocity of a stage, as a function of its position Q and momentum P. Suppose
 that an unknown v equals W(Q, P) up to invertible linear maps. The inverse maps then give w = W(Q, P) from v,
 and at the solution P = W^{-1}(Q, w). The equations of the block define a momentum M, and further maps compute
-P from M. All other operations that read W, P, or a value between v and M now read values that are computed
-from v. A force thus no longer depends on an unknown momentum, and tearing removes the force from the
+P from M. All other operations that read W, P, or an intermediate value of these maps now read values that are
+computed from v. A force thus no longer depends on an unknown momentum, and tearing removes the force from the
 unknowns. One equation remains for each v: the momentum computed from v equals the momentum M.
 :func:`residuals` adds this equation to the block. Statements after the block read the velocity from the
 unknown.
@@ -60,7 +60,8 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths are found first. Rewriting a path does not change the statements of the other paths.
+        # All paths are found before any path is rewritten. This is possible, because rewriting a path does
+        # not change the statements of the other paths.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
@@ -81,8 +82,8 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # A block has residuals for all of its unknowns or no residuals, because Newton's matrix is
-            # square.
+            # Either all unknowns of a block have residuals, or none of them has: Newton's matrix must be
+            # square, so there must be as many residuals as unknowns.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -139,8 +140,8 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append all values on a path, computed from the unknown of the path. Return a dictionary from old to new
-    variables of these values, and the new variable of the base."""
+    """Append assignments that compute all values on a path from the unknown of the path. Return a dictionary
+    from old to new variables of these values, and the new variable of the base."""
     replaced: dict[Var, Var] = {}
     value = route.unknown
     replaced[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
@@ -157,8 +158,9 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append the residual: the momentum of the equations minus the momentum computed from the velocity. Of
-    the frames in which they can be compared, the one with fewer operations is chosen.
+    """Append and return the residual: a momentum from the equations of the block, minus the same momentum
+    computed from the velocity. This momentum is the base, P, or a value between them; the choice needs the
+    fewest operations.
     """
     replaced, computed = _values(build, route)
     # The two momenta may be compared at any place of the path: the maps of the path are invertible, so the
@@ -195,8 +197,8 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # Every value on the path is computed from the unknown; a later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The base is a sum of many terms of other stages. The other statements need no base computed from the
-    # unknown, so the base is not replaced.
+    # The base is computed from the equations in any case, as a sum of terms of other stages, because the
+    # equation that remains reads it. The other statements therefore read this sum, too.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # Statements of the path itself are not changed: they are the equation that remains to be solved.

@@ -115,8 +115,8 @@ class SeriesSums:
         """Return a sum with its terms expanded, unless the expanded sum is longer."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # The terms of an expanded sum are known earlier than the sums inside it, so the chain of
-            # dependent operations is shorter.
+            # A sum among the terms is replaced by its own terms. The result then need not wait for this sum,
+            # so the chain of dependent operations is shorter.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:

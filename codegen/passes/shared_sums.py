@@ -16,7 +16,7 @@ from codegen.passes import dead
 from codegen.passes.rewrite import Rewriter, rewrite
 
 Key = tuple[Operation, tuple[Var, ...]]
-"""A linear map: the operation and its first arguments."""
+"""A linear map: the operation and all its arguments except the last."""
 
 Share = tuple[tuple[Var, Coefficient], ...]
 """A linear combination of values of one map. It is scaled so that, among the terms with the lowest power of

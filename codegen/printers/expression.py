@@ -19,8 +19,8 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 
 @dataclass(frozen=True)
 class Rendering:
-    """The text of |x| and its precedence; ``negative`` is true if x has a minus sign. Lines may break between
-    ``segments``.
+    """The text of an expression x without its sign, and the precedence of the text. ``negative`` is true if x
+    has a minus sign. Lines may break between ``segments``.
     """
 
     segments: tuple[str, ...]

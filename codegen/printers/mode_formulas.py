@@ -39,7 +39,8 @@ class ModeFormulas:
         taken = {*self.reserved, *names.values()}
         assignments = []
         for statement in arranged.statements:
-            # The scene has checked that the formulas call scalar functions only.
+            # Every statement assigns a single value, because the scene has checked that the formulas call
+            # scalar functions only.
             assert isinstance(statement, Assignment)
             own = identifier(statement.name, taken)
             taken.add(own)
@@ -85,7 +86,7 @@ class ModeFormulas:
 
 
 def identifier(name: str, taken: Collection[str]) -> str:
-    """Return a name that is not taken, made from a name by appended underscores."""
+    """Return ``name``, with underscores appended until the result is not in ``taken``."""
     while name in taken:
         name += "_"
     return name

@@ -42,8 +42,8 @@ class Target:
     and returns the solved unknowns of each substep; measurements of implicit steps use these unknowns.
     ``stack`` is a regular expression; its first group is the stack of a call in bytes, as stated in the file
     that contains the step. ``batches`` is true if modules can have a function for many systems.
-    ``lattice_loader`` is the loader of modules for lattices; without it the target has no lattices.
-    ``spectral_loader`` is the loader of modules for semilinear equations; without it the target has none.
+    ``lattice_loader`` is the loader of modules for lattices, and ``spectral_loader`` is the loader of modules
+    for semilinear equations. If a loader is missing, the target has no modules of this type.
     """
 
     name: str

@@ -51,8 +51,8 @@ def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Stat
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
-        # The outputs get new names, because an old entry of the state may occur in other outputs: the state
-        # is overwritten only after all outputs are computed.
+        # The outputs get new names, because the formulas of other outputs may still read the old entries of
+        # the state. The state is overwritten only after all outputs are computed.
         named.append(own(f"new {symbol}"))
         sequence.append(Assign(named[-1], value(output)))
     return sequence, named

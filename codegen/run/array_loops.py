@@ -35,7 +35,7 @@ GROUP = 4
 _ROW, _COLUMN, _TERM = count("i"), count("j"), count("k")
 _FIRST, _SECOND = count("first_row"), count("second_row")
 _ENTRY = real("entry")
-"""The entry of a constant matrix."""
+"""The variable that contains the current entry of a constant matrix."""
 
 Index = Term | int
 Group = Callable[[Term | None, int], Iterator[Statement]]
@@ -145,7 +145,7 @@ class ArrayLoops:
             yield self.over(part, more, flat=False)
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
-        """Return one entry of the sum of terms."""
+        """Return the entry at a place of a sum of matrices, each multiplied by its weight."""
         result: Term | None = None
         for term in terms:
             result = _plus(result, term, weights[id(term)], self.summand(term, place))
@@ -163,7 +163,8 @@ class ArrayLoops:
         return self.entry(matrix, place.row, place.column)
 
     def over(self, target: Matrix, entry: Callable[[_Place], Term], *, flat: bool) -> Statement:
-        """Return the loop that sets all entries of a matrix; with ``flat`` it is a single loop."""
+        """Return the statement that sets all entries of a matrix: a loop over rows that contains a loop over
+        columns, or, with ``flat``, a single loop over all entries."""
         if flat:
             place = _Place(_ROW, None)
             return For(_ROW, whole(target.size), (Assign(self.at(target, place), entry(place)),))
@@ -198,9 +199,9 @@ class ArrayLoops:
             yield For(_ROW, whole(c.length(diagonal)), body)
 
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
-        """Return a function that writes a group of entries in row ``row`` of the target. The new entries are
-        those in row ``column`` of the matrix, times one entry of the constant matrix. If ``added`` is true,
-        they are added to the old entries."""
+        """Return a function that sets a group of entries in row ``row`` of the target. A new entry is the
+        constant :data:`_ENTRY` times the entry of ``a.matrix`` in the same column and in the row with the
+        index ``column``. If ``added`` is true, this product is added to the old entry."""
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
             for place in (_shifted(first, b) for b in range(columns)):
@@ -259,8 +260,9 @@ class _Place:
 def constant_entry(
     given: Entry, table: str, row: Term, column: Term, place: Term
 ) -> tuple[list[Statement], Term]:
-    """Return statements and an entry of a constant matrix. If the entry is a formula in its row or column,
-    the statements convert these indices to reals.
+    """Return statements, and an entry of a constant matrix that may be read after these statements. If the
+    entry is a formula in its row or column, the statements convert these indices to reals; otherwise there
+    are none.
 
     If the entries are numbers and not formulas, ``table`` is the name of their table, and ``place`` is the
     index in this table.
@@ -280,7 +282,8 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of entries that are given as numbers."""
-    # A matrix with formulas in t occurs once for each stage time; its numbers are the same at all times.
+    # A matrix with formulas in t occurs in ``constants`` once for each stage time. Its numbers do not depend
+    # on t, so its tables are yielded only once.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
@@ -334,7 +337,7 @@ def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
 
 
 def _place(matrix: Matrix, row: Index, column: Index) -> Index:
-    """Return the place of an entry in its array."""
+    """Return the index of an entry in the array of its matrix."""
     if isinstance(row, int) and isinstance(column, int):
         return matrix.place(row, column)
     constant = matrix.start + sum(n * x for n, x in ((matrix.step, row), (1, column)) if isinstance(x, int))
@@ -353,7 +356,8 @@ def _is_whole(matrix: Matrix) -> bool:
 
 
 def _covers(c: ConstantMatrix) -> bool:
-    """Return True if the first diagonal sets every row."""
+    """Return True if the first diagonal has an entry in every row: it is the main diagonal of a square
+    matrix."""
     return c.rows == c.columns and c.diagonals[0].offset == 0
 
 
@@ -364,7 +368,7 @@ def _sign(c: Expr) -> int:
 
 
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
-    """Return a sum with one more term."""
+    """Return the sum ``total`` plus the product of ``weight``, ``entry`` and the sign of the coefficient."""
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry
     if total is None:

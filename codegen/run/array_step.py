@@ -173,7 +173,7 @@ class _Exponential:
         return Function(self.name, about, parameters, tuple(body))
 
     def statements(self) -> Iterator[Statement]:
-        """Yield the statements of the function."""
+        """Yield the statements of the function that applies an exponential."""
         m = self.core.rows
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
@@ -206,7 +206,8 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that compute how many terms of the series of phi follow the first term."""
+        """Yield the statements that compute how many terms of the series of phi are added to its first
+        term."""
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
@@ -238,7 +239,8 @@ class _Exponential:
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # If no start is given, the displacement before the first factor is zero.
+        # If no start is given, the displacement before the first factor is zero, so these statements are
+        # skipped for the first factor.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (

@@ -130,8 +130,8 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of the variant that accepts all arguments. It has the same roundings as the variant
-    :func:`near` where both are valid.
+    """Return the name of the variant that accepts all arguments. For arguments that the variant without
+    branches (:func:`near`) accepts, too, both variants have the same roundings.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')
@@ -156,7 +156,8 @@ def _advance_lanes(plan: Plan) -> Function:
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
         ]
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # All values enter the test, as in the scalar step: x - x is 0 if x is finite, else NaN.
+    # As in the scalar step, the test covers the new state and the entries of the old state that the kernel
+    # does not read. The difference x - x is 0 if x is finite, else NaN.
     unread = [own(s) for s in plan.symbols if s not in read]
     check = real("check")
     passed = check.equals(number(0.0))
@@ -187,7 +188,7 @@ def _lane_parameters(plan: Plan, stopped: Term, failed: Term) -> tuple[Term, ...
 
 
 def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
-    """Return the statements of the kernel that depend on t and h only, and all others."""
+    """Return the statements of the kernel that depend on t and h only, and then all its other statements."""
     shared, before, inside = {TIME.text, STEP.text}, [], []
     for statement in plan.arrangement.statements:
         assert isinstance(statement, Simple)
@@ -201,7 +202,7 @@ def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
 
 
 def _batch(plan: Plan, work: list[Statement]) -> Function:
-    """Return the public function."""
+    """Return the public function, which makes the steps of all lanes by the statements ``work``."""
     statuses, ended = _statuses(), count("completed", 0)
     bad = count("bad")
     flag = Term("name", (), Kind.FLAG, bad.text)
@@ -212,7 +213,8 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
         If(flag, (Return(code(BAD_STEP)),)),
         *work,
         Assign(STATUS, code(OK)),
-        # The loop runs backwards, so that the result is the status of the first lane that failed.
+        # Each lane that failed overwrites the status. The loop runs backwards, so the result is the status of
+        # the first lane that failed.
         For(
             _LANE,
             _TOTAL,

@@ -131,7 +131,7 @@ class _Deferring:
         """Return the call of the function of a kernel; no statement if ``kernel`` is None."""
         if kernel is None:
             return []
-        # The value that is passed for a scalar of the kernel depends on the name of the scalar.
+        # The scalars t, LEAD and ELAPSED get the values of this call; all other scalars are passed unchanged.
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
         plan = _plan(self.plan, kernel)
         passed = tuple(known.get(x.text, x) for x in _read(plan))
@@ -204,8 +204,8 @@ class _Deferring:
         """
         state = self.plan.state()
         failed = (
-            # The next attempt makes exactly the steps that were good. It cannot fail and is therefore the
-            # last attempt.
+            # After a careful attempt, the next attempt makes exactly the steps that were good. It cannot fail
+            # and is therefore the last attempt.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )

@@ -13,11 +13,12 @@ from codegen.run.plan import Plan
 from codegen.run.terms import Term, count, real, value, whole
 
 EXTEND, MOVED, EXTENDED = "extend", "moved_by", "extended_state"
-"""The names of the functions."""
+"""The names of the functions that compute the coefficients of a step, apply an exponential to a state, and
+evaluate the extension."""
 
 
 class DenseOutput:
-    """The functions, and their calls."""
+    """Builds the functions of a continuous extension, and the calls of these functions."""
 
     theta = real("theta")
 
@@ -75,5 +76,5 @@ class DenseOutput:
         return Call(EXTEND, (state, *own.moment(t, h), *own.parameters, *own.sampled(), self.powers))
 
     def state_at(self, state: Term, theta: Term) -> Call:
-        """Return the call that computes the state at a fraction of the step."""
+        """Return the call that computes the state at the fraction ``theta`` of the step."""
         return Call(EXTENDED, (state, self.powers, theta, self.inner))

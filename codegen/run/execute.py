@@ -54,7 +54,7 @@ Action = Callable[[Environment], bool]
 """An action executes a statement. Its result is True if a Return was executed and the function ended."""
 
 RESULT = "result of the function"
-"""The key of a function's result in its environment; it contains spaces, so no identifier equals it."""
+"""The key of the result in an environment; no identifier equals it, because it contains spaces."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -114,13 +114,13 @@ class Machine:
             setattr(record, term.text, self.zero(term.shape, term.kind))
 
     def zero(self, shape: Sequence[int], kind: Kind, record: str = "") -> Any:
-        """Return zeros of a shape."""
+        """Return a zero, an array of zeros of a shape, or a record whose fields are all zero."""
         if shape:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
             return self.record(record)
-        # Counts and flags stay Python integers: they index lists and end loops, in which a ring element has
-        # no meaning.
+        # Counts and flags stay Python integers, because a ring element can neither index a list nor end a
+        # loop.
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
@@ -459,7 +459,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
-        # The domain computes the function with the same operations as the function of the unit, but faster.
+        # The domain computes vector functions with the same operations as emitted code, but faster.
         return lambda *x: x[-1].__setitem__(slice(None), domain.vector(function, [*chain(*x[:-1])])) or ()
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]

@@ -71,7 +71,7 @@ def _entries(function: ExponentialAction) -> str:
 
 
 def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
-    """Return the statements that compute the largest row sum."""
+    """Return the statements that compute the largest sum of absolute values in a row of the matrix."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
     if function.n > SPARSE:

@@ -30,8 +30,8 @@ class EmittedFloats(FloatDomain):
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return c_k(z) for several indices k, computed together."""
-        # The branches are the same as in the snippets, because the result of another polynomial would differ
-        # in the last bit.
+        # The branches are the same as in the emitted functions, because the result of another polynomial
+        # would differ in the last bit.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -98,7 +98,7 @@ class EmittedFloats(FloatDomain):
                 before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
         *rest, total = slopes(k)
-        # Horner's rule uses the order of the snippet, so that every rounding is the same.
+        # Horner's rule has the same order as in the emitted function, so that every rounding is the same.
         for term in reversed(rest):
             total = term + z * total
         return total

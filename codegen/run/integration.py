@@ -39,7 +39,7 @@ from codegen.run.terms import (
 from codegen.run.trajectory import Rows, advanced, arguments, is_looped, own_memory
 
 INTEGRATE = "integrate"
-"""The name of the public function."""
+"""The name of the public function for a run to a given end time."""
 
 NEARLY = 1e-9
 """If the rest of the interval is longer than a step by at most this fraction, one step covers it. Without
@@ -79,7 +79,7 @@ class _Constant:
         self.trial = plan.state("trial")
 
     def integrate(self) -> Function:
-        """Return the function."""
+        """Return the public function for a run with steps of constant size."""
         plan, observation = self.plan, self.observation
         state = plan.state()
         chosen = (self.t, self.end, self.h, self.limit, *plan.parameters, *plan.sampled())
@@ -157,7 +157,7 @@ class _Constant:
         return self.observation.observe(self.plan.state(), self.trial, self.now, self.following, self.stop)
 
     def accept(self) -> tuple[Statement, ...]:
-        """Return the statements after a step."""
+        """Return the statements that accept a step: the run continues from its result."""
         return (
             Assign(self.plan.state(), self.trial),
             Assign(self.now, self.stop[0]),
@@ -175,7 +175,7 @@ class _Adaptive(Controlled):
         self.observation = Observation(plan)
 
     def integrate(self) -> Function:
-        """Return the function."""
+        """Return the public function for a run with step control."""
         plan, observation = self.plan, self.observation
         chosen = (self.t, self.end, self.h, RTOL, ATOL, LEAST, GREATEST, self.limit)
         passed = (*plan.parameters, *plan.sampled(), *observation.outputs, *observation.buffers)

@@ -1,9 +1,9 @@
-"""The derivative of a step: each column is a unit vector to which the linearised step is applied.
+"""The derivative of a step: each column is the image of a unit vector under the linearised step.
 
-The kernel of variations computes the step and its linearisation. A variation is a tangent vector of the
-state, to which the linearised step is applied. Implicit equations, and the linear equations for the
-variations of their unknowns, are solved by fixed-point iteration. If only Newton's method converges, the call
-fails.
+The kernel of variations computes the step and its linearisation. A variation is a tangent vector, to which
+the linearised step is applied. Implicit equations, and the linear equations for the variations of their
+unknowns, are solved by fixed-point iteration. If this iteration does not converge, the call fails, even if
+Newton's method would converge.
 """
 
 from __future__ import annotations
@@ -133,7 +133,8 @@ class _Jacobian:
         return [Call("vary", (plan.state(), self.vector, *arguments), (STATUS,))]
 
     def composed(self) -> list[Statement]:
-        """Return the loop over the substeps, which advance the variation before the state."""
+        """Return the loop over the substeps; each substep advances the variation first, and then the
+        state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
         # Each substep has its own memory, because substeps have different lengths and solutions.
         memories = record("memory", "memory", plan.parts)

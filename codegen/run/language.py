@@ -100,7 +100,7 @@ class Return:
 
 @dataclass(frozen=True)
 class Note:
-    """A comment."""
+    """A comment in the emitted code."""
 
     text: str
 
@@ -252,7 +252,8 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 
 
 def reads(statement: Statement) -> Iterator[Term]:
-    """Yield the names that a statement itself reads; changing an entry of an array reads the array."""
+    """Yield the names that a statement itself reads. Changing an entry of an array counts as reading the
+    array."""
     given = assigned(statement)
     # An assignment to an entry keeps the other entries, so it depends on the old array.
     whole = {id(t) for t in given if t.op == "name"}

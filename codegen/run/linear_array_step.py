@@ -98,7 +98,7 @@ class _Step:
                 self.exponents.append(e)
 
     def functions(self) -> tuple[Function, ...]:
-        """Return all functions."""
+        """Return all functions of the step, callees first."""
         listed = self.stored.functions(self.plan.moment(), self.plan.parameters)
         done: set[int] = set()
         for number_of, pair in enumerate(self.step.commutators):
@@ -132,7 +132,7 @@ class _Step:
         return f"element_{1 + known.index(element)}"
 
     def applied(self, element: Element, x: Term, y: Term) -> Call:
-        """Return the statement y = X x."""
+        """Return the statement y = X x, where X is ``element``."""
         if element.commutators:
             return Call(self.name(element), (*self.letters(element), x, y))
         assert element.letter is not None
@@ -156,7 +156,7 @@ class _Step:
         return Function(self.name(element), about, (*self.letters(element), x, y), tuple(body))
 
     def commutator(self, number_of: int) -> Function:
-        """Return the function result = X (Y x) - Y (X x)."""
+        """Return the function result = X (Y x) - Y (X x), where [X, Y] is the commutator ``number_of``."""
         left, right = self.step.commutators[number_of]
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
@@ -182,7 +182,7 @@ class _Step:
         return For(_PLACE, whole(self.size), (Assign(y[_PLACE], entry),))
 
     def exponential(self, element: Element, name: str) -> Function:
-        """Return the function state = exp(X) state."""
+        """Return the function state = exp(X) state, where X is ``element``."""
         state, p, work = (self.stored.vector(n) for n in ("state", "p", "work"))
         matrix = real("a", self.stored.letter_size)
         given = self.letters(element) if element.commutators else (matrix,)
@@ -194,8 +194,8 @@ class _Step:
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # Horner's rule uses the integers m!/j!. They have no rounding errors, so the length of y does not
-        # drift.
+        # Horner's rule uses the integers m!/j!, which have no rounding errors. Rounded coefficients would
+        # have the same errors in every step, and the length of the state would change systematically.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
@@ -291,7 +291,7 @@ class _Step:
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:
-        """Return the statement state = exp(X) state."""
+        """Return the statement state = exp(X) state, where X is ``element``."""
         if not element.commutators:
             assert element.letter is not None
             return Call(EXPONENTIAL, (self.letter(element.letter), state), (STATUS,))

@@ -98,7 +98,7 @@ def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> 
 
 
 def _coefficient() -> Term:
-    """Return the name of the table."""
+    """Return the name of the table of the coefficients 1/k!."""
     return real(COEFFICIENTS, DEGREES[-1] + 1)
 
 
@@ -108,8 +108,8 @@ def _is_lost(array: Term) -> For:
 
 
 class _Exponential:
-    """Builds the functions for the exponential of jets of one size and one level
-    (:mod:`codegen.ir.matrix_exponential`)."""
+    """Builds the functions for the exponential of jets of one size and one level; both are defined in
+    :mod:`codegen.ir.matrix_exponential`."""
 
     def __init__(self, function: MatrixExponential, precision: Precision) -> None:
         self.name, self.n, self.level = function.name, function.n, function.level
@@ -123,7 +123,8 @@ class _Exponential:
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
-        """Return an entry of a matrix of a jet."""
+        """Return an entry of one matrix of a jet: of the matrix itself if ``part`` is 0, otherwise of a
+        derivative."""
         place = self.n * row + column
         return array[place + self.one * part if part else place]
 
@@ -249,8 +250,8 @@ class _Exponential:
         ]
 
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
-        """Return the statements that bound the spectral norm of exp(scale a), the exponential before it is
-        squared."""
+        """Return the statements that bound the spectral norm of exp(scale a), which is computed first and
+        then squared."""
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
@@ -267,7 +268,8 @@ class _Exponential:
         ]
 
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
-        """Return the statements that square the result and bound its error."""
+        """Return the statements that square the result repeatedly and bound its error. If the bound is too
+        large, the result is filled with NaNs."""
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")
         body = (

@@ -34,7 +34,8 @@ class Names:
                 self.identifiers[name] = self.fresh(name)
 
     def fresh(self, proposal: str) -> str:
-        """Return an unused identifier, close to the proposal."""
+        """Return an identifier that is not used yet: the proposal, changed only as far as it is illegal or
+        taken."""
         # Only ASCII letters are kept, because compilers differ in the other letters that they allow in
         # identifiers.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)

@@ -138,7 +138,8 @@ class Observation:
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
         events: tuple[Statement, ...] = ()
         if self.events:
-            # The arrays are cleared, because compilers that cannot prove that all entries are assigned warn.
+            # The arrays are cleared, because some compilers cannot prove that all entries are assigned, and
+            # would warn.
             arrays = tuple(Array(x, zero=True) for x in (*self.memory, self.measured))
             measured = (*self.measure(now, state), Assign(self.values, self.measured), *self.signed())
             events = (Assign(self.event_count[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))
@@ -184,7 +185,8 @@ class Observation:
         return (Call(INSIDE, (state, *moment, *plan.parameters, *plan.sampled(), self.inner), (STATUS,)),)
 
     def in_order(self) -> Function:
-        """Return the function that tests the output times."""
+        """Return the function that tests whether the output times are in order and within the interval of the
+        run."""
         k, ordered, last = count("k"), flag("ordered"), real("last_time")
         time = self.times[k]
         forward = both(self.end >= self.now, time >= last, time <= self.end)
@@ -196,7 +198,7 @@ class Observation:
             While(
                 both(ordered, k < self.amount),
                 (
-                    # The comparisons are false for a NaN.
+                    # All comparisons with a NaN are false, so an output time that is a NaN fails the test.
                     Assign(ordered, both(either(forward, backward), is_finite(time))),
                     Assign(last, time),
                     Assign(k, k + 1),
@@ -222,9 +224,9 @@ class Observation:
         return (For(i, whole(self.events), (Assign(self.signs[i], sign),)),)
 
     def changed(self, i: Term, values: Term) -> Term:
-        """Return the test that the sign of an event function has changed."""
-        # If the stored sign is zero, the value was exactly zero at the beginning, and a nonzero value is no
-        # change of sign.
+        """Return the test that an event function has changed its sign; ``values`` are the new values."""
+        # If the stored sign is zero, the last value was exactly zero: it was the first value of the run, or
+        # it was recorded as an event. The next value is then no change of sign, even if it is not zero.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -302,8 +304,8 @@ class Observation:
             Assign(self.middle, high),
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
-            # A guess is at least one width away from both ends. If a zero lies very close to an end, the
-            # interval then becomes short enough after this guess.
+            # A guess is at least ``width`` away from both ends. If a zero lies very close to an end, the
+            # interval between this end and the guess is then short enough to end the search.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
         )
@@ -332,7 +334,8 @@ class Observation:
         return moved_high, moved_low
 
     def time_at(self, fraction: Term) -> Term:
-        """Return the time at a fraction of the step; the end of the step has no rounding error."""
+        """Return the time at a fraction of the step. For the end of the step it is ``following``, without a
+        rounding error."""
         inner = self.now + fraction * self.length
         return select(fraction >= 1.0, self.following, inner)
 

@@ -1,8 +1,9 @@
 """The emitted functions of lattice steps that compose the flows of the parts of a field.
 
-Each part has two functions. ``flow_K`` contains a loop over adjacent sites, or over pairs of neighbours that
-have no site in common. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of a set. The first sites
-of the pairs of a set have even or odd indices along the axis of the part. ``whole_K`` computes the same as
+Each part, with the number K, has two functions, or three if it calls sines or Stumpff functions. ``flow_K``
+contains a loop over adjacent sites, or over pairs of neighbours that have no site in common. Along the axis
+of the part, the first site of every pair has an even index in one set of pairs, and an odd index in the other
+set. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of a set. ``whole_K`` computes the same as
 ``flow_K``, but with variants of sines and Stumpff functions that accept all arguments
 (:mod:`codegen.run.sites`). A kick reads neighbours and changes only momenta. Its functions are those of a
 sweep of :mod:`codegen.run.sites`, which changes the new state in place.
@@ -63,12 +64,12 @@ def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick
 
 @dataclass(frozen=True)
 class _Kick:
-    """The functions of a kick."""
+    """The functions of a kick, which reads neighbours and changes only momenta."""
 
     loop: Loop
 
     def functions(self) -> list[Function]:
-        """Return the functions."""
+        """Return the functions of the kick, callees first."""
         return [self.loop.sweep(), self.loop.site(), self.loop.all_sites()]
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
@@ -80,7 +81,7 @@ class _Kick:
 
 @dataclass(frozen=True)
 class _Part:
-    """The functions of one part."""
+    """The functions of one part of the field whose flow changes single sites or pairs of neighbours."""
 
     plan: Plan
     step: SiteStep
@@ -114,11 +115,12 @@ class _Part:
 
     @property
     def arrays(self) -> tuple[Term, ...]:
-        """The arrays of the part."""
+        """The arrays that the functions of the part have as arguments. A flow of pairs changes the new state
+        in place."""
         return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
 
     def functions(self) -> list[Function]:
-        """Return the functions."""
+        """Return the functions of the part, callees first."""
         loops = [self.loop("flow", self.special), *([self.loop("whole", False)] if self.special else [])]
         ends = [self.single_pair()] if self.strided and self.step.periodic else []
         return [*loops, *ends, self.pairs() if self.paired else self.all_sites()]
@@ -132,7 +134,7 @@ class _Part:
         )
 
     def loop(self, name: str, near: bool) -> Function:
-        """Return the function with the loop."""
+        """Return the function ``flow_K`` or ``whole_K``, with the loop over adjacent sites or over pairs."""
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
         if self.paired:
@@ -155,7 +157,7 @@ class _Part:
         return [own(f"new {load.symbol}") for load in self.own.loads]
 
     def _moved(self, inside: list[Statement], ends: list[Term]) -> list[Statement]:
-        """Return the statements that move one site or one pair."""
+        """Return the statements that apply the flow to one site or to one pair."""
         read = symbols_of(self.own.kernel)
         body: list[Statement] = [
             Assign(own(x.symbol), self._loaded(x)) for x in self.own.loads if x.symbol in read
@@ -204,13 +206,13 @@ class _Part:
         return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
 
     def all_sites(self) -> Function:
-        """Return the function for all sites."""
+        """Return the function ``part_K`` for a flow of single sites; it calls the function with the loop."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         body = self._called((whole(0), SITES))
         return self._function(f"part_{self.index}", f"All sites: {self.own.about}.", parameters, body)
 
     def pairs(self) -> Function:
-        """Return the function for all pairs of a set."""
+        """Return the function ``part_K`` for a flow of pairs; it applies the flow to all pairs of a set."""
         shape = shape_of(self.step)
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]
@@ -235,7 +237,7 @@ class _Part:
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 
     def _rows(self, outer: list[Term], shape: Term) -> list[Statement]:
-        """Return the statements for a pair of rows."""
+        """Return the statements that apply the flow to all pairs of sites in two adjacent rows."""
         axis, length = self.own.axis, shape[self.own.axis]
         index = outer[axis]
         there = count("there")

@@ -37,7 +37,7 @@ class ChainSolver:
 
     @property
     def newton(self) -> SiteNewton:
-        """The matrix."""
+        """The description of Newton's matrix for the block."""
         assert self.block.newton is not None
         return self.block.newton
 
@@ -48,7 +48,7 @@ class ChainSolver:
 
     @property
     def work(self) -> Term:
-        """The workspace."""
+        """The array of the workspace."""
         return ARRAYS["work"]
 
     def name(self, of: str) -> str:
@@ -82,16 +82,19 @@ class ChainSolver:
         return self.work[_BASE + site * (3 * n * n) + inner]
 
     def border(self, site: Term, i: Term, j: Term) -> Term:
-        """Return entry i of column j of the border."""
+        """Return entry i, at a site, of column j of the border: the columns for the unknowns of the last
+        site."""
         return self.work[(self.newton.border + self.step.size + j * self.n + i) * SITES + site]
 
     def opening(self) -> list[Statement]:
-        """Return the statements that define the place of the matrix and the number of eliminated sites."""
+        """Return the statements that set the index of the first entry of the matrix, and the number of sites
+        in the block elimination. In a periodic chain these are all sites except the last."""
         inner = SITES - 1 if self.step.periodic else SITES
         return [Assign(_BASE, self.row(self.newton.matrix)), Assign(_INNER, inner)]
 
     def dot(self, term: Term, plus: bool = False) -> list[Statement]:
-        """Return the statements that subtract a term from the sum, for all k; with ``plus`` they add it."""
+        """Return the loop over k that subtracts ``term`` from the variable for sums, or adds it if ``plus``
+        is true."""
         return [For(_K, whole(self.n), (Assign(_SUM, _SUM + term if plus else _SUM - term),))]
 
     def linearise(self) -> Function:

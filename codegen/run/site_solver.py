@@ -1,11 +1,11 @@
 """The solution of implicit equations on a lattice, by fixed-point iteration or by Newton's method.
 
-An iteration consists of sweeps over all sites. The last sweep replaces the unknowns by their images, and
-stores two numbers for each site: the largest change of an unknown and the largest absolute value of an
-unknown. The maxima over all sites enter the stopping rule of single systems (:mod:`codegen.run.stopping`). In
-contrast to a single system, the last change is always applied, because the images are stored in place of the
-unknowns. Newton's method for chains (:mod:`codegen.run.site_newton`) stores residuals and then corrects the
-unknowns.
+An iteration consists of sweeps over all sites. The last sweep of each iteration replaces the unknowns by
+their images, and stores two numbers for each site: the largest change of an unknown and the largest absolute
+value of an unknown. The maxima over all sites enter the stopping rule of single systems
+(:mod:`codegen.run.stopping`). In contrast to a single system, the last change is always applied, because the
+images are stored in place of the unknowns. Newton's method for chains (:mod:`codegen.run.site_newton`) stores
+residuals and then corrects the unknowns.
 """
 
 from __future__ import annotations
@@ -61,9 +61,10 @@ class _Stopping(Stopping):
 
 
 def loop_of(block: SiteBlock) -> Loop:
-    """Return the block as a loop without a warm start, whose bounds and name the stopping rule reads."""
+    """Return the block as a loop without a warm start. The stopping rule reads the bounds and the name of
+    this loop."""
     newton = None if block.newton is None else Newton((), (), leading=True)
-    # A loop has a warm start if it has no starting values of its own.
+    # The loop gets a starting value, because a loop without starting values would have a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
 
 

@@ -56,7 +56,8 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
 
 
 def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
-    """Return the statements of a kernel that read only ``shared`` scalars, all others, and the outputs."""
+    """Return three lists: the statements of a kernel that read only ``shared`` scalars, its other statements,
+    and its outputs."""
     before: list[Statement] = []
     inside: list[Statement] = []
     known = set(shared)

@@ -4,13 +4,14 @@ The number of sites in each dimension is an argument, ``shape``, so the text doe
 structures of arrays: row k contains component k of all sites. Within a row of an array, the last index of a
 site changes fastest.
 
-For each sweep there are three functions. ``sweep_K`` computes adjacent sites whose neighbours all exist, in a
-loop without branches, which compilers turn into vector instructions. ``site_K`` computes one site at the
-boundary. ``pass_K`` calls them for all sites. In this loop, sines, cosines and Stumpff functions are computed
-only for arguments near zero; for other arguments they return NaN. If the new state is not finite at some
-site, the step is repeated with ``site_K`` for all sites, because ``site_K`` accepts all arguments. Where the
-loop succeeds, ``sweep_K`` and ``site_K`` have the same roundings. The sweeps of an implicit block are
-repeated until the unknowns of all sites converge (:mod:`codegen.run.site_solver`).
+For each sweep, with the number K, there are three functions. ``sweep_K`` computes adjacent sites whose
+neighbours all exist, in a loop without branches, which compilers turn into vector instructions. ``site_K``
+computes one site at the boundary. ``pass_K`` calls ``sweep_K`` and ``site_K`` for all sites. In ``sweep_K``,
+sines, cosines and Stumpff functions are computed only for arguments near zero; for other arguments they
+return NaN. If the new state is not finite at some site, the step is repeated with ``site_K`` for all sites,
+because ``site_K`` accepts all arguments. Where ``sweep_K`` succeeds, it has the same roundings as ``site_K``.
+The sweeps of an implicit block are repeated until the unknowns of all sites converge
+(:mod:`codegen.run.site_solver`).
 """
 
 from __future__ import annotations
@@ -85,7 +86,7 @@ _STATE, _WORK, _RESULT = ARRAYS[STATE], ARRAYS[WORK], ARRAYS[RESULT]
 ADVANCE, ABOUT_STEP = "advance", "One step of all sites; return its status."
 
 RETURNED = Return(select(BAD > 0, code(NOT_FINITE), code(OK)))
-"""The end of a step. BAD is the number of sites whose new state is not finite."""
+"""The statement that ends a step. BAD is the number of sites whose new state is not finite."""
 
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
@@ -117,7 +118,8 @@ def checked(values: Sequence[Term]) -> list[Statement]:
 
 @dataclass(frozen=True)
 class Loop:
-    """The functions of one sweep. If ``tested`` is false, the new values at a site may be infinite or NaN."""
+    """The functions of one sweep. If ``tested`` is false, the new values are not tested for infinities and
+    NaNs."""
 
     plan: Plan
     step: SiteStep
@@ -156,7 +158,7 @@ class Loop:
 
     @property
     def shared(self) -> set[str]:
-        """The names of these scalars."""
+        """The names of the time, the step size and the parameters that the sweep reads."""
         return {x.text for x in self.scalars}
 
     def entry(self, row: Row, place: Term) -> Term:
@@ -185,8 +187,8 @@ class Loop:
         return body
 
     def _images(self, ends: Sequence[Term]) -> tuple[list[Statement], list[Term]]:
-        """Return the statements that name the images of unknowns, and the names. The images are named before
-        any unknown changes."""
+        """Return the statements that assign the images of the unknowns to new names, and these names. All
+        images are computed before any unknown changes."""
         images = [own(f"next {u}") for u in self.own.unknowns]
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
 
@@ -202,8 +204,8 @@ class Loop:
         body: list[Statement] = [
             Assign(c, size(x - u)) for c, x, u in zip(changes, images, unknowns, strict=True)
         ]
-        # A maximum may lose a NaN. The difference of the sum and itself is zero, or NaN if a change is not
-        # finite.
+        # A maximum may lose a NaN. Therefore the sum of the changes minus itself is added to the maximum: it
+        # is zero, or NaN if a change is not finite.
         sum_of_changes = real("total")
         body.append(Assign(sum_of_changes, total(changes)))
         largest = (greatest(changes) + (sum_of_changes - sum_of_changes), greatest(map(size, unknowns)))
@@ -213,7 +215,8 @@ class Loop:
     def function(
         self, name: str, about: str, parameters: tuple[Term, ...], body: list[Statement]
     ) -> Function:
-        """Return a function of the sweep; in the last sweep it returns the number of bad sites."""
+        """Return a function of the sweep. If the sweep stores the new state, the function returns the number
+        of sites whose new state is not finite."""
         if self.last:
             body = [Assign(BAD, whole(0)), *body, Return(BAD)]
         kind = Kind.COUNT if self.last else None
@@ -374,7 +377,8 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 
 
 def _too_small(step: SiteStep) -> Term:
-    """Return the test that the lattice has too few sites in some dimension."""
+    """Return the test that the number of sites in some dimension is too small, or odd where it must be
+    even."""
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0

@@ -316,13 +316,13 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a bound in nanoseconds: only a solver with a predicted step time below this bound may be
-        preferred to a candidate."""
+        """Return a bound in nanoseconds: another solver may be preferred to ``candidate`` only if its
+        predicted step time is below this bound."""
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
     def kernel(self, solvers: Mapping[str, str]) -> Kernel:
-        """Return the kernel with the solver of each block."""
+        """Return the kernel of the program, where ``solvers`` maps the label of each block to its solver."""
         return to_kernel(self.program, self.scene, solvers)
 
     def least(self, solver: str) -> float:

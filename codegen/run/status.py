@@ -55,8 +55,8 @@ REASONS = {
     BAD_SHAPE: "too few sites in a dimension, or an odd number in a periodic dimension with flows of pairs",
     BAD_OPERATOR: "exp(c h L) or another function of h L is not finite for h = {h}",
 }
-"""The reason for each failure in error messages of both targets. It may contain the label of the implicit
-block and the step size."""
+"""The reason for each failure in error messages of both targets. A reason may contain the label of the
+implicit block and the step size."""
 
 NOT_FINITE_BLOCK = "{block} computed a number that is not finite"
 """The reason in the error message for the status NOT_FINITE if an implicit block has failed."""
@@ -79,7 +79,7 @@ MODE_MEANINGS = {
     **{name: MEANINGS[name] for name in (OK, NOT_FINITE, BAD_STEP, BAD_OPERATOR)},
     BAD_SHAPE: "n is zero, odd, or not the number of points for which the tables were prepared",
 }
-"""The comments on these statuses in the header of emitted code."""
+"""The comments on the statuses of steps on Fourier modes, in the header of emitted code."""
 
 
 def reason(status: str, block: str, h: float) -> str:

@@ -90,7 +90,7 @@ def kernel_step(plan: Plan) -> Function:
 
 
 def _remembered(plan: Plan) -> list[Statement]:
-    """Return the statements that store the solution and extrapolate the next one."""
+    """Return the statements that store the solution and extrapolate the solution of the next step."""
     if plan.start is None:
         return []
     solution = real("solution", len(plan.start.unknowns))

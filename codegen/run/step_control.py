@@ -228,7 +228,7 @@ class Controlled:
         return call("power", base, number(self.plan.format.round(exponent / self.order)))
 
     def rounded(self, x: float) -> Term:
-        """Return a constant of the controller."""
+        """Return a constant of the controller, rounded to the format of the module."""
         return number(self.plan.format.round(x))
 
     def bounded(self, most: Term) -> Call:
@@ -239,9 +239,10 @@ class Controlled:
         """Return the statements after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous step.
-        # ``previous`` is at most FLOOR^(-SHARE/p). The previous error damps the controller: step sizes
-        # oscillate less where stability limits them. The first step has no previous error.
+        # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous accepted
+        # step, but at most FLOOR^(-SHARE/p). The factor 1/``previous`` damps the controller: step sizes
+        # oscillate less where stability limits them. The first step has no previous error, so ``root`` is
+        # used in place of this factor.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # After a rejection the predicted step size was too large, so the next step is not longer (Hairer,
         # Norsett and Wanner).

@@ -6,8 +6,8 @@ A prediction is a sum of amounts times :data:`WEIGHTS`:
   step, and operations of a sweep or a matrix count once for each sweep or each computed matrix;
 - unknowns: each costs time in a step, for the warm start, and in a sweep, for the stopping rule;
 - corrections: a sweep of Newton's method on u = g(u) ends with the product of the inverse and the residuals
-g(u) - u. The next sweep cannot begin before this product is computed, so each sweep adds one correction. For
-residual equations, this time is part of the time of a sweep, and no correction is added;
+  g(u) - u. The next sweep cannot begin before this product is computed, so each sweep adds one correction.
+  For residual equations, this time is part of the time of a sweep, and no correction is added;
 - cubes: inverting an n x n matrix without a formula costs n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` times emitted C of the implicit methods on every scene of the
@@ -54,7 +54,7 @@ class Amounts:
         return Amounts(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
     def times(self, factor: float) -> Amounts:
-        """Return a multiple."""
+        """Return these amounts, multiplied by ``factor``."""
         return Amounts(*(factor * x for x in astuple(self)))
 
     def cost(self, weights: Amounts) -> float:

@@ -111,7 +111,8 @@ class Stopping:
         return sequence
 
     def measured(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements that measure a sweep; ``changes`` are absolute values."""
+        """Return the statements that compute the largest change and the largest unknown in a sweep;
+        ``changes`` are absolute values."""
         return [
             Assign(CHANGE, greatest(changes)),
             Assign(SCALE, greatest(map(size, unknowns))),
@@ -149,7 +150,8 @@ class Stopping:
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
         # Rounding errors may keep the change above the bound. The change then no longer decreases, and more
-        # sweeps are useless. If the iteration diverges, the change exceeds ``tolerance``.
+        # sweeps are useless. In a diverging iteration the change does not decrease, either, but it exceeds
+        # ``tolerance``.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -174,7 +176,8 @@ class Stopping:
         return both(*tests)
 
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements that measure a sweep over residuals, by sums of absolute values."""
+        """Return the statements that compute, in a sweep over residuals, the sums of the absolute values of
+        the changes and of the unknowns."""
         return [
             # Sums are used, because a sum with a NaN is NaN, and no other test for finite numbers is needed.
             # A maximum may lose a NaN.
@@ -235,7 +238,7 @@ class Stopping:
         return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))
 
     def going_on(self, astray: Term | None = None) -> Term:
-        """Return the test for another sweep."""
+        """Return the test that a loop makes another sweep; the loop ends if the flag ``astray`` is true."""
         # The limit ends iterations that contract too slowly; the step is then repeated by continuation in h.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))

@@ -71,8 +71,8 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
 
 
 class StoredMatrix(ABC):
-    """The arrays for the matrices A(t_i) and for letters, which are linear combinations of the h A(t_i), and
-    the functions that evaluate them and multiply them by n x k matrices."""
+    """The arrays for the matrices A(t_i) and for letters, and the functions that evaluate and multiply them.
+    A letter is a linear combination of the matrices h A(t_i); it is multiplied by n x k matrices."""
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         self.matrix, self.columns, self.nodes, self.n = matrix, columns, nodes, matrix.rows
@@ -91,7 +91,8 @@ class StoredMatrix(ABC):
 
     @abstractmethod
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that compute a letter from the arrays of the nodes."""
+        """Return the statements that compute a letter from the arrays ``nodes``, each for A at one time
+        t_i."""
 
     @abstractmethod
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
@@ -102,11 +103,13 @@ class StoredMatrix(ABC):
         return real(name, self.n * self.columns)
 
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
-        """Return the sum of coefficients times entries. Each element of ``entries`` contains the index of a
-        term of A(t), the entry of the matrix of this term, and the name of a table of its numbers."""
+        """Return an entry of A(t): a sum of coefficients times entries of constant matrices. Each element of
+        ``entries`` contains the index of a term of A(t), the entry of its matrix, and the name of the table
+        with the numbers of this matrix."""
         total: Term | None = None
         for term, given, table in entries:
-            # The statements that convert the indices to reals are returned by ``before``.
+            # The first result, the statements that convert the indices to reals, is ignored here: ``before``
+            # returns them.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             if not (coefficient.op == "const" and coefficient.payload.is_one):

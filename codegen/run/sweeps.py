@@ -96,8 +96,8 @@ class _Loop:
 
     @cached_property
     def images(self) -> list[Term]:
-        """The names of the new values of the unknowns. If a new value is a named variable, its name is
-        used."""
+        """The names of the images. An image that is already a variable keeps its name; the other names are
+        ``next`` followed by the name of the unknown."""
         loop = self.iteration.loop
         return [
             own(x.payload) if x.op == "sym" and x.payload not in loop.unknowns else own(f"next {u}")
@@ -120,7 +120,7 @@ class _Loop:
         return [*sequence, *self.rule.before()]
 
     def computed(self) -> list[Statement]:
-        """Return the body of a sweep and its images."""
+        """Return the statements of a sweep that compute the images."""
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
@@ -136,8 +136,8 @@ class _Loop:
     ) -> list[Statement]:
         """Return the loop and the statements after it.
 
-        The loop ends with a failure if the test ``astray`` is true. After a failure, the test ``singular``
-        decides whether the last matrix has no inverse.
+        The loop ends with a failure if the test ``astray`` is true. If the loop has failed and the test
+        ``singular`` is true, the status is SINGULAR.
         """
         # The status ends the loop, because array languages cannot leave a loop from its middle. NOT_CONVERGED
         # is also the result if the loop reaches its limit of sweeps.
@@ -159,8 +159,8 @@ class _FixedPoint(_Loop):
 
     def statements(self) -> list[Statement]:
         """Return the statements of the loop."""
-        # The number of separate statements grows with the number of unknowns. Above the limit, loops over
-        # arrays replace them.
+        # The number of separate statements grows with the number of unknowns. For more than WIDEST unknowns,
+        # loops over arrays replace these statements.
         many = len(self.unknowns) > WIDEST
         measured, finite = self.wide() if many else self.narrow()
         rule, body = self.rule, self.computed()
@@ -174,8 +174,8 @@ class _FixedPoint(_Loop):
         return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that compute each change, and a term that is finite only if all changes
-        are."""
+        """Return the statements that compute the changes, and a term that is finite only if all changes are
+        finite."""
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))
@@ -231,7 +231,7 @@ class _Newton(_Loop):
 
     @cached_property
     def inverse(self) -> Term:
-        """The inverse by rows."""
+        """The array that contains the inverse matrix row by row."""
         n = len(self.unknowns)
         name = f"inverse_{self.number}"
         return self.plan.memory.field(name, Kind.REAL, (n * n,)) if self.kept else real(name, n * n)
@@ -355,7 +355,8 @@ class _Newton(_Loop):
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
-        """Return an entry of the inverse; it is a variable if the inverse is computed in each step."""
+        """Return an entry of the inverse: an entry of an array, or a scalar if a formula computes the inverse
+        in each step."""
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
             # This inverse is used in one step only, so its entries can be scalars, which a compiler keeps in
             # registers.

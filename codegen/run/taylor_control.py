@@ -62,7 +62,7 @@ from codegen.run.terms import (
 )
 
 ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "moved_state", "advise"
-"""The names of the functions that a run calls."""
+"""The names of the emitted functions that the adaptive run calls."""
 
 LEAST = 1e-30
 """A lower bound for the size of a coefficient. The formula of the step size divides by the size of a
@@ -102,15 +102,16 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
-        """Return the product of row ``first + i`` of ``left`` and row ``last - i`` of ``right``."""
+        """Return the product of two entries of column ``lane``: of ``left`` in row ``first + i``, and of
+        ``right`` in row ``last - i``."""
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
         pairs = [products(i) for i in range(rows)]
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
-    # The loop adds one product to every sum in turn, so that consecutive additions are independent. Products
-    # of several rows are added between one load and one store of each sum.
+    # The inner loop runs over the sums, so that consecutive additions are independent. For each sum, it adds
+    # the products of several rows between one load and one store.
     many = For(
         j,
         k // ROWS,
@@ -133,7 +134,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
 
 
 class _Controlled:
-    """The run and its variables."""
+    """The variables of the adaptive run; the methods return its functions and statements."""
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
@@ -148,7 +149,8 @@ class _Controlled:
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
-        # If the coordinates of the polynomial are the coordinates of the state, no arrays are copied.
+        # If the coordinates of the polynomial are the coordinates of the state, the arrays of the state are
+        # used directly.
         self.start = self.state if expansion.enter is None else real("start", self.size)
         self.moved = self.trial if expansion.leave is None else real("moved", self.size)
         self.series = real("series", self.degree * self.size)
@@ -170,7 +172,7 @@ class _Controlled:
         return tuple(listed)
 
     def advance(self) -> Function:
-        """Return the function for a step of size h."""
+        """Return the function that makes one step of size h."""
         plan = self.plan
         body: list[Statement] = [
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -192,11 +194,11 @@ class _Controlled:
         return tuple(map(Array, (self.series, self.trial, *separate)))
 
     def entered(self) -> tuple[Statement, ...]:
-        """Return the statements that compute the coordinates."""
+        """Return the statements that compute the coordinates of the polynomial from the old state."""
         return () if self.expansion.enter is None else (Call(ENTER, (self.state, self.start)),)
 
     def returned(self) -> tuple[Statement, ...]:
-        """Return the statements that compute the new state."""
+        """Return the statements that compute the new state from the coordinates of the polynomial."""
         if self.expansion.leave is None:
             return ()
         n = self.plan.size
@@ -221,7 +223,7 @@ class _Controlled:
         every = Plan(following, self.plan.format)
         ends, symbols = first.arrangement.outputs, every.arrangement.symbols()
         m, k = self.expansion.sums, count("k")
-        # An even number of sums suits vector instructions; the last one may be unused.
+        # An even number of sums suits vector instructions; the last sum may be unused.
         width = m + m % 2
         left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
         sums, values = own("sum", width), len(ends) - n
@@ -259,15 +261,15 @@ class _Controlled:
         return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
 
     def numbers(self, symbols: frozenset[str]) -> list[Statement]:
-        """Return the statements that compute factors which depend only on the order of a Taylor coefficient,
-        such as 1/order, if the formulas of the coefficient contain them."""
+        """Return the statements that compute the factors in ``symbols`` that depend only on the order of a
+        Taylor coefficient, such as 1/order."""
         one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
         known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
         return [Assign(own(name), x) for name, x in known.items() if name in symbols]
 
     @property
     def moment(self) -> tuple[Term, ...]:
-        """The arguments of the coefficients besides the state."""
+        """The arguments of the function ``expand`` that follow the state: the time and the parameters."""
         return (*((TIME,) if self.own.time else ()), *self.own.parameters)
 
     def expand(self) -> Function:
@@ -313,7 +315,7 @@ class _Controlled:
         return number(self.plan.format.round(x))
 
     def run(self) -> Function:
-        """Return the run."""
+        """Return the function of the adaptive run."""
         plan = self.plan
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         parameters = (self.state, *chosen, *plan.parameters, self.accepted, self.rejected)
@@ -348,7 +350,8 @@ class _Controlled:
         return (
             *self.entered(),
             Call(EXPAND, (self.start, *moment, self.series)),
-            # The coefficients do not depend on h. If one is infinite or NaN, a shorter step fails, too.
+            # If a coefficient is infinite or NaN, a shorter step would fail, too, because the coefficients do
+            # not depend on h.
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),
@@ -378,7 +381,7 @@ class _Controlled:
                     Assign(self.now, self.following),
                     Assign(self.steps, self.steps + 1),
                 ),
-                # All coefficients are finite, so only the length of the step can be the cause.
+                # All coefficients are finite. If the old state is finite, too, the step was too long.
                 (Assign(STATUS, select(all_finite(self.state), code(TOO_FAR), code(NOT_FINITE))),),
             ),
         )

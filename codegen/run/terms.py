@@ -49,10 +49,10 @@ class Kind(Enum):
 class Term:
     """An operation on terms, a name, or a constant.
 
-    ``text`` is the name, function or field. ``own`` marks the names of the kernel, which a target may have to
-    change. ``shape`` is the shape of an array and () for a single value; a size that only the caller knows is
-    replaced by 0. ``optional`` arguments may be absent. A ``cell`` is an array of one entry through which a
-    function returns a value.
+    ``text`` is the name of a variable, function or field. ``own`` marks the names of the kernel, which a
+    target may have to change. ``shape`` is the shape of an array and () for a single value; in place of a
+    size that only the caller knows it contains 0. ``optional`` arguments may be absent. A ``cell`` is an
+    array of one entry through which a function returns a value.
     """
 
     op: str
@@ -100,7 +100,7 @@ class Term:
     def __neg__(self) -> Term:
         return Term("neg", (self,), self.kind)
 
-    # ``==`` is not overloaded: terms are compared by identity, and dictionaries need that.
+    # ``==`` is not overloaded, so terms are compared by identity. Dictionaries with terms as keys need this.
     def __lt__(self, other: Operand) -> Term:
         return _comparison("<", self, other)
 
@@ -228,9 +228,9 @@ def truth(x: bool) -> Term:
 
 
 def value(x: Expr) -> Term:
-    """Return an expression of the kernel; a bare symbol becomes a name."""
-    # A bare symbol is returned as a name, so that copies of scalars are recognised without inspecting
-    # expressions.
+    """Return the term for an expression of the kernel; if the expression is a symbol, the term is a name."""
+    # A symbol is returned as a name, so that a copy of a scalar is recognised without inspecting an
+    # expression.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -266,7 +266,7 @@ def select(test: Term, yes: Operand, no: Operand) -> Term:
 
 
 def call(function: str, *args: Term) -> Term:
-    """Return a function of reals from the mathematical library: abs, sqrt, power, copysign."""
+    """Return the call of a function of the mathematical library: abs, sqrt, power, copysign."""
     return Term("call", args, Kind.REAL, function)
 
 
@@ -311,7 +311,7 @@ def paired(terms: Iterable[Term]) -> Term:
     if len(listed) < 3:
         return total(listed)
     # The pairs are independent of one another, so n / 2 dependent additions remain. The grouping is chosen
-    # here because floating-point addition is not associative, so compilers must not change it.
+    # here, because compilers must not regroup a sum: floating-point addition is not associative.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 
@@ -349,7 +349,7 @@ def narrow(x: Term) -> Term:
 def names(terms: Iterable[Term]) -> Iterator[Term]:
     """Yield every name in terms, including names in expressions of the kernel."""
     # The stack is read from its end, so the terms are pushed in reverse order: names are then yielded in the
-    # order of the text.
+    # order in which they occur.
     waiting = list(terms)[::-1]
     while waiting:
         term = waiting.pop()

@@ -71,8 +71,8 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Return True if a target may raise an exception where C computes an infinity or a NaN."""
-    # A function with a guard returns a status after an exception. It must contain the kernel only, so the
-    # kernel is not inlined.
+    # Such a kernel must be in a function of its own, which catches the exception and returns a status, so it
+    # is not inlined.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
@@ -86,7 +86,7 @@ class Rows:
 
     @property
     def trajectory(self) -> Term:
-        """The array of rows."""
+        """The array in which the rows are stored; the caller may omit it."""
         return real("trajectory", 0, self.plan.size, optional=True)
 
     def begin(self, state: Term) -> list[Statement]:
@@ -116,12 +116,13 @@ class Rows:
 
 def own_memory(plan: Plan) -> list[Statement]:
     """Return the statement that creates the memory of a run."""
-    # The memory is local to a run, so a run depends on its arguments only, and several threads can make runs.
+    # The memory is local to a run, so a run depends on its arguments only, and threads can make runs
+    # at the same time.
     return [Array(plan.memories, zero=True)] if plan.remembers else []
 
 
 def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, ...]:
-    """Return the arguments of a step after the state."""
+    """Return the arguments of a step that follow the state."""
     return (
         *plan.moment(t),
         *plan.parameters,
@@ -142,7 +143,7 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
 def step(plan: Plan) -> Function:
     """Return the public function for one step; run-time inputs are constant during this step."""
     state = plan.state()
-    # The inputs of a single step are values and not functions of time, because its caller may change the
+    # The inputs of a single step are values and not functions of time, because the caller may change the
     # values between steps.
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
@@ -216,7 +217,8 @@ def run(plan: Plan) -> Function:
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
     if carried:
-        # A momentum that is finite in the body frame may overflow in space. Then no step counts as completed.
+        # A momentum that is finite in the body frame may overflow in the space frame. Then no step counts as
+        # completed.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
@@ -235,7 +237,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # These entries do not affect the new values, so the test of the new values would miss a NaN in them.
+    # These entries are tested separately: they do not affect the new values, so the test of the new values
+    # would miss a NaN in them.
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
     row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]

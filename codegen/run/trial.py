@@ -73,7 +73,8 @@ class Trials:
         # No rows of a trajectory are stored, because only the counts are read.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
-        # The record counts the matrices of all blocks together, so each block is assigned the mean number.
+        # The record counts the matrices of all blocks together, so each block with Newton's method is
+        # assigned the mean number.
         newton = [loop.solver for loop in loops].count(NEWTON)
         of_solver = {
             NEWTON: counts.matrices / steps / newton if newton else 0.0,

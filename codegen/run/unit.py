@@ -29,7 +29,7 @@ from codegen.run.warm_start import WarmStart, differences, memory_record
 
 
 def unit_of(plan: Plan) -> Unit:
-    """Return the unit of a kernel."""
+    """Return all functions, records and tables that the module of a kernel needs."""
     # Callees come first, because C needs a declaration before each call.
     if plan.kernel.sites is not None:
         scalars = ("t", "h", *(p.text for p in plan.parameters))
@@ -72,8 +72,8 @@ def _steps(plan: Plan) -> list[Function]:
         return [*listed, *taylor_control.polynomial_step(plan), *_causes(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
-        # The continuation comes after the kernel, which it calls, and before the composition and the run,
-        # which call it.
+        # The continuation calls the kernel, so it comes after the kernel. The composition and the run call
+        # the continuation, so they come later.
         listed.append(continued(plan, core(plan)))
     if plan.parts:
         listed.append(composed_step(plan))
@@ -90,8 +90,8 @@ def _array_functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _causes(plan: Plan) -> list[Function]:
-    """Return the function that finds the cause of a failure; no function if the continuation finds the
-    cause."""
+    """Return a list with the function that finds the cause of a failure. The list is empty if the
+    continuation finds the cause."""
     return [cause(plan, ADVANCE, step_arguments(plan))] if is_searched(plan) else []
 
 

@@ -28,7 +28,8 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 def unitary_functions(
     function: SpecialUnitaryExponential, precision: Precision, coefficient: Term
 ) -> list[Function]:
-    """Return the functions of a unit, callees first; ``coefficient`` is the table of the numbers 1/k!."""
+    """Return the functions that square a matrix and compute its exponential, in this order; ``coefficient``
+    is the table of the numbers 1/k!."""
     return [_square(function), _exponential(function, precision, coefficient)]
 
 
@@ -55,7 +56,7 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
             squarings,
             (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
         ),
-        # The comparison is false for a NaN, so the result is filled with NaNs in this case, too.
+        # If the norm is a NaN, the comparison is false, so the result is filled with NaNs in this case, too.
         If(
             negated(norm <= least),
             (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),
@@ -81,7 +82,7 @@ def _polynomial(
     zero, coordinates = number(0.0), _coordinates(y)
     steps: list[Statement] = []
     for k in (3, 2, 1, 0):
-        # i^k = 1, i, -1, -i
+        # The number i^k/k! is real for even k and imaginary for odd k, so it is added to one part only.
         for parity, part in enumerate(parts):
             steps += _horner(part, trace, det, (coefficient[4 * group + k], k) if k % 2 == parity else None)
     square = [real(f"square_{k}") for k in range(SIZE)]
@@ -112,7 +113,7 @@ def _coordinates(array: Term) -> tuple[Term, ...]:
 
 def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | None) -> list[Statement]:
     """Return the statements of one step P := i^k/k! + H P of Horner's rule, where P is a polynomial of degree
-    2 in H. ``part`` contains the real or the imaginary parts of its coefficients."""
+    2 in H. ``part`` contains the real or the imaginary parts of the coefficients of P."""
     last = real("last")
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [

@@ -31,7 +31,7 @@ def simple(statement: Simple) -> list[Statement]:
 
 
 def _in_arrays(statement: Invocation) -> list[Statement]:
-    """Return the statements of a call of a vector function."""
+    """Return the statements for the call of a function whose arguments and results are arrays."""
     declared: list[Statement] = []
     given: list[Term] = []
     first = 0

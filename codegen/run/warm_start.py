@@ -6,7 +6,7 @@ times the change of the unknowns over the step, the motion has changed, and only
 
 Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous.
 The extrapolation of an unknown is a sum over these solutions. Up to :data:`FEW` unknowns, each of these sums
-is a scalar variable, because loops over arrays would cost as much as the sweeps that the warm start saves.
+is a scalar variable, because loops over arrays would cost as much as the sweeps that the warm start avoids.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ _I = count("i")
 
 
 def begun(plan: Plan, statement: Beginning) -> If:
-    """Return the statement that sets the unknowns of all loops to their initial guess."""
+    """Return the statement that sets the unknowns of all iterations in a step to their initial guess."""
     unknowns = [own(u) for u in statement.start.unknowns]
     guess = plan.memory.field("guess", Kind.REAL, (len(unknowns),))
     cold: list[Statement] = []
@@ -180,8 +180,8 @@ class WarmStart:
         return Function("difference", about, parameters, tuple(body), often=True)
 
     def difference_of_few(self, order: Term, first: Term, sign: Term, result: Term) -> list[Statement]:
-        """Return the statements for few unknowns: each sum is a scalar variable, and two solutions are added
-        at a time."""
+        """Return the statements that compute a difference for few unknowns: each sum is a scalar variable,
+        and two solutions are added at a time."""
         pair, place, column = count("pair"), count("row"), count("column")
         sums = [real(f"sum_{k}") for k in range(self.n)]
         newer, older = real("newer"), real("older")
@@ -222,7 +222,7 @@ class WarmStart:
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
 
     def remember(self) -> Function:
-        """Return the function that stores a solution."""
+        """Return the function that stores a solution and extrapolates the next one."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
             Note("with fewer than three stored solutions, the guess is the last solution; it is not tested"),

@@ -34,9 +34,9 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
 
 
 def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term) -> list[Statement]:
-    """Return the statements without unnecessary copies. If consecutive entries of the state are copied to an
-    array that is an argument of a call, the call gets a part of the array ``state`` in place of the copy.
-    ``symbols`` are the names of the entries of the state."""
+    """Return the statements without unnecessary copies: an array that contains consecutive entries of the
+    state is removed, and calls get a part of the array ``state`` in its place. ``symbols`` are the names of
+    the entries of the state."""
     places = {s: k for k, s in enumerate(symbols)}
     parts: dict[str, Term] = {}
     result: list[Statement] = []

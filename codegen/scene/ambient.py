@@ -1,4 +1,4 @@
-"""The ambient equation of a problem: y' = F(y) on R^n, where n is the number of coordinates of its state."""
+"""The ambient equation of a problem: y' = F(y) on R^n, where n is the number of coordinates of the state."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def ambient(problem: Problem) -> Problem:
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
         if problem.matrices is not None:
-            # The stated velocity of a matrix needs fewer operations than its generator times the matrix.
+            # The stated formula for the velocity needs fewer operations than the generator times the matrix.
             return problem.matrices.velocity(domain, state, values)
         f = tuple(evaluate(roots, domain, values))
         return field.action.velocity(Formulas(domain), field.group, f, state)

@@ -86,8 +86,8 @@ def field_in_body(
     """Return W = Ad_{q^-1} xi and N = Ad*_q n as formulas in q and P, for a field with or without a
     Hamiltonian.
 
-    ``roots`` are xi and n as formulas in q and mu. If a component does not depend on q, the returned formula
-    does not contain q.
+    ``roots`` are xi and n as formulas in q and mu. If a component of W or N does not depend on q, its
+    formula does not contain q.
     """
     space = roots[0].space
     domain = ExprDomain(space)

@@ -37,8 +37,8 @@ PRINTED = "printed"
 class ClassicalForm:
     """A form of a scene: its key, its name, and its equations as a problem on R^n.
 
-    ``to_scene`` contains formulas of the state of the scene in the symbols of the form. ``from_scene``
-    contains formulas of the state of the form in the symbols of the scene; they are valid near the initial
+    ``to_scene`` contains formulas for the state of the scene, in the symbols of the form. ``from_scene``
+    contains formulas for the state of the form, in the symbols of the scene; they are valid near the initial
     state. ``state`` and ``conversion`` are texts for the header of emitted code: they describe the state and
     the map to the state of the scene.
     """
@@ -137,28 +137,29 @@ class _Leaf:
 
     @property
     def noun(self) -> str:
-        """A noun for the coordinates in the form."""
+        """A phrase for the coordinates of the factor in the form, for example "unit quaternion"."""
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the formula of the group element that the right-hand sides of the equations contain."""
+        """Return the formula for the group element in the right-hand sides of the equations."""
         return own if self.cover is None else self.cover.covering(d, own)
 
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the formula of the group element for results; it satisfies the equations of the group
-        exactly.
+        """Return the formula for the group element in the state of the scene; the element satisfies the
+        equations of the group exactly.
         """
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
     def rate(self, d: Domain, x: Vector[S], own: Vector[S], body: bool) -> Vector[S]:
-        """Return the time derivative of the coordinates, given the velocity in space or in the body."""
+        """Return the time derivative of the coordinates. ``x`` is the velocity in the body if ``body`` is
+        true, otherwise the velocity in space."""
         group, x = self.group, x[self.at : self.at + self.group.dim]
         if self.cover is not None:
             group, x = self.cover.cover, self.cover.lifted_velocity(d, x)
         return group.require(LeftTranslation).left_velocity(d, own, x) if body else group.velocity(d, x, own)
 
     def start(self, d: ExprDomain, initial: Vector[float]) -> Vector[Expr]:
-        """Return the coordinates in the form as formulas in the symbols of the scene."""
+        """Return formulas for the coordinates that the form uses, in the symbols of the scene."""
         g = tuple(d.space.sym(s) for s in self.symbols)
         if self.cover is None:
             return g
@@ -292,7 +293,7 @@ class _Change:
 
     @staticmethod
     def layout(leaf: _Leaf) -> str:
-        """Return a text on the order in which the coordinates of a factor are stored."""
+        """Return a text that states in which order the coordinates of a factor are stored."""
         return (leaf.group if leaf.cover is None else leaf.cover.cover).layout
 
     def conversion(self) -> str:
@@ -360,7 +361,7 @@ class _Change:
         return tuple(normal(x) for x in group.Adinv(ExprDomain(space), g, own))
 
     def to_scene(self) -> tuple[Expr, ...]:
-        """Return the formulas of the state of the scene."""
+        """Return the formulas for the state of the scene, in the symbols of the form."""
         d = self.domain
         element = tuple(x for leaf, own in self.blocks() for x in leaf.end(d, own))
         momenta = tuple(d.space.sym(s) for s in self.momenta)
@@ -369,7 +370,7 @@ class _Change:
         return (*element, *momenta)
 
     def from_scene(self) -> tuple[Expr, ...]:
-        """Return the formulas of the state of the form."""
+        """Return the formulas for the state of the form, in the symbols of the scene."""
         d, problem = self.domain, self.problem
         initial = dict(zip(problem.symbols, problem.initial(FloatDomain(0.0)), strict=True))
         own = [x for leaf in self.leaves for x in leaf.start(d, tuple(initial[s] for s in leaf.symbols))]

@@ -1,7 +1,7 @@
 """Checks of the formulas of a scene: its initial state, velocity, Hamiltonian field, flows and invariants.
 
-Derivatives are exact, by reverse differentiation of the formulas. They are compared at the points of an
-:class:`codegen.scene.orbit.Orbit`.
+Derivatives are exact, by reverse differentiation of the formulas. Formulas and derivatives are compared at
+the points of an :class:`codegen.scene.orbit.Orbit`.
 """
 
 from __future__ import annotations
@@ -132,9 +132,9 @@ def check_equal(
     orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequence[Expr] | None = None
 ) -> None:
     """Raise :class:`SceneError` if formulas of the scene differ from the ``derived`` formulas. If ``derived``
-    is None, they are compared with f.y.
+    is None, the formulas of the scene are compared with f.y.
 
-    ``what`` names the formulas of the scene in the message.
+    ``what`` is the name of these formulas in the message.
     """
     source = "f.y" if derived is None else "the derivatives of H"
     for point in orbit.points:
@@ -152,8 +152,8 @@ def check_equal(
 def check_flow(
     orbit: Orbit, name: str, formulas: Sequence[Expr], rates: Sequence[Expr], elapsed: str
 ) -> None:
-    """Raise :class:`SceneError` if the formulas of a scene for the flow of a part are not the flow of this
-    part.
+    """Raise :class:`SceneError` if the formulas that a scene gives for the flow of a part do not describe
+    this flow.
 
     At the time 0 the formulas must equal the state. At all times their time derivatives must equal ``rates``,
     the field of the part; ``elapsed`` is the symbol of the time in the formulas. The derivatives are exact,

@@ -9,7 +9,7 @@ import sympy
 from codegen.errors import SceneError
 
 MOST_DERIVATIVES = 8
-"""The largest order of a derivative in N."""
+"""The largest order of a derivative in the nonlinear term N of the equation."""
 
 
 class Dx(sympy.Function):  # type: ignore[misc]
@@ -24,7 +24,8 @@ class Dx(sympy.Function):  # type: ignore[misc]
 
     @classmethod
     def eval(cls, formula: sympy.Expr, order: object = 1) -> Any:
-        """Return the derivative of a constant or of a derivative; None for all other formulas."""
+        """Return 0 for a constant, and a derivative of higher order for a derivative. Return None for all
+        other formulas; sympy then keeps the expression ``Dx(formula, order)``."""
         number = next((m for m in range(1, MOST_DERIVATIVES + 1) if m == order), 0)
         if not number:
             raise SceneError(

@@ -2,8 +2,8 @@
 state.
 
 Each product of two series costs a convolution, so the coordinates whose equations contain the fewest products
-are chosen. If a Hamiltonian scene has a body frame, the chosen coordinates may be the group element q and the
-momentum in the body frame, P = Ad*_q mu, with q' = q.W and P' = N (:mod:`codegen.scene.body_frame`).
+are chosen. For a Hamiltonian scene with a body frame, these may be the group element q and the momentum in
+the body frame, P = Ad*_q mu. Their equations are q' = q.W and P' = N (:mod:`codegen.scene.body_frame`).
 Coordinates of q that the other coordinates determine are omitted if no other equation contains them.
 """
 
@@ -65,7 +65,7 @@ class Evolution:
     ) -> Vector[S]:
         """Return the state with the coordinates ``moved``, on the manifold that contains the state y.
 
-        If ``frame`` is given, both states contain the momentum in the body frame, and ``frame`` is the
+        If ``frame`` is given, y and the result contain the momentum in the body frame, and ``frame`` is the
         group.
         """
         z = self._completed(domain, moved)
@@ -92,9 +92,9 @@ class Evolution:
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
-            # The sum follows the order in which the coefficients become known. The first coefficient, the old
-            # state, is added last: the sum of all other terms is small, and so are the rounding errors of
-            # this sum.
+            # First the coefficients after the old state are added, in the order in which they become known.
+            # The old state is added last: the sum of all other terms is small, and so are the rounding errors
+            # of this sum.
             change = None
             for x in further:
                 change = x if change is None else change if x is None else change + x
@@ -118,7 +118,7 @@ class Evolution:
         return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
 
     def products(self) -> int:
-        """Return the number of convolutions in each order."""
+        """Return the number of products of series, each of which costs one sum for each coefficient."""
         domain = ExprDomain()
         start = tuple(map(domain.space.sym, self.inner.symbols))
         recurrence = self.recurrence(domain, start, domain.space.sym(TIME), domain.space.one)
@@ -158,8 +158,8 @@ def evolution(scene: Problem) -> Evolution:
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
         forms.append(_flat(scene, outer, group, _in_body(scene, group)))
-    # If several candidates need the same number of products, min returns the first of these candidates. The
-    # list begins with the coordinates of the scene.
+    # If several candidates need the same number of products, min returns the first of them. The coordinates
+    # of the scene are first in the list, so they are preferred.
     return min((each for form in forms for each in (form, *_shorter(form))), key=lambda e: e.products())
 
 
@@ -184,7 +184,7 @@ def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) 
 
 
 def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
-    """Return q' = q.W and P' = N; the symbols of mu denote P."""
+    """Return formulas for q' = q.W and P' = N, in which the symbols of mu denote P."""
     body = scene.body
     assert body is not None
     domain = ExprDomain()

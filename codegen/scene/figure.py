@@ -69,8 +69,8 @@ class Run:
 class Figure:
     """A figure: its name in commands, its title, its caption, and the runs that it shows.
 
-    ``source`` names the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run with which
-    the other runs are compared. A figure without comparisons shows the reference as a thin line.
+    ``source`` is the name of the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run
+    with which the other runs are compared. A figure without comparisons shows the reference as a thin line.
     """
 
     name: str
@@ -170,10 +170,10 @@ class TorusCurves(Figure):
 class TimeSeries(Figure):
     """Quantities against time. ``quantities`` maps labels to formulas.
 
-    If ``difference`` is True, the figure shows the differences from the first quantity along the reference
-    run; otherwise the first quantity along the reference run is drawn as a separate line with the label
-    ``reference_label``. ``window`` is the interval of time that is shown. Each run has a panel if there is
-    more than one.
+    If ``difference`` is True, the figure shows all quantities minus the first quantity along the reference
+    run. Otherwise the first quantity along the reference run is drawn as a separate line with the label
+    ``reference_label``. ``window`` is the interval of time that is shown. If there are several runs, each run
+    has a panel of its own.
     """
 
     quantities: Mapping[str, Quantity] = field(default_factory=dict)
@@ -203,8 +203,8 @@ class Deviation(Figure):
     """The largest deviation of a quantity, on a logarithmic axis against time.
 
     The deviation is the difference from the same quantity along the reference run, or from its initial value
-    if there is no reference. It is the maximum over ``window`` steps, or over all steps so far if ``window``
-    is 0.
+    if there is no reference. The figure shows the maximum over each group of ``window`` consecutive
+    steps. If ``window`` is 0, it shows the maximum over all steps so far.
     """
 
     quantity: Quantity
@@ -216,8 +216,8 @@ class Deviation(Figure):
 class Scan(Figure):
     """The distance of the final state from the end of the reference run, against the values of a sweep.
 
-    Every run has a sweep. The least distance is marked; it is located more accurately than by the values of
-    the sweep.
+    Every run has a sweep. The least distance is marked. It is found by a minimisation, so it may lie between
+    two values of the sweep.
     """
 
     axis: str = ""
@@ -227,9 +227,9 @@ class Scan(Figure):
 class Orders(Figure):
     """The error at the end of the span against the step size, with a line for each order.
 
-    Each run is repeated ``halvings`` times with half the step size. The error is the distance from the
-    reference solution of the scene (``codegen.lab.distance``). ``orders`` are the slopes of the dashed
-    lines.
+    Each run is repeated ``halvings`` times; each repetition halves the step size. The error is the distance
+    from the reference solution of the scene (``codegen.lab.distance``). ``orders`` are the slopes of the
+    dashed lines.
     """
 
     halvings: int = 4

@@ -19,7 +19,8 @@ class Flow(ABC):
     """The exact flow of one part, in closed form over any domain.
 
     ``timed`` is True if the part depends on t. The flow then keeps t fixed while the state moves. The
-    argument ``values`` contains the values of all symbols at the start: the state, the parameters and t.
+    argument ``values`` of the methods contains the values of all symbols at the start: the state, the
+    parameters and t.
     """
 
     timed: bool = False

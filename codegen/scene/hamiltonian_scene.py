@@ -172,7 +172,7 @@ class _CanonicalSystem:
         return cls(reader, group, qs, mus, hamiltonian, summands, roots, loads, open_roots)
 
     def state(self, q0: Column, mu0: Column) -> tuple[StateField, StateField]:
-        """Return the blocks q and mu with their initial values."""
+        """Return the blocks q and mu of the state with their initial values."""
         initial = self.reader.column
         return (
             StateField("q", Kind.GROUP, self.qs, initial(q0, len(self.qs), "q0", constant=True)),

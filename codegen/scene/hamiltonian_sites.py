@@ -64,9 +64,9 @@ def HamiltonianSiteScene(
     """Return the scene of a Hamiltonian chain or lattice. Emitted code accepts any number of sites.
 
     ``q`` and ``mu`` are the coordinates of a site (``group.point``, ``group.dual``). ``H`` is the Hamiltonian
-    of a site without bonds, a formula in these coordinates, parameters and the time. Each element of
-    ``bonds`` is a :class:`Bond`: the program derives the forces on both of its sites. ``q0`` and ``mu0`` are
-    the initial state of every site; emitted code also accepts an array of initial states.
+    of a site without the energies of its bonds, a formula in these coordinates, parameters and the time. Each
+    element of ``bonds`` is a :class:`Bond`: the program derives the forces on both of its sites. ``q0`` and
+    ``mu0`` are the initial state of every site; emitted code also accepts an array of initial states.
 
     The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the element q of a
     neighbour that does not exist: a column of ``group.size`` formulas in q, t and parameters, or a mapping
@@ -124,7 +124,7 @@ def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
 
 
 def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
-    """Return the offsets of all bonds and their negatives, sorted."""
+    """Return the offsets of all bonds and the negatives of these offsets, sorted."""
     given = [tuple(int(x) for x in bond.offset) for bond in bonds]
     if not given:
         raise SceneError(
@@ -181,7 +181,7 @@ def _of_bonds(
 def _with_momenta(
     outside: Column | Mapping[Sequence[int], Column] | None, mu: Column
 ) -> Column | dict[Sequence[int], Column] | None:
-    """Return the states outside with the momentum of the site itself, which no formula reads."""
+    """Return ``outside`` with momenta appended: the momentum ``mu`` of the site, which no formula reads."""
     if outside is None:
         return None
     if isinstance(outside, Mapping):

@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of GL(n).
 
-Measurements that interpret programs need these formulas; there are n^2 of them."""
+The formulas are needed where step programs are interpreted, for example for measurements. There are n^2
+formulas."""
 
 
 def LargeLinearScene(
@@ -54,8 +55,8 @@ def LargeLinearScene(
 
     Emitted steps of the families magnus, cf_magnus and fer, and of rkmk, cf and cg, apply exponentials to y
     by products of A and vectors (:mod:`codegen.ir.linear_array_step`). Their text does not depend on n.
-    :class:`SceneError` is raised for a matrix that is not square, for one that contains an unknown, and for a
-    state of a wrong size.
+    :class:`SceneError` is raised for a matrix that is not square, for a matrix that contains an unknown, and
+    for a state of a wrong size.
     """
     if not isinstance(A, MatrixFormula):
         raise SceneError(

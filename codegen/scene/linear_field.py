@@ -1,4 +1,4 @@
-"""Fields A(t) y on vectors or matrices y, where A(t) is given by formulas of its entries."""
+"""Fields A(t) y on vectors or matrices y, where formulas for the entries of A(t) are given."""
 
 from __future__ import annotations
 

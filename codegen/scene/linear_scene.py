@@ -41,11 +41,11 @@ def LinearScene(
     matrices it may also be a square matrix of formulas, which must be in the Lie algebra. ``y`` are the
     coordinate symbols for ``velocity`` and ``invariants``, by default ``y0``, ``y1`` and so on. All other
     arguments are those of :func:`codegen.scene.FieldScene`: every field scene whose field does not depend on
-    the state is a linear problem in time. For y' = y A(t) the action is ``RightMultiplication()``, and the
-    sign of A is changed. ``steps`` maps names to steps y1 = M y0: pairs of a formula of M
-    (:mod:`codegen.scene.matrix_step`) and its order. The method ``step:NAME`` is such a step.
-    :class:`SceneError` is raised for a matrix outside of the algebra, for an A that depends on the state, and
-    in the same cases as by ``FieldScene``.
+    the state is a linear problem in time. For y' = y A(t) the action is ``RightMultiplication()``, and -A is
+    given in place of A. ``steps`` maps names to pairs: a formula for M (:mod:`codegen.scene.matrix_step`),
+    and the order of the step y1 = M y0. The method ``step:NAME`` makes such steps. :class:`SceneError` is
+    raised for a matrix outside of the algebra, for an A that depends on the state, and in the same cases as
+    by ``FieldScene``.
 
     >>> from sympy import Matrix, Symbol
     >>> from codegen.groups import SL2, Linear
@@ -82,8 +82,8 @@ def LinearScene(
 
 
 def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
-    """Return the steps that the scene states; raise SceneError if the scene does not act by matrices, or if
-    exp and log of its matrices have no closed form."""
+    """Return the steps that the scene states. Raise SceneError if the group does not act by multiplication
+    with matrices, if an exp or a log has no closed form, for a wrong order, and if A is constant."""
     matrices = scene.group.offers(MatrixElements)
     for name, (formula, order) in steps.items():
         where = f"{scene.name}, step {name}"

@@ -36,7 +36,8 @@ class MatrixFormula:
     rows: int
     columns: int
     __array_ufunc__: ClassVar[None] = None
-    """NumPy calls the operators of this class, and does not treat a formula as an entry of an array."""
+    """None, so that NumPy calls the operators of this class and does not treat a formula as an entry of an
+    array."""
 
     @property
     def T(self) -> MatrixFormula:
@@ -79,7 +80,7 @@ class Unknown(MatrixFormula):
 
 @dataclass(frozen=True, eq=False)
 class Constant(MatrixFormula):
-    """A constant matrix, given by the entries of some diagonals, with the offset as key, or by all
+    """A constant matrix, given either by a map from the offsets of some diagonals to their entries, or by all
     entries."""
 
     rows: int
@@ -145,9 +146,9 @@ def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None
 
     ``diagonals`` maps an offset j - i to the entries a_ij: one scalar that is the value of all entries, a
     function of the row i, or the list of all entries of the diagonal. Rows and columns are counted from 0.
-    Emitted code contains the numbers of a list; a scalar or a function takes one line. :class:`SceneError` is
-    raised for an offset outside the matrix. A list of a wrong length raises this error only when the scene
-    reads the matrix.
+    Emitted code contains all numbers of a list, but only one line for a scalar or a function.
+    :class:`SceneError` is raised for an offset outside the matrix. A list of a wrong length raises this error
+    only when the scene reads the matrix.
     """
     _size(rows, "rows")
     width = rows if columns is None else columns
@@ -176,7 +177,8 @@ def full(rows: int, columns: int, entries: EntryFormula) -> Constant:
 
 
 def _sized(formula: MatrixFormula, rows: int, columns: int) -> None:
-    # The classes are frozen; the size of a formula follows from its parts.
+    # The size of a formula is computed from its parts. ``__setattr__`` of ``object`` is needed, because the
+    # classes are frozen.
     object.__setattr__(formula, "rows", rows)
     object.__setattr__(formula, "columns", columns)
 

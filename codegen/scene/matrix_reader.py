@@ -199,7 +199,7 @@ class _Compiler:
         yield c, factors
 
     def total(self, summands: tuple[Summand, ...], rows: int, columns: int) -> _Stored:
-        """Return the sum of products."""
+        """Return the matrix that stores the sum of the products."""
         values = [(c, self.product(factors)) for c, factors in summands]
         if len(values) == 1 and values[0][0] is self.reader.space.one:
             return values[0][1]
@@ -211,7 +211,7 @@ class _Compiler:
         return _Stored(target, flipped)
 
     def fresh(self, rows: int, columns: int) -> Matrix:
-        """Return a new matrix."""
+        """Return a new intermediate matrix of the program."""
         return Matrix(f"value {len(self.body) + 1}", rows, columns)
 
     def product(self, factors: tuple[_Factor, ...]) -> _Stored:
@@ -267,7 +267,7 @@ class _Compiler:
         """Return the product of two matrices that depend on X."""
         rows, columns = left.rows, right.columns
         if columns > rows:
-            # (A B)^T = B^T A^T has more rows than columns.
+            # The transpose is stored: (A B)^T = B^T A^T has more rows than columns.
             target = self.fresh(columns, rows)
             turned = (not right.transposed, not left.transposed)
             self.body.append(Multiplication(target, right.matrix, left.matrix, *turned))
@@ -288,8 +288,8 @@ class _Compiler:
 
 
 def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
-    """Return the statements. If the last one only copies the matrix that the statement before it computes,
-    the copy is omitted, and that statement computes the result directly."""
+    """Return the statements. If the last statement only copies the matrix that the statement before it
+    computes, the copy is omitted, and that statement computes the result directly."""
     *before, last = body
     assert isinstance(last, Combination)
     (term,) = last.terms
@@ -353,7 +353,8 @@ def _transposed(given: Constant) -> Constant:
 
 
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
-    """Return the entries a_{i - offset, i} as a function of i."""
+    """Return the entries of a diagonal of the transpose. If they are a function of the row, the new function
+    of the row i is ``entry(i - offset)``."""
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 
 
@@ -370,7 +371,8 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
         return ConstantMatrix(name, given.rows, given.columns, (), entry)
     matrix = ConstantMatrix(name, given.rows, given.columns)
     diagonals = []
-    # The main diagonal comes first, because it sets every row.
+    # The main diagonal comes first, because it has an entry in every row: the emitted code can set all rows
+    # of the product with it, and then add the products with the other diagonals.
     for offset in sorted(given.diagonals, key=lambda x: (abs(x), x)):
         length = matrix.length(Diagonal(offset, ()))
         entry = _entry(reader, given.diagonals[offset], (row,), length, f"the diagonal {offset}")

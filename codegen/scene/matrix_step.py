@@ -65,7 +65,7 @@ class Scalar:
         return Scalar(self.value**n, self.power * n)
 
     def text(self) -> str:
-        """Return the text ``1/2 h^2``."""
+        """Return the scalar as text, for example ``1/2 h^2``."""
         power = "" if not self.power else "h" if self.power == 1 else f"h^{self.power}"
         number = "" if self.value == 1 and power else str(self.value)
         return " ".join(filter(None, (number, power)))
@@ -96,7 +96,8 @@ class MatrixFormula(ABC):
         return ()
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield the exponentials and logarithms that have closed forms only for matrices with two rows."""
+        """Yield those exponentials and logarithms in the formula that can only be computed for matrices with
+        two rows, by closed forms."""
         for part in self.parts():
             yield from part.closed_forms()
 
@@ -119,7 +120,7 @@ class MatrixFormula(ABC):
 
 @dataclass(frozen=True)
 class Generator(MatrixFormula):
-    """A(t + c h)."""
+    """The matrix A(t + c h)."""
 
     c: Fraction
 
@@ -206,7 +207,7 @@ class Product(Binary):
 
 
 class Commutator(Binary):
-    """X Y - Y X."""
+    """The commutator X Y - Y X of two matrices."""
 
     @property
     def place(self) -> Place:
@@ -265,7 +266,7 @@ class Multiple(MatrixFormula):
 class Projected(Unary):
     """The orthogonal projection of a matrix onto the algebra, for the scalar product tr(X^T Y).
 
-    For sp(2n) it is (X + J X^T J)/2, the projection of equation (4.18).
+    For sp(2n) it is (X + J X^T J)/2, the projection in equation (4.18) of H. Marthinsen's thesis.
     """
 
     @property
@@ -299,7 +300,7 @@ class Exponential(Unary):
         return Place.GROUP if self.of.place is Place.ALGEBRA else Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this formula if its argument is not in the algebra, then such formulas in the argument."""
+        """Yield this formula unless its argument is in the algebra, then the closed forms in its argument."""
         if self.of.place is not Place.ALGEBRA:
             yield self
         yield from super().closed_forms()

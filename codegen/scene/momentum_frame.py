@@ -36,7 +36,7 @@ def with_frame(problem: Problem, frame: str) -> Problem:
 
 
 def start_of(scene: Problem) -> tuple[float, ...]:
-    """Return the initial state in the format of emitted code."""
+    """Return the initial state, with the momentum in the frame in which emitted code accepts it."""
     domain = FloatDomain(0.0)
     state = tuple(float(x) for x in scene.initial(domain))
     if scene.body_group is None:

@@ -32,7 +32,8 @@ roundoff, because the terms may contain cancellation errors.
 """
 
 FLOOR = Fraction(1, 10**28)
-"""The allowed absolute error. It is needed if all terms are small because of cancellation in the terms."""
+"""The allowed absolute error. It is needed if all terms are small because each term is a difference of nearly
+equal numbers."""
 
 POINTS = 4
 """The number of sample points: the initial state and three random points of its orbit."""

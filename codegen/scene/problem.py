@@ -69,7 +69,7 @@ class Problem:
     summands of the Hamiltonian, and ``flows`` are the exact flows that a splitting composes. The scene may
     state the flow of a part itself: ``stated`` then contains the formulas of (q, mu) after the time tau.
 
-    ``runtime`` names the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value
+    ``runtime`` are the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value
     is not the default. ``roots`` contain the formulas of the signals; ``open_roots`` are the same
     components with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that
     emitted code reads at run time. ``forced`` is True if n contains a force that is not a derivative of the
@@ -85,7 +85,7 @@ class Problem:
     L u + N(u) on a periodic interval, and ``roots`` is empty (:mod:`codegen.scene.semilinear`). ``figures``
     are the figures that the file of the scene declares (:mod:`codegen.scene.figure`). ``derived`` is a
     cache of the problems that families derive from this problem; the key is the kind of the family. A
-    search uses each of them for hundreds of methods.
+    search uses each of these problems for hundreds of methods.
     """
 
     name: str
@@ -127,7 +127,7 @@ class Problem:
     @property
     def autonomous(self) -> bool:
         """True if the field depends neither on the time nor on signals that are read at run time. On a
-        lattice, the states outside an open boundary belong to the field."""
+        lattice, the same is required of the states outside an open boundary."""
         if self.matrices is not None:
             return not self.matrices.reads(TIME)
         if self.semilinear is not None:
@@ -139,7 +139,7 @@ class Problem:
     @property
     def linear(self) -> bool:
         """True if the field does not depend on the state: y' = A(t).y, a linear problem in time."""
-        # A field that is given by formulas of whole matrices may have no formulas in coordinates.
+        # If the field is given by formulas of whole matrices, ``roots`` may be empty.
         if self.matrices is not None:
             return self.matrices.linear
         if self.semilinear is not None:
@@ -202,8 +202,8 @@ class Problem:
         return values
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of an operation of a step program that the group, the action or the scene
-        defines.
+        """Return the results of an operation of a step program. The group, the action or the scene defines
+        the operation.
         """
         if name in TRUNCATED:
             return (TRUNCATED[name](self.group, domain, *args, order),)

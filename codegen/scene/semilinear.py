@@ -14,8 +14,8 @@ from codegen.ir.number import Number
 from codegen.scene.problem import TIME, Problem
 
 TERMS = 20
-"""The number of brackets after which the model problem truncates dexp^{-1}. The product of h and the
-eigenvalue of the model is below 1/4, so the omitted terms are below (1/4 / 2 pi)^21 = 4e-30."""
+"""The number of brackets after which the model problem truncates the series of dexp^{-1}. The product of h
+and the eigenvalue of the model is below 1/4, so the omitted terms are below (1/4 / 2 pi)^21 = 4e-30."""
 
 
 @dataclass(frozen=True)
@@ -44,13 +44,13 @@ class Semilinear:
     timed: bool
 
     def text(self) -> str:
-        """Describe the operator in a header."""
+        """Return a description of the operator for the header of emitted code."""
         kind = "complex" if len(self.symbol) > 1 else "real"
         return f"L multiplies the Fourier mode with the wave number k by a {kind} function of k"
 
 
 class ExactExponential(CoordinateMap):
-    """The exponential map of affine maps, with its exact inverse differential.
+    """The exponential map of the group of affine maps, with its exact inverse differential.
 
     Emitted code uses the closed form (:mod:`codegen.kernel.mode_kernel`). The model problem of one mode uses
     the series, truncated after :data:`TERMS` brackets.
@@ -75,7 +75,7 @@ def model_of(scene: Problem) -> Problem:
     """Return the problem of one mode with the eigenvalue -1/2 and N(u) = u^2, or u^2 + t if N depends on the
     time.
 
-    A program does not depend on the eigenvalue and on N. So the model serves to verify programs.
+    A step program is the same for all eigenvalues and all N. Therefore it is verified with this model.
     """
     assert scene.semilinear is not None
     (block,) = scene.state

@@ -34,7 +34,7 @@ SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
 
 
 DIGITS_OF_PI = 60
-"""The number of digits to which formulas contain pi. Printers round its products to doubles."""
+"""The number of digits of pi in formulas. Printers round a product with pi to a double."""
 
 
 def SemilinearScene(
@@ -54,11 +54,11 @@ def SemilinearScene(
     """Return the scene u_t = L u + N(u) for a function u of x and t that is periodic in x.
 
     ``L`` is the symbol of a linear operator with constant coefficients: a formula in the wave number ``k``
-    and parameters, by which L multiplies exp(i k x). It may be complex; for example, d/dx has the symbol
-    I*k. ``N`` is a formula in ``u``, ``x``, t and parameters. It may contain derivatives of u, written
-    Dx(u) or Dx(u, m), and sums of multiples of derivatives Dx(g) of such formulas (:class:`Dx`). ``length``
-    is the period, ``u0`` the initial state as a formula in ``x``, and ``span`` the rational time interval.
-    With ``dealias`` only two thirds of the modes, or the given fraction, are kept in the values of N.
+    and parameters, by which L multiplies exp(i k x). It may be complex; for example, d/dx has the symbol I*k.
+    ``N`` is a formula in ``u``, ``x``, t and parameters. It may contain derivatives of u, written Dx(u) or
+    Dx(u, m). Multiples of derivatives Dx(g) of such formulas g may be added (:class:`Dx`). ``length`` is the
+    period, ``u0`` the initial state as a formula in ``x``, and ``span`` the rational time interval. With
+    ``dealias`` only two thirds of the modes, or the given fraction, are kept in the values of N.
 
     Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
     Explicit methods of the families rkmk, cf and cg are possible. They use the action of affine maps
@@ -128,8 +128,8 @@ class _Parser:
         return tuple(read)
 
     def nonlinear(self, N: sympy.Expr) -> tuple[tuple[tuple[int, str], ...], dict[int, Expr]]:
-        """Return the derivatives of u in formulas, with their symbols, and for each outer derivative the
-        formula to which it is applied."""
+        """Return two results: the orders of the derivatives of u in N, each with its symbol; and a map from
+        orders to formulas, such that N is the sum of the derivatives of these formulas with these orders."""
         import sympy
 
         formula = self._sympified(N, "N")
@@ -174,7 +174,8 @@ class _Parser:
         return inner, terms
 
     def pointwise(self, formula: sympy.Expr, what: str, more: Iterable[str]) -> Expr:
-        """Return a formula in some symbols, t and parameters, without a choice between formulas."""
+        """Return a formula as an expression. Its symbols may be those in ``more``, t and parameters. Raise
+        :class:`SceneError` for a derivative and for a choice between formulas."""
         import sympy
 
         if isinstance(formula, sympy.Expr) and formula.has(Dx):

@@ -1,7 +1,7 @@
 """Parts of the field of a lattice with exact flows: local parts, and interactions of pairs of neighbours.
 
-A part consists of formulas for elements of the Lie algebra, the generators. A site has the sum of the
-velocities f(y).y for the generators f of all parts. If the generators of a part are constant along the
+A part consists of formulas for elements of the Lie algebra, the generators. The velocity of a site is the sum
+of the velocities f(y).y for the generators f of all parts. If the generators of a part are constant along the
 solutions of this part alone, the flow of the part is y -> exp(tau f(y)).y, which is exact. The flows of pairs
 that have no site in common commute. The pairs along an axis of the lattice therefore form two sets: in one
 set the first site of each pair has an even index, in the other set an odd index.
@@ -48,8 +48,8 @@ def read_parts(
 ) -> tuple[SitePart, ...]:
     """Return the parts of a scene; ``size`` is the dimension of the group.
 
-    SceneError is raised for formulas that contain unknown symbols, and for offsets that are not a step
-    forwards along one axis.
+    SceneError is raised for formulas that contain unknown symbols, and for an offset that is not 1 along
+    one axis and 0 along all others.
     """
     return tuple(_read(reader, y, size, name, given) for name, given in (parts or {}).items())
 
@@ -129,8 +129,8 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
 
 
 def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols at a sample point. The state of the neighbour is the next sample
-    point."""
+    """Return the values of all symbols at a sample point. The symbols ``partner`` of a neighbour have the
+    state of the next sample point."""
     point = dict(orbit.points[number])
     other = orbit.points[(number + 1) % len(orbit.points)]
     return point | {s: other[own] for s, own in zip(partner, scene.symbols, strict=bool(partner))}
@@ -178,7 +178,8 @@ def _with_outside(
     states: Mapping[Offset, Mapping[str, mpmath.mpf]],
     absent: frozenset[Offset],
 ) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols of the field at a site."""
+    """Return the values of all symbols of the field at a site. The neighbours with the offsets ``absent`` are
+    outside the lattice."""
     values = dict(point)
     for k, offset in enumerate(sites.offsets):
         column = list(states[offset].values())

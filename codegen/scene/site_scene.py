@@ -62,7 +62,7 @@ def SiteScene(
     column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for the interaction of two
     neighbours. :class:`SceneError` is raised for the same errors as in a field scene. It is also raised for
     offsets of different lengths, for a neighbour outside an open boundary without a formula, and for parts
-    whose flow is not exact or whose sum is not the field.
+    that do not add up to the field or have no exact flow.
     """
     check_group(name, group)
     reader = Reader(name, list(y))

@@ -126,7 +126,7 @@ class Sites:
         return tuple(name for column in self.symbols for name in column)
 
     def text(self) -> str:
-        """Describe the lattice in a header."""
+        """Return a description of the lattice for the header of emitted code."""
         kind = "chain" if self.dimension == 1 else f"lattice of dimension {self.dimension}"
         ends = "periodic" if self.periodic else "open, with given states outside"
         listed = ", ".join(str(o[0]) if len(o) == 1 else str(o).replace(" ", "") for o in self.offsets)

@@ -78,8 +78,8 @@ def table(
     ``extrapolate`` with the polynomial of the nearest interval. :class:`SceneError` is raised if the numbers
     do not define a function.
 
-    The function is not smooth at its points: the third derivative of a cubic spline jumps, and the first
-    derivative of a linear table jumps.
+    The function is not smooth at the points ``xs``: the third derivative of a cubic spline jumps, and the
+    first derivative of a linear table jumps.
 
     >>> from codegen.ir.domain import FloatDomain
     >>> thrust = table([0, 1, 2], [0.0, 0.5, 0.2], sympy.Symbol("t"), "linear")

@@ -25,8 +25,8 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 
     The coordinates of site 0 come first; the last index of a site changes fastest. Every site has the initial
     state of the scene. A Hamiltonian scene becomes a field on the product of the groups T*G of its sites.
-    :class:`SceneError` is raised for a scene without sites, for a shape of another
-    dimension, and for too few or too many sites.
+    :class:`SceneError` is raised for a scene without sites, for a shape whose length is not the dimension of
+    the lattice, and for too few or too many sites.
     """
     sites = scene.sites
     if sites is None:
@@ -72,7 +72,7 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 
 
 def neighbour_place(sites: Sites, index: Sequence[int], offset: Offset, shape: Sequence[int]) -> int | None:
-    """Return the number of a neighbour of a site; None if the neighbour does not exist."""
+    """Return the position of a neighbour in the sequence of all sites; None if it does not exist."""
     place = 0
     for i, d, n in zip(index, offset, shape, strict=True):
         if not sites.periodic and not 0 <= i + d < n:

@@ -65,8 +65,8 @@ GALLERY = (
 )
 
 LATTICES = ("body_chain", "free_rod", "pipe_laying", "swinging_rod")
-"""The scenes of chains and lattices. They have states at any number of sites, so commands that run a scene
-from its initial state do not accept them."""
+"""The scenes of chains and lattices. Their number of sites is not fixed, so commands that run a scene from
+its initial state do not accept them."""
 
 EXTENDED = "+u"
 """The suffix of a scene name that denotes the scene extended by the time and its conjugate momentum."""
@@ -216,7 +216,7 @@ def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
 
 def _run(name: str, path: Path) -> Problem:
     """Return the scene that a Python file defines."""
-    # A very large file raises SceneError.
+    # This call raises a SceneError for a very large file, before the file is executed.
     read_bytes(path, "a Python file that defines `scene`", error=SceneError)
     try:
         # A scene may print messages, but stdout is reserved for the result of the command.

@@ -34,7 +34,7 @@ def mean(*factors: list[float]) -> float:
     return fsum(map(prod, zip(*factors, strict=True))) / SAMPLES
 
 
-signals: list[list[float]] = []  # by the method of Gram and Schmidt
+signals: list[list[float]] = []  # the mixed signals, whitened by the method of Gram and Schmidt
 for signal in mixed:
     rest = [a - mean(signal) for a in signal]
     for other in signals:

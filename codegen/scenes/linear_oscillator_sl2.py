@@ -5,11 +5,11 @@ matrices (H. Marthinsen's thesis, paper 3, Table 4.1). The generator depends on 
 is a linear problem in time: Magnus, Fer and Cayley methods accept it. Every step of these methods is a
 symplectic matrix. ``linear_oscillator`` is the same equation on T*R^4.
 
-The stated steps are *projection* (4.18), *ExpNonCan* and *ExpSymNonCan* of Table 4.1. The arguments of the
-last two exponentials are products of matrices. For this equation the products are in sl(2), so both methods
-are canonical here. The printed errors of ExpNonCan (2.61) and ExpSymNonCan (0.149) do not follow from the
-printed formulas, which give 5.82e-2 and 5.45e-2; ExpSymNonCan has order 2. The printed eps = 0.6 of Fig. 4.2
-does not fit the axis of the figure, and eps = 0.1 does.
+The stated steps are *projection* (4.18), *ExpNonCan* and *ExpSymNonCan* of Table 4.1. The exponentials in the
+last two steps have products of matrices as arguments. For this equation the products are in sl(2), so both
+methods are canonical here. The printed errors of ExpNonCan (2.61) and ExpSymNonCan (0.149) do not follow from
+the printed formulas, which give 5.82e-2 and 5.45e-2; ExpSymNonCan has order 2. The printed eps = 0.6 of Fig.
+4.2 does not fit the axis of the figure, and eps = 0.1 does.
 """
 
 from fractions import Fraction

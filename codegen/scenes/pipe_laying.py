@@ -3,7 +3,7 @@
 Section 2.3.1 of H. Marthinsen's thesis describes the problem: a pipe between the bottom of the sea and a
 vessel. The rod is that of ``free_rod``. The section before the first site is clamped. The section after the
 last site belongs to the vessel: it moves up and down, and pitches about the axis e2 with the angle a sin(w
-t). Its distance from the clamp is the parameter length, which must be (N + 1) ds for N sections.
+t). Its distance from the clamp is the parameter ``length``, which must be (N + 1) ds for N sections.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, eye, sin

@@ -2,8 +2,8 @@
 
 H. Marthinsen's thesis, section 2.4.2. X has two orthonormal columns of five rows, and A_ij = min(i, j) is the
 covariance matrix of the first five positions of a random walk. The flow tends to the subspace of the two
-largest eigenvalues, 12.34353752 and 1.44869057, but its columns do not tend to eigenvectors: the eigenvalues
-of X^T A X (Ritz values) tend to the eigenvalues of A.
+largest eigenvalues, 12.34353752 and 1.44869057, but the columns of X do not tend to eigenvectors: only the
+eigenvalues of X^T A X (Ritz values) tend to the eigenvalues of A.
 """
 
 from sympy import Min

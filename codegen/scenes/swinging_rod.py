@@ -2,8 +2,8 @@
 
 The rod is that of ``free_rod``. The section before the first site does not move. The distance of section i
 from the clamp is i ds. Each section carries the mass of the piece around it, so the last section is at the
-distance ds/2 from the free end, and N sections describe a rod of length (N + 1/2) ds. J. C. Simo and L.
-Vu-Quoc (Comput. Methods Appl. Mech. Engrg. 66 (1988) 125-161) compute the motion of such rods.
+distance ds/2 from the free end. The length of a rod with N sections is therefore (N + 1/2) ds. J. C. Simo and
+L. Vu-Quoc (Comput. Methods Appl. Mech. Engrg. 66 (1988) 125-161) compute the motion of such rods.
 """
 
 from sympy import eye

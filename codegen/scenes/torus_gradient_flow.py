@@ -1,4 +1,4 @@
-"""Gradient flow on a torus: SO(2) x SO(2) acts on pairs of points of circles, x' = -grad phi.
+"""Gradient flow on a torus: SO(2) x SO(2) acts on pairs of points on circles, x' = -grad phi.
 
 H. Marthinsen's thesis, section 2.4.1 and Figure 2.5. phi = (y - 8)^2 with y = (1 + cos theta) sin varphi is
 the squared distance of a point of the torus from the plane y = 8. The minimum 36 is at theta = 0 and varphi =

@@ -1,7 +1,8 @@
 """The dependency graph of snippets.
 
 A node is a helper or a function of the target's mathematical library, an edge is a call. The folder
-``snippets/TARGET`` has a template for each helper. Its template ``number.j2`` writes the numbers in helpers.
+``snippets/TARGET`` has a template for each helper. The template ``number.j2`` in this folder writes the
+numbers in helpers.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ LARGEST = {53: 2**20, 24: 2**9}
 
 _PARTS = {53: (31, 31, 31), 24: (12, 11, 11)}
 _REDUCED = Fraction(5, 8)
-"""A bound on r^2; (pi/4)^2 is 0.617."""
+"""An upper bound of r^2 for reduced angles r, which satisfy |r| <= pi/4; (pi/4)^2 is 0.617."""
 
 
 def reduction(precision: Precision = DOUBLE) -> dict[str, object]:

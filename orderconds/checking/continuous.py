@@ -18,7 +18,7 @@ from orderconds.tableau.extension import Extension
 def extension_order(tableau: Tableau) -> ExtensionOrder | None:
     """Return the order of the continuous extension of a tableau; None if the tableau has no extension.
 
-    The conditions are evaluated up to the order that follows the claimed order.
+    The conditions are evaluated up to the claimed order plus one.
 
     >>> order = extension_order(Tableau.load("rk4"))
     >>> order.order, order.certificate, order.continuous
@@ -58,7 +58,8 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the condition of a tree with n nodes for the coefficient of theta^p."""
+    """Return the condition of a tree with n nodes for the coefficient of theta^p. The right-hand side is zero
+    unless p = n."""
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")
 

@@ -33,7 +33,8 @@ MAX_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class ExactForms:
-    """The tableau with exact coefficients, the keys of its file, and the text of each recognised number."""
+    """The tableau with exact coefficients, the keys and values of its file, and the text of each recognised
+    number."""
 
     tableau: Tableau
     data: Data
@@ -41,8 +42,8 @@ class ExactForms:
 
 
 def exact_forms(tableau: Tableau) -> ExactForms | None:
-    """Return the exact tableau near the given digits. Return None if the numbers are not recognised or the
-    order of the exact tableau is not proved.
+    """Return the tableau with exact coefficients near the given numbers. Return None if the numbers are not
+    recognised, or if the order of the exact tableau is not proved.
 
     >>> rows = {"A": [[], ["0.6666666666666666d"]], "b": ["0.25", "0.75"]}
     >>> exact_forms(from_data({"name": "m", "family": "rk", **rows})).data["A"]

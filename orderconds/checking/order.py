@@ -19,9 +19,9 @@ from orderconds.ring import Balls, Ring
 from orderconds.tableau import Method, Tableau
 
 EXHAUSTIVE = 2000
-"""If an order has more conditions than this, they are evaluated in batches, simplest trees first, up to the
-first batch with a failure. The report then contains only the failing conditions of that batch, and no error
-norm."""
+"""If an order has more than this number of conditions, they are evaluated in batches, simplest trees first,
+up to the first batch with a failure. The report then contains only the failing conditions of that batch, and
+no error norm."""
 
 STOPPED = "stopped"
 """The verdict on an order that was not decided because of a limit."""
@@ -122,12 +122,12 @@ def family_order(
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
     ``bound`` is the result for another family, whose conditions are a subset of the conditions of ``family``.
-    Hence ``bound.order`` is an upper bound of the order in ``family``. ``search_limit`` is the highest order
-    that is evaluated for a file without a claim in ``family``. The search stops at the order ``bound.order``
-    if this order is at least ``search_limit``, or if ``brief`` is true. The result then contains the failing
-    conditions of ``bound``. Conditions that follow from other conditions, or from the orders ``proved`` in
-    other families, are not evaluated (:mod:`orderconds.families.reductions`). The search also ends when
-    ``meter`` reports that a limit is reached.
+    Hence ``bound.order`` is an upper bound of the order in ``family``. ``family.search_limit`` is the highest
+    order that is evaluated for a file without a claim in ``family``. The search stops at the order
+    ``bound.order`` if this order is at least ``family.search_limit``, or if ``brief`` is true. The result
+    then contains the failing conditions of ``bound``. Conditions that follow from other conditions, or from
+    the orders ``proved`` in other families, are not evaluated (:mod:`orderconds.families.reductions`). The
+    search also ends when ``meter`` reports that a limit is reached.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -147,7 +147,8 @@ def family_order(
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
     """Return the first condition of this order that every method of the family violates, with its residual.
 
-    The result is empty if there is no such condition, or if the digits of the coefficients do not decide it.
+    The result is empty if there is no such condition. It is also empty if the digits of the coefficients do
+    not suffice to show that the condition fails.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -202,8 +203,8 @@ class _Search:
         return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
-        """Return three values: the verdicts on the conditions of order n, the conditions that fail, and True
-        if all conditions were evaluated."""
+        """Return three values: the verdicts on the conditions of order n, the conditions that fail, and
+        whether all conditions were evaluated."""
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True

@@ -16,7 +16,7 @@ from orderconds.tableau import Tableau, dumps
 
 @dataclass(frozen=True, repr=False)
 class Refinement:
-    """The refined ``tableau``.
+    """The result of :func:`refine`: the refined ``tableau``, and how its coefficients were obtained.
 
     For a tableau with a table ``[proof]``, ``decimals`` maps names to the new decimals, ``pinned`` contains
     the names of the decimals that were kept fixed, and ``proof`` is the proof. For doubles and other rounded

@@ -20,7 +20,8 @@ UNCLAIMED = "unclaimed"
 
 
 class EmbeddedOrder(Struct, frozen=True):
-    """The orders of the embedded method: second weights, or a second update, for an error estimate.
+    """The orders of the embedded method. It consists of second weights, or of a second update, and serves to
+    estimate the error.
 
     ``claimed`` is the claimed order in the family ``own``, and ``orders`` are the computed orders by family.
     ``certificates`` are the certificates of these orders, by family. ``own`` is ``rk`` if the embedded method
@@ -43,8 +44,9 @@ class ExtensionOrder(Struct, frozen=True):
     """The claimed and the computed order of a continuous extension in the family ``rk``.
 
     ``continuous`` states whether b_i(1) = b_i: the values at the ends of neighbouring steps agree. ``smooth``
-    states whether the derivatives at these ends agree, too. None means that this is not decided. ``failing``
-    are the failing conditions of the next order, each for the coefficient of one power of theta.
+    states whether the derivatives at these ends agree, too. Each of the two is None if the question is not
+    decided. ``failing`` are the failing conditions of the next order, each for the coefficient of one power
+    of theta.
     """
 
     claimed: int
@@ -70,8 +72,9 @@ class RegisterForm(Struct, frozen=True):
     none.
 
     ``A`` and ``B`` are the coefficients of K <- A_i K + F(Y), Y <- exp(h B_i K) Y as text. ``space`` is
-    ``group`` if the scheme is equal to the method on every Lie group, and ``vector space`` if the tableau (A,
-    b) defines the method on a vector space. ``holds`` is None if rounded decimals do not decide the question.
+    ``group`` if the scheme is equal to the method on every Lie group. It is ``vector space`` for a tableau
+    (A, b): the scheme is then equal to the method on vector spaces. ``holds`` is None if rounded decimals do
+    not decide the question.
     """
 
     holds: bool | None
@@ -151,7 +154,7 @@ class Report:
 
     @property
     def conclusion(self) -> str:
-        """The verdict in words. Without a claim, it states the computed orders."""
+        """The verdict in words; without a claim, a text with the computed orders."""
         if self.verdict != UNCLAIMED:
             return self.verdict
         several = len(self.orders) > 1
@@ -193,7 +196,7 @@ class Report:
 
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of one tableau; the keys ``undecided`` and ``broken_claims`` are present
-        only if their lists are not empty."""
+        only if they are not empty."""
         record: dict[str, object] = {
             "name": self.name,
             "file": self.file,

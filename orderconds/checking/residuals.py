@@ -1,8 +1,8 @@
 """The residuals of the conditions of one order, with verdicts: zero, not zero, or a ball too wide to decide.
 
-In a number field, ball arithmetic is much cheaper than exact arithmetic. It shows that most residuals of a
-failing order are not zero. Exact arithmetic is used for the other residuals, and for residuals that are
-printed.
+In a number field, ball arithmetic is much cheaper than exact arithmetic. A ball that does not contain zero
+proves that a residual is not zero; for a failing order, this decides most residuals. Exact arithmetic is used
+for the other residuals, and for residuals that are printed.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""A ball supports a condition of order n only if its radius is at most this fraction of 1/n!, the smallest
-exact value of an elementary integral of that order."""
+"""A ball supports a condition of order n only if its radius is at most this fraction of 1/n!, the least of
+the integrals of order n in the series of the exact flow."""
 
 BITS = 256
 """The precision of the balls in bits. With this precision, twenty digits of a non-zero residual are

@@ -1,10 +1,10 @@
-"""The order to which a method is symmetric: a step of size -h after a step of size h.
+"""The order to which a method is symmetric, from a step of size h followed by a step of size -h.
 
 Let Phi_h be a step. The composition of Phi_h and Phi_{-h} is the identity for symmetric methods. A method
 that is not symmetric has a largest number q such that this composition differs from the identity by O(h^(q +
 1)). The number q is odd, because the leading term of the logarithm of the composition is an even power of h;
-a method of order p has q >= p. If q is larger than this bound, the method is called effectively symmetric
-(Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
+a method of order p has q >= p. If q is larger than the least odd number >= p, the method is called
+effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
 """
 
 from __future__ import annotations
@@ -53,7 +53,8 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
 
 
 def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
-    """Return the family, the step, the trees of its series, and the largest number of vertices."""
+    """Return the family, the series of a step, the function that yields the trees of the series, and the
+    largest number of vertices."""
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):
         weights = runge_kutta_series(ring, method.A, method.b)

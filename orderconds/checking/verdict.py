@@ -135,8 +135,8 @@ def _of_doubles(certificate: str) -> str:
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a sentence that names exact numbers near the doubles of a tableau, or an empty text if there are
-    none."""
+    """Return a sentence that states exact numbers near the doubles of a tableau, or an empty text if there
+    are none."""
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -301,8 +301,8 @@ def _settled(
     """Return an order that follows from orders in other families, if it is at least the search limit of
     ``family``.
 
-    The failing conditions belong to the family that bounds the order from above. An order that follows from
-    orders with certificate ``decimal`` also has the certificate ``decimal``.
+    The failing conditions in the result belong to the family that bounds the order from above. If orders with
+    the certificate ``decimal`` are needed, the result has this certificate, too, unless theorems prove it.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -358,8 +358,8 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
     """Yield the families to check, each with its claimed order. If a family is given, only this family is
-    checked. Otherwise these are the claimed families, or the family of the tableau format if the file claims
-    no order."""
+    checked. Otherwise the claimed families are checked, or the family of the tableau format if the file
+    claims no order."""
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
         member = families.get(family)

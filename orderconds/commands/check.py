@@ -297,10 +297,11 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
     """Yield the files to check. An argument that is a directory yields the tableau files below it, sorted;
-    every other argument is yielded unchanged.
+    every other argument is yielded unchanged. If ``skip_others`` is true, files that are arguments may be
+    skipped, too.
 
-    The names of skipped files are written to stderr, with the reason. If ``strict`` is true, only files that
-    do not resemble tableaux are skipped.
+    The names of skipped files are written to stderr, with the reason. Files without a tableau are skipped; if
+    ``strict`` is true, such a file is not skipped if it resembles a tableau.
     """
     for argument in arguments:
         if not argument.strip():

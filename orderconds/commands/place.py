@@ -78,6 +78,6 @@ def _write_directly(path: Path, content: bytes) -> None:
         raise
     with os.fdopen(handle, "wb") as stream:
         if os.name == "posix":
-            # A write to a full pipe now waits until the reader has read some data.
+            # Only the opening of the pipe must not wait. A write to a full pipe must wait for the reader.
             os.set_blocking(handle, True)
         stream.write(content)

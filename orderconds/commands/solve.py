@@ -205,7 +205,8 @@ def _size(text: str | None) -> Fraction | None:
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):
-        # The pattern also matches some texts that are no numbers, such as 1/0 and 1/2e3.
+        # The pattern also matches some texts that are no numbers, such as 1/0 and 1/2e3. The size 0 leads to
+        # the error below.
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")

@@ -32,7 +32,7 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""The module of each format, which defines ``write`` and ``read``, and the format's suffix."""
+"""For each format: the module that defines its functions ``write`` and ``read``, and its suffix."""
 
 
 def export(data: Data, to: str) -> bytes:
@@ -68,7 +68,8 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
     """Return the keys and values of a file in the format ``of``; ``name`` is used if the file has no name.
 
     Files of other programs do not state the order of embedded weights, so this function computes the order.
-    Raises :class:`~orderconds.errors.InputError`, whose message contains ``where``.
+    Raises :class:`~orderconds.errors.InputError` for content that cannot be read; the message contains
+    ``where``.
 
     >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
     {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}
@@ -78,7 +79,8 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Return the keys of a file; a missing name and a missing order of embedded weights are added."""
+    """Return the keys and values of a file; add the name and the order of embedded weights if they are
+    missing."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
@@ -105,7 +107,7 @@ PYTHON = "sympy"
 
 
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
-    """Return the tableau of a file whose suffix names a format other than TOML, None for other suffixes.
+    """Return the tableau in a file with the suffix of a format other than TOML; None for any other file.
 
     The tableau is named after the file if it has no name of its own. A Python module is executed only with
     ``execute``.
@@ -144,7 +146,7 @@ def left_out(data: Data, to: str) -> tuple[str, ...]:
 
 
 def format_of(path: str) -> str:
-    """Return the format that a file's suffix names.
+    """Return the format to which the suffix of a file belongs; raise InputError for any other suffix.
 
     >>> format_of("rk4.h")
     'c'
@@ -159,7 +161,7 @@ def format_of(path: str) -> str:
 
 
 def find_format(path: str) -> str | None:
-    """Return the format that a file's suffix names, or None.
+    """Return the format to which the suffix of a file belongs; None for any other suffix.
 
     >>> find_format("rk4.npz"), find_format("rk4.txt")
     ('numpy', None)

@@ -27,7 +27,7 @@ from orderconds.tableau.write import without_names
 
 Row = list[str]
 Arrays = Data
-"""A map from the names of arrays to texts (name, family, ...), rows of coefficients, and matrices."""
+"""A map from names to values: texts (name, family, ...), rows of coefficients, and matrices."""
 
 TABLES = ("numbers", "claims")
 """Tables of a tableau file that are stored as JSON text. The table ``numbers`` is stored only if coefficients
@@ -40,9 +40,10 @@ ROUNDED = 12
 
 
 def to_arrays(data: Data, target: str) -> Arrays:
-    """Return the arrays of a file's keys; ``target`` is the name of the output format, for messages.
+    """Return the arrays for the keys and values of a tableau file; messages contain ``target``, the name of
+    the output format.
 
-    Raises :class:`TableauError` for a family whose methods arrays cannot represent.
+    Raises :class:`TableauError` for a family whose methods cannot be represented by arrays.
 
     >>> to_arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
     [['0', '0'], ['1', '0']]
@@ -76,9 +77,10 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return the keys of a tableau's file, with no names in coefficients except names of roots.
+    """Return the keys and values of a tableau file in which coefficients do not refer to named numbers. Only
+    roots of polynomials that have no formula keep their names.
 
-    Exact coefficients are in lowest terms; rounded ones keep the digits of the file.
+    Exact coefficients are in lowest terms; rounded coefficients keep the digits of the file.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
     >>> data_without_names(from_data(data))
@@ -119,7 +121,8 @@ def _products(data: Data) -> Arrays:
 
 
 def from_arrays(entries: Arrays, where: str) -> Data:
-    """Return the keys of a tableau file; arrays with unknown names are refused.
+    """Return the keys and values of the tableau file that the arrays represent. Raise TableauError for an
+    array with an unknown name.
 
     >>> from_arrays({"gamma": ["1"]}, "a table")
     {'family': 'composition', 'gamma': ['1'], 'base': 'symmetric-2'}
@@ -208,8 +211,8 @@ def _stages(entries: Arrays, where: str) -> Data:
 
 
 def with_family(data: Data) -> Data:
-    """Return the keys of a file, including ``family``. If the file has no key ``family``, its arrays
-    determine the family; for example, A and b determine ``rk``.
+    """Return the keys and values of a file, including ``family``. If the file has no key ``family``, its
+    arrays determine the family; for example, A and b determine ``rk``.
 
     >>> with_family({"A": [[]], "b": ["1"]})["family"]
     'rk'

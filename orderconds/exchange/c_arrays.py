@@ -93,9 +93,10 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return C source without strings, and the comments before the first initialiser.
+    """Return two results: the C source without strings and without the comments outside initialisers, and the
+    texts of the comments before the first initialiser.
 
-    Comments in initialisers stay in the source; all others are removed.
+    Comments inside initialisers remain in the source, because they contain the exact values of numbers.
     """
     kept: list[str] = []
     comments: list[str] = []

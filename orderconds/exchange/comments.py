@@ -1,4 +1,5 @@
-"""Texts of a tableau as comments of source files. Each text is one line, so that it cannot end the comment.
+"""Texts of a tableau as comments of source files. Each text is written in one line, because a line break
+would end a comment in some languages.
 
 Backslashes are escaped as in Python, and so are characters that could end a line or change the direction of
 writing. In ``*/`` and ``/*`` a backslash separates the two characters, because they delimit comments in C.

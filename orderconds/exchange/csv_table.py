@@ -30,9 +30,10 @@ from orderconds.exchange.arrays import (
 from orderconds.tableau.file_format import Data
 
 NAMES = (*TEXTS, *ROWS, *MATRICES)
-"""The names of rows."""
+"""The names with which a line may begin: names of texts, of rows of coefficients, and of matrices."""
 WEIGHTS = ("b", "embedded_b")
-"""The rows of weights of a plain Butcher tableau may have these names."""
+"""The names of weights. In a plain Butcher tableau a line with weights may begin with such a name instead of
+an empty cell."""
 
 Table = tuple[tuple[str, ...], ...]
 
@@ -81,7 +82,8 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _is_plain(table: Table) -> bool:
-    """Return True if a table is a plain Butcher tableau: no matrix has a name, and some row has no name."""
+    """Return True if a table is a plain Butcher tableau: no row begins with the name of a matrix, and some
+    row does not begin with a name."""
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)
 
@@ -89,7 +91,8 @@ def _is_plain(table: Table) -> bool:
 def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
     """Return the arrays of a plain Butcher tableau.
 
-    The first lines contain c and A. The lines of weights begin with an empty cell or a name in ``WEIGHTS``.
+    The first lines contain c and A. Each line with weights begins with an empty cell or with a name in
+    ``WEIGHTS``.
     """
     stages = [[coefficient(x) for x in row] for row in table if row[0] and row[0] not in WEIGHTS]
     weights = [[coefficient(x) for x in row[1:]] for row in table if not row[0] or row[0] in WEIGHTS]

@@ -22,7 +22,8 @@ SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h
 """The suffixes of files that may contain a tableau."""
 
 EXCUSES = "DECIMAL"
-"""The name of a file that lists tableaux of the same folder. The orders of these tableaux need no proof."""
+"""The name of a file that contains a list of tableaux in the same folder. For the tableaux in this list, a
+proof of the order is not required."""
 
 NO_KEY = "no key of a tableau (family, A, b, ...)"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)
@@ -44,7 +45,8 @@ class Folder:
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
 
-    If ``strict`` is true, only files that do not resemble tableaux are skipped.
+    Some files resemble tableaux but cannot be read as tableaux. Such a file is skipped unless ``strict`` is
+    true.
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())
@@ -78,8 +80,8 @@ def _is_hidden(name: str) -> bool:
 
 @dataclass(frozen=True)
 class Reason:
-    """Why a file is skipped. ``plain`` is true if the file contains nothing that resembles a tableau, and
-    false if it may be a tableau in a notation that cannot be read."""
+    """The reason to skip a file. If nothing in the file resembles a tableau, ``plain`` is true. If the file
+    may be a tableau in a notation that cannot be read, ``plain`` is false."""
 
     text: str
     plain: bool = True
@@ -131,7 +133,8 @@ def _is_matrix(value: object) -> bool:
 
 
 def _of_csv(content: bytes) -> Reason | None:
-    """Return why a table of text is skipped: it has neither a named array nor rows of weights."""
+    """Return the reason to skip a table of text that has neither a named array nor rows of weights. Return
+    None for other tables."""
     try:
         table = rows.read(content.decode(), csv_table.NAMES)
     except (csv.Error, UnicodeDecodeError):
@@ -181,4 +184,5 @@ _REASONS: dict[str | None, Callable[[bytes], Reason | None]] = {
     "latex": _of_latex,
     "c": _of_c,
 }
-"""For each format, a function that returns why a file is skipped."""
+"""For each format, a function that returns the reason to skip a file, or None if the file must be read as a
+tableau."""

@@ -1,8 +1,8 @@
 """JSON: the keys and values of a tableau file, one to one.
 
-A number with a decimal point is a coefficient of another program
-(:func:`orderconds.exchange.arrays.coefficient`): ``0.5`` is exactly 1/2, ``0.3333333333333333`` a double. If
-a file states no family, its arrays determine the family. Claims may be a text such as ``"rk=4"``.
+The function :func:`orderconds.exchange.arrays.coefficient` interprets numbers with a decimal point: ``0.5``
+is exactly 1/2, and ``0.3333333333333333`` is a double. If a file states no family, its arrays determine the
+family. Claims may be a text such as ``"rk=4"``.
 """
 
 from __future__ import annotations
@@ -50,7 +50,8 @@ def _refused(name: str) -> object:
 
 
 def _unique(pairs: list[tuple[str, object]]) -> Data:
-    """Return an object; raise an error for a repeated name, since Python would keep only the last value."""
+    """Return the pairs as a dictionary. Raise an error for a repeated name, because ``dict(pairs)`` would
+    keep only the last of its values."""
     members: Data = {}
     for name, value in pairs:
         if name in members:

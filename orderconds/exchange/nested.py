@@ -13,7 +13,8 @@ MAX_DEPTH = 3
 
 
 def nested(text: str, opening: str, closing: str, where: str) -> Cells:
-    """Return the lists of cell texts in one bracketed expression; commas within parentheses belong to cells.
+    """Return the texts of the cells in one bracketed expression, as nested lists. A comma within parentheses
+    belongs to the cell and does not separate two cells.
 
     >>> nested("[[1, Rational(1, 2)], [3, 4]]", "[", "]", "x")
     [['1', 'Rational(1, 2)'], ['3', '4']]

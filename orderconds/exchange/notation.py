@@ -1,5 +1,6 @@
-"""Coefficients of tableau files in two other notations: Python with SymPy's names, and LaTeX, which
-:mod:`orderconds.tableau.coefficient_latex` writes."""
+"""Conversion of coefficients between the notation of tableau files and two other notations: Python with
+SymPy's names, and LaTeX. For LaTeX this module contains only the reader;
+:mod:`orderconds.tableau.coefficient_latex` writes LaTeX."""
 
 from __future__ import annotations
 
@@ -28,8 +29,8 @@ def _number(x: Fraction) -> str:
 def _python(x: Expression, tight: int) -> str:
     """Return x as Python source, with parentheses if ``tight`` requires them.
 
-    ``tight`` is 1 for the first factor of a product and after a minus sign, 2 for later factors and for
-    divisors, and otherwise 0.
+    ``tight`` depends on the position of x in a larger expression. It is 1 for the first factor of a product
+    and after a minus sign, 2 for later factors and for divisors, and 0 for all other positions.
     """
     if isinstance(x, Constant):
         if x.is_double:

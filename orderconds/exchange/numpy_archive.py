@@ -1,8 +1,8 @@
 """NumPy: an ``.npz`` archive with float64 arrays (``A``) and with their exact entries as text (``A_exact``).
 
-If an archive has no exact text for an array, its floats are doubles (:mod:`orderconds.tableau.doubles`).
-Arrays of Python objects are refused and never unpickled. An entry ``order=4`` or ``claims="rk=4"`` of the
-archive states claims.
+If an archive contains an array without such texts, the entries of the array are read as doubles
+(:mod:`orderconds.tableau.doubles`). Arrays of Python objects are refused and never unpickled. An entry
+``order=4`` or ``claims="rk=4"`` of the archive states claims.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 EXACT = "_exact"
 LARGEST = 20_000_000
-"""The largest size of unpacked arrays, in bytes."""
+"""The largest total size of the unpacked arrays of an archive, in bytes."""
 UNREADABLE = (
     EOFError,
     KeyError,
@@ -79,7 +79,7 @@ def write(data: Data) -> bytes:
 
 
 def floats(value: Cells, roots: str = "{}") -> Floats:
-    """Return the doubles nearest to coefficients; ``roots`` is the JSON of named roots.
+    """Return the doubles nearest to coefficients. ``roots`` contains the definitions of named roots, as JSON.
 
     >>> floats([["1/2", "1/3"]])
     [[0.5, 0.3333333333333333]]
@@ -100,7 +100,7 @@ def nearest(text: str, roots: str = "{}") -> float:
     """
     fraction = re.fullmatch(r"(-?[0-9]{1,300})(?:/([1-9][0-9]{0,299}))?", text)
     try:
-        if fraction:  # most coefficients are rational; a quotient of integers is rounded once
+        if fraction:  # fast, and Python rounds the quotient correctly
             return int(fraction[1]) / int(fraction[2] or 1)
         data = {"name": "x", "family": "rk", "A": [[]], "b": [text], "numbers": json_table(roots, "numbers")}
         tableau = from_data(data)
@@ -172,7 +172,7 @@ def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndar
 
 
 def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> None:
-    """Raise an error unless an array of this type consists of rows of integers or doubles."""
+    """Raise an error unless the array ``name`` is a row or a matrix of integers or doubles."""
     if axes not in (1, 2) and kind in "fiu":
         raise TableauError(f"the array {name} with {axes} axes", where=where, expected=EXPECTED)
     if kind == "c":

@@ -1,10 +1,11 @@
 """Python modules that assign arrays: ``A = np.array([[0, 0], [1/2, 0]])``, ``b = [0, 1]``, ``order = 2``.
 
 A module is parsed, not executed. Its assignments at the top level are read in order. They may contain lists,
-tuples, numbers, arithmetic, square roots, names assigned before, ``np.zeros``, entries (``A[1, 0] = 1``), and
-the constructors of arrays and exact numbers of NumPy, SymPy and ``fractions``. Arithmetic is exact: ``1/3``
-is the fraction 1/3 and not a double. If a statement that is not understood may change an array, the file is
-refused; :mod:`orderconds.exchange.python_module` executes a module if the user asks for it.
+tuples, numbers, arithmetic, square roots, names with values from earlier assignments, ``np.zeros``, entries
+(``A[1, 0] = 1``), and the constructors of arrays and exact numbers of NumPy, SymPy and ``fractions``.
+Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. If a statement that is not understood may
+change an array, the file is refused; :mod:`orderconds.exchange.python_module` executes a module if the user
+asks for it.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from orderconds.tableau.file_format import Data
 
 ARRAYS = (*MATRICES, *ROWS)
 COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha", "beta"))
-"""Sets of arrays, each of which defines a tableau."""
+"""Groups of names. A module contains a tableau if it assigns all arrays of one group."""
 
 HINT = "write the numbers as literals, or run the file with orderconds check --execute"
 HARMLESS = ("print",)
@@ -185,7 +186,8 @@ def _is_harmless(statement: ast.Expr) -> bool:
 
 
 def _is_script_part(statement: ast.If) -> bool:
-    """Return True if a block runs only if the module is a script: ``if __name__ == "__main__"``."""
+    """Return True for a statement such as ``if __name__ == "__main__"``, whose block runs only if the module
+    is executed as a script."""
     return any(isinstance(node, ast.Name) and node.id == "__name__" for node in ast.walk(statement.test))
 
 
@@ -228,7 +230,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
                 raise TableauError(f"two arrays {name}", where=where, expected="one")
             cells = texts(value, f"{where}: {name}")
             entries[name] = _row(cells) if name in ROWS else cells
-        elif isinstance(value, Computed) and name != "c":  # the abscissae follow from A
+        elif isinstance(value, Computed) and name != "c":  # c may be unknown: it follows from A
             raise TableauError(
                 f"not a literal value: {value.reason}",
                 where=f"{where}: {name}: line {value.line}",
@@ -252,7 +254,8 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
 
 
 def _row(cells: Cells) -> Cells:
-    """Return a row; a matrix of one row or one column is a row."""
+    """Return the cells of a row. If the cells are a matrix with one row or one column, the matrix is
+    converted to a row."""
     if isinstance(cells, list) and cells and isinstance(cells[0], list):
         if len(cells) == 1:
             return cells[0]

@@ -29,12 +29,14 @@ ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
 """Constructors of arrays whose entries have one type: an entry of an array of integers cannot become 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""Texts in the names of array types other than float64: integers, complex numbers, and short floats."""
+"""An array type is refused if its name contains one of these texts: types of integers, of complex numbers,
+and of floats shorter than float64."""
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
 MAX_OPERATIONS = 5_000
-"""The largest number of consecutive operations of one kind in a coefficient."""
+"""The largest number of operations in one chain of additions and subtractions, or of multiplications and
+divisions."""
 
 
 @dataclass
@@ -47,8 +49,8 @@ class Array:
 
 @dataclass(frozen=True)
 class Computed:
-    """A value that only execution of the module could compute. ``reason`` names the expression that the
-    reader cannot evaluate, and ``line`` is the line of the expression."""
+    """A value that only execution of the module could compute. ``reason`` describes the expression that the
+    reader cannot evaluate; ``line`` is the line of this expression."""
 
     reason: str
     line: int
@@ -82,7 +84,8 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """The original name of each imported function, by its name in the module."""
+    """A map from the name that an imported function has in the module to the original name of the
+    function."""
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
 
@@ -115,7 +118,8 @@ class Values:
         return False
 
     def forget(self, names: Collection[str], line: int) -> None:
-        """Record that a statement may change these names, and all names that share their arrays."""
+        """Record that the values of ``names`` are unknown, because the statement in this line may change
+        them. The values of other names that refer to the same arrays become unknown, too."""
         shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
         for name, value in self.known.items():
             if name in names or id(value) in shared:
@@ -160,7 +164,8 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return the text of a number in the source, because its digits do not follow from the double."""
+        """Return the text of a number as it is written in the source. The parser gives only the nearest
+        double, which does not determine the written digits."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""
@@ -180,7 +185,8 @@ class Values:
             if exponent is None or abs(exponent.numerator) > 64 or exponent.denominator > 24:
                 raise _NotLiteral(node, "a power whose exponent is not a small fraction")
             return Power(self._number(node.left), exponent)
-        # A long sum is a deep tree, so the operands of one chain are collected without recursion.
+        # The syntax tree of a long sum is so deep that recursion could exceed the limit of Python. Therefore
+        # a loop collects the operands of one chain.
         signs: list[str] = []
         operands: list[ast.expr] = []
         first: ast.expr = node
@@ -227,8 +233,8 @@ class Values:
 
 
 def _class(operator: ast.operator) -> str:
-    """Return ``sum`` for + and -, ``product`` for * and /, and an empty text for other operators. A chain
-    combines operators of one kind from left to right."""
+    """Return ``sum`` for + and -, ``product`` for * and /, and an empty text for other operators. Operators
+    of one class form a chain, which is evaluated from left to right."""
     return {"+": "sum", "-": "sum", "*": "product", "/": "product"}.get(OPERATORS.get(type(operator), ""), "")
 
 
@@ -249,7 +255,7 @@ def _is_integral(value: Value) -> bool:
 
 
 def _copy(value: Value, integral: bool) -> Value:
-    """Return an array that shares no rows with the given one."""
+    """Return a copy of an array, in which the rows are copied as well. Return any other value unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 
@@ -272,7 +278,8 @@ def _table(node: ast.Dict) -> str:
 
 
 def rational(x: Expression) -> Fraction | None:
-    """Return an exponent as a fraction, or None if it is not a quotient of numbers.
+    """Return an exponent as a fraction. Return None if the exponent contains other operations than
+    differences and quotients of exact numbers.
 
     >>> rational(parse("1/3")), rational(parse("-0.5")), rational(parse("sqrt(2)"))
     (Fraction(1, 3), Fraction(-1, 2), None)

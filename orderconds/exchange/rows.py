@@ -31,9 +31,9 @@ class Rows:
 def read(text: str, names: tuple[str, ...]) -> Rows:
     """Return the rows of a table.
 
-    The delimiter is the one that occurs in the most lines. A first row of words is a header, unless it begins
-    with one of ``names``; ``c`` followed by names of columns of A is a header as well. Raises
-    :class:`csv.Error` for wrong quotation marks.
+    The delimiter is the one that occurs in the most lines. If all cells of the first row are words, this row
+    is a header, unless it begins with one of ``names``. A first row that consists of ``c`` and of names of
+    columns of A is always a header. Raises :class:`csv.Error` for wrong quotation marks.
 
     >>> read("# Heun\\nc;a1;a2\\n0;0;0\\n1;1;0\\n;1/2;1/2\\n", ("c",)).rows
     (('0', '0', '0'), ('1', '1', '0'), ('', '1/2', '1/2'))
@@ -45,7 +45,8 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     delimiter = max(DELIMITERS, key=lambda mark: sum(mark in line for line in lines))
     table = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
     rows = [tuple(cell.strip() for cell in row) for row in table]
-    # A line of a quoted cell may begin with #, so comments are left out after the cells have been separated.
+    # A quoted cell may contain several lines, and one of them may begin with # without being a comment.
+    # Therefore comments are removed only after the text has been divided into cells.
     rows = [row for row in rows if any(row) and not _is_comment(row[0])]
     if rows and _is_header(rows[0], names):
         return Rows(tuple(rows[1:]), rows[0])

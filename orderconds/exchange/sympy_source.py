@@ -55,8 +55,8 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield each named number with its definition, which is a text or a root. A number comes after all
-    numbers to which it refers.
+    """Yield each named number with its definition, which is a text or a root. If the definition of a number
+    contains other named numbers, these are yielded first.
 
     A root is given by the descending coefficients of its polynomial and by its index among the real roots, as
     in ``CRootOf``.
@@ -96,7 +96,8 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return the keys of a file; numbers get new names if their names would conflict in Python source."""
+    """Return the keys of a file. A number gets a new name if its name already has another meaning in the
+    Python source."""
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()

@@ -1,8 +1,9 @@
 """Unevaluated coefficients: the expressions of a file, with every name replaced by its definition.
 
 Tables and arrays cannot contain named numbers. Rounded decimals must keep their digits, which a computed ball
-would lose. The coefficients of the method are therefore expressions: those of the file or, for low-storage
-schemes, sums and products of them. Only operations with the numbers 0 and 1 are simplified.
+would lose. The coefficients of the method are therefore expressions. They are the expressions in the file;
+for low-storage schemes they are sums and products of these expressions. Only operations with the numbers 0
+and 1 are simplified.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ ONE = Constant(Fraction(1))
 
 
 class CoefficientTooLong(TableauError):
-    """A coefficient that is too long when its names are inlined."""
+    """The error for a coefficient that is too long after its names have been replaced by their
+    definitions."""
 
 
 class Unevaluated:
@@ -114,8 +116,8 @@ class UnevaluatedNumbers:
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0, so that no number counts as too large. Numbers that are too large were already refused
-        when the file was read."""
+        """Return 0: no number is refused here because of its size. Numbers that are too large were already
+        refused when the file was read."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:

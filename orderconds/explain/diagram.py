@@ -2,10 +2,11 @@
 diagrams and then drawn.
 
 A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the letter L of the action
-trees: a coadjoint action, not a derivative of the Hamiltonian). In words, a vertex is a *letter* or the
-*bracket* of two vertices. An edge is *plain*, or it points from a derivative in q to a derivative in p or mu,
-as in :mod:`orderconds.trees.directed`. It points *outward* if the branch is a velocity (a_ij), *inward* if
-the branch is a force (ahat_ij).
+trees: a coadjoint action, not a derivative of the Hamiltonian). In the diagram of a word over an alphabet, a
+vertex is a *letter* or the *bracket* of two vertices. An edge is *plain*, or it points from a derivative in q
+to a derivative in p or mu, as in :mod:`orderconds.trees.directed`. It points *outward* (from the root to the
+branch) if the branch is a velocity (a_ij), and *inward* (from the branch to the root) if the branch is a
+force (ahat_ij).
 """
 
 from __future__ import annotations
@@ -40,9 +41,9 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right.
 
-    ``legs`` is a pair of numbers (m, n): the first n branches are letters of one word, and the edge to the
-    parent is an additional letter of this word, after the first m branches. ``legs`` is None if the position
-    of this edge does not matter. ``label`` is the text of a letter.
+    The first n branches and the edge to the parent may be the letters of one word, in which the edge comes
+    after the first m branches. Then ``legs`` is the pair (m, n). If the position of this edge does not
+    matter, ``legs`` is None. ``label`` is the text of a letter.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -64,7 +65,8 @@ Diagram = tuple[Vertex, ...]
 
 
 def plain(forest: levels.Forest) -> Diagram:
-    r"""Return the diagram of a rooted or ordered tree or forest, given by its levels.
+    r"""Return the diagram of a rooted or ordered tree, or of a forest of such trees. The argument is the
+    sequence of the levels of the vertices.
 
     >>> plain(b"\0\0")[1]
     Vertex(sign='dot', branches=(), legs=None, label='')

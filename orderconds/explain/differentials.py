@@ -1,8 +1,8 @@
 """Texts of the elementary differentials and Hamiltonians that belong to trees.
 
 Each function handles one kind of tree. ``f''(x, y)`` is the second derivative of f, applied to the vectors x
-and y. Subscripts name the variables of partial derivatives, one letter for each derivative. Words denote
-commutators of vector fields.
+and y. In the subscript of a partial derivative, each letter is the variable of one differentiation: ``f_zy``
+is the derivative with respect to z and y. Words denote commutators of vector fields.
 """
 
 from __future__ import annotations
@@ -25,10 +25,11 @@ def differential(tree: levels.Tree) -> str:
 
 
 def hamiltonian(tree: levels.Tree) -> str:
-    r"""Return the elementary Hamiltonian of a free tree, given by one of its rootings (HLW IX.9.2).
+    r"""Return the elementary Hamiltonian of a free tree, in which any vertex is chosen as the root (HLW
+    IX.9.2).
 
-    ``f`` denotes the Hamiltonian vector field. For another choice of the root the function is the same up to
-    its sign.
+    ``f`` denotes the Hamiltonian vector field. Another choice of the root can change only the sign of the
+    elementary Hamiltonian.
 
     >>> hamiltonian(b"\0\1\1")
     "H''(f, f)"
@@ -39,9 +40,9 @@ def hamiltonian(tree: levels.Tree) -> str:
 def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
-    ``f[x y]`` is f differentiated along the frozen fields x and y, with the innermost derivative along y.
-    This is the order of the word, in which x acts first. The operator of a forest is the product of the
-    operators of its trees (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+    ``f[x y]`` is the derivative x[y[f]] of f along the frozen fields x and y. If Lie derivatives are written
+    in this order, the flow of x acts first. The operator of a forest is the product of the operators of its
+    trees (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 
     >>> frozen_differential(b"\0\1\2\1"), frozen_differential(b"\0\1\0")
     ('f[f[f] f]', 'f[f] f')

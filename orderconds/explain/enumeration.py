@@ -1,4 +1,5 @@
-"""A sequence of all trees of one kind and order. A notebook shows the sequence as drawings."""
+"""Sequences that contain all trees of one kind and order. In a notebook, such a sequence is displayed as
+drawings."""
 
 from __future__ import annotations
 

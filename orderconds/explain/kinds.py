@@ -282,8 +282,9 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # An edge of the second kind leads to a white vertex. The conditions do not depend on the colour of
-        # the root, so the root is drawn black.
+        # The elementary differential is that of a tree with coloured vertices: an edge of the second kind
+        # leads to a white vertex, any other edge to a black vertex. The conditions do not depend on the
+        # colour of the root, so black is chosen.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

@@ -43,8 +43,8 @@ class Layout:
 
 
 def lay_out(vertex: Vertex) -> Layout:
-    r"""Place the branches of a vertex as close to each other as their outlines allow, and centre the vertex
-    below its branches.
+    r"""Return the layout of a vertex. The branches are as close to each other as their outlines allow, and
+    the vertex is centred below its branches.
 
     The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
 
@@ -70,7 +70,8 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # A note at the right of the vertex shows which letter of its word is the edge to the parent.
+    # If the position of the edge to the parent in a word matters, a note at the right of the vertex shows
+    # this position. The outline then leaves room for the note.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 

@@ -62,7 +62,7 @@ class ActionFamily(Family):
 
     @abstractmethod
     def formula(self) -> ActionFormula:
-        """Return the object that writes the conditions of this family as index sums."""
+        """Return the object that constructs the index sums of the conditions of this family."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return a set of independent conditions of exactly this order. The selection prefers the conditions
@@ -106,7 +106,8 @@ class ActionFamily(Family):
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of this order. Trees that differ only in the choice of
-        the root have equal conditions; the condition of the simplest tree is returned."""
+        the root form a class with equal conditions. For each class, only the condition of the simplest tree
+        is returned."""
         return tuple(map(self.condition, representatives(order)))
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Velocity, Callable[[], OrderCondition]]]:
@@ -131,8 +132,8 @@ class ActionFamily(Family):
         return tuple(series.condition(c.key) * multiplier(c.key) for c in conditions)
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of all rooted action trees in the expansion about (q0, mu1). They are not
-        multiplied by the factors of the printed conditions."""
+        """Return one residual for each rooted action tree: the coefficient of the step minus that of the
+        exact flow. The printed conditions contain additional factors; the residuals do not."""
         series = self.series(method, ring)
         exact = action_exact.condition
         return tuple(series.condition(t) - in_ring(ring, exact(t)) for t in velocities(order))
@@ -194,8 +195,8 @@ def longest_word(tree: Velocity) -> int:
 
 @lru_cache(maxsize=1 << 14)
 def _longest_in_momentum(tree: Momentum) -> int:
-    """Return the length of the longest word that contributes to the value of a momentum tree. A varied
-    velocity counts as one letter."""
+    """Return the length of the longest word that contributes to the value of a momentum tree. In such a word,
+    the velocity whose variation is taken counts as one letter."""
     if isinstance(tree, Transport):
         return max(len(tree.word) + 1, *map(longest_word, tree.word))
     assert isinstance(tree, Force)

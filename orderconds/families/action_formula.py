@@ -37,8 +37,8 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word of trees. One letter may be the index of a stage instead of a tree; this letter denotes a variation
-of the velocity of that stage."""
+"""A word of trees. One letter may be the index of a stage instead of a tree. This letter denotes a variation
+of the velocity of the stage with this index."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -123,7 +123,7 @@ class ExponentialsFormula(ActionFormula):
 
     @abstractmethod
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the tree's coefficient in the exponent of the exponential ``place``."""
+        """Return the tree's coefficient in the exponent of the exponential with index ``place``."""
 
     def word(self, row: str, word: Word) -> Formula:
         """Return the coefficient of a word in the group element of ``row``. If the word repeats one letter k
@@ -145,7 +145,8 @@ class ExponentialsFormula(ActionFormula):
         bounds. A bound may be None; then the index is not bounded on this side."""
         if not word:
             return one()
-        # In the first term all letters come from different exponentials.
+        # The divisions are reversed. In the term that is printed first, all letters then come from different
+        # exponentials.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
@@ -293,7 +294,8 @@ class MuntheKaasFormula(ActionFormula):
         """Return the coefficient of a word in X_i, or in Y for the update.
 
         The coefficient is a sum over the letters of the word. In each term, one letter is the argument of
-        dexpinv. A letter that denotes a varied velocity contributes only for its stage.
+        dexpinv. A letter that denotes a variation of the velocity of a stage contributes only to the term of
+        this stage.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -308,14 +310,15 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return the terms of dexpinv that contain at most ``letters`` letters in addition to the
-        velocity."""
+        """Return the terms of dexpinv, applied to a velocity, that contain at most ``letters`` other
+        letters."""
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # X^0 = 1 has a non-zero coefficient only on the empty word.
+            # The coefficient of X^0 = 1 on a word is zero unless the word is empty. Therefore the product is
+            # zero if m = 0 and ``before`` is not empty, and likewise for n and ``behind``.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):

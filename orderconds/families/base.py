@@ -84,13 +84,14 @@ class Family(ABC):
         "bhat": r"$\hat{b}_i$ are the weights of the second part",
         "chat": r"$\hat{c}_i = \sum_j \hat{a}_{ij}$",
     }
-    """The definition, in LaTeX, of each coefficient that occurs in printed conditions, by its name."""
+    """A map from the names of the coefficients that occur in printed conditions to their definitions in
+    LaTeX."""
 
     # Other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """The families in which every method has at least the order that it has in this family. The keys are the
-    names of these families, and the values are the theorems that prove it. At each order, the conditions of
-    these families are a subset of the conditions of this family."""
+    """A map from the names of other families to theorems. By the theorem, the order of every method in the
+    other family is at least its order in this family. At each order, the conditions of the other family are a
+    subset of the conditions of this family."""
     abelian: ClassVar[str | None] = None
     """The family to which this family reduces on an abelian group, where all brackets are zero; None if no
     such family accepts all tableaux of this family."""
@@ -101,7 +102,8 @@ class Family(ABC):
     """True if ``check`` computes the order in this family to obtain bounds of the orders in other
     families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The families in which a 2N (low-storage) scheme has the same order as in this family."""
+    """The names of other families. The order of every 2N (low-storage) scheme in these families is equal to
+    its order in this family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -120,8 +122,8 @@ class Family(ABC):
     """True if the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
     truncated."""
     minimal_brackets: ClassVar[int] = 0
-    """For methods without ``cutoff`` whose order is at most this number, the compiler reduces the number of
-    brackets to the minimum."""
+    """The highest order for which the compiler can reduce the number of brackets to the minimum. The number
+    is reduced for methods without ``cutoff``."""
     cutoff: int | None = None
     """The number of brackets after which dexpinv is truncated; None: dexpinv is not truncated."""
 
@@ -223,7 +225,7 @@ class Family(ABC):
         if not conditions:
             return ()
         if isinstance(ring, Balls):
-            with precision(ring.bits):  # The precision is set once, before all operations.
+            with precision(ring.bits):  # set once, because it takes time to set it in each operation
                 differences = self._residuals(*_UNWRAPPED(method, ring), conditions)
             if not all(x.is_finite() for x in differences):
                 raise ZeroDivisionError("division by a ball that contains zero")
@@ -237,7 +239,8 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of one order whose 2-norm measures the error of a method.
+        """Return the residuals of this order that determine the principal error. The 2-norm of the residuals
+        measures the error of the method.
 
         By default these are the residuals of the independent conditions.
         """
@@ -259,16 +262,17 @@ class Family(ABC):
         return self
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which ``check`` evaluates ``method`` if its file claims no order. ``check``
-        calls this function for the family that has the same name as the format of the file."""
+        """Return the family in which ``check`` evaluates ``method`` if the file of the method claims no
+        order. ``check`` calls this function for the family that has the same name as the format of the
+        file."""
         return self
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family, with its options, if a file with this tableau should claim an order in it, else
-        None.
+        """Return this family with its options if a file with this tableau should claim an order in this
+        family; otherwise return None.
 
-        By default the result is None: a tableau file without a claim in this family is complete.
+        By default the result is None. Then a tableau file counts as complete without a claim in this family.
         """
         return None
 
@@ -295,7 +299,8 @@ class Family(ABC):
         return evaluations(tableau)
 
     def degree_of_step(self) -> int:
-        """Return the order of a family without tableau. The label of the family determines the order.
+        """Return the order of the method of a family without tableau. The label of the family, such as
+        ``taylor(12)``, determines this order.
 
         Raises :class:`~orderconds.errors.InputError` for a family with a tableau.
         """
@@ -306,7 +311,7 @@ class Family(ABC):
         return None
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of the methods with ``stages`` stages, as unknowns of a search.
+        """Return the unknowns of a search: the coefficients of the methods with ``stages`` stages.
 
         Raises :class:`~orderconds.errors.InputError` if the number of stages does not determine the
         coefficients of the family.
@@ -375,8 +380,8 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions that imply the conditions of this family if ``method`` is
-        symmetric, or None.
+        """Return a family with fewer conditions, or None. If ``method`` is symmetric, the conditions of the
+        result imply all conditions of this family.
 
         If the result is None, the caller uses the family with the name of the method's format.
         """

@@ -69,7 +69,8 @@ class CayleyFamily(MagnusFamily):
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
         """Return random methods with one Cayley transform. The argument of the transform is a random
-        combination of products and reverse products of values of A at random nodes."""
+        combination of terms. Each term combines a product of values of A at random nodes with the product in
+        reverse order."""
         terms = []
         for length in range(1, order + 1):
             for _ in range(2**order):

@@ -42,7 +42,8 @@ EXPONENTIAL_SYMBOLS = {
     "b": r"$b_j = \sum_I \beta_{Ij}$",
     "c": r"$c_i = \sum_j a_{ij}$ are the abscissae",
 }
-"""The definition, in LaTeX, of each coefficient of methods with several exponentials."""
+"""A map from the names of the coefficients of methods with several exponentials to their definitions in
+LaTeX."""
 
 
 @register
@@ -114,8 +115,8 @@ def exponentials(method: Method) -> list[Exponentials]:
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
     """Return the coefficients that occur in formulas. A coefficient that the method does not contain is zero.
 
-    The coefficients are alpha_iJj and beta_Jj, their sums over J, which are a_ij and b_j, and c_i = sum_j
-    a_ij.
+    These are the coefficients alpha_iJj and beta_Jj, their sums a_ij and b_j over J, and the sums c_i of a_ij
+    over j.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -154,8 +155,8 @@ def _word(
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
-        # Exponentials of multiples of one letter commute, so the value depends only on the sum of their
-        # coefficients.
+        # Exponentials of multiples of one letter commute. Therefore the value depends only on the sum of the
+        # coefficients of this letter in all exponentials.
         j = fresh()
         first = alone or index_sum((j,), (), product(row_total(j), _stage(letters[0], j)))
         return product(*([first] * len(letters)))

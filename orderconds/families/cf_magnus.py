@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 @register
 class CommutatorFreeMagnusFamily(WordFamily):
-    """Products of exponentials of linear combinations of the values of A at nodes.
+    """Products of exponentials. Each exponent is a linear combination of values of A at nodes.
 
     >>> for condition in CommutatorFreeMagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -90,7 +90,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return composition_formula(word, _exponential, "J")
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return the values of one step on words."""
+        """Return a function that maps each word to the value of one step on this word."""
         rows = exponent_values(ring, expect(method, Magnus))
         return ProductOfExponentials(ring, len(rows), lambda J, k: rows[J]((k,)))
 

@@ -90,9 +90,9 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
     """Return True if the Crouch-Grossman method of a tableau is proved to be symmetric.
 
-    The sufficient condition is that the products of exponentials that lead to the stages are symmetric. The
-    variational method of the same tableau is also symmetric, because its discrete Lagrangian
-    is then symmetric.
+    The function verifies a sufficient condition: the products of exponentials that lead to the stages are
+    symmetric. Then the discrete Lagrangian of the same tableau is symmetric, too. Therefore the variational
+    method of this tableau is also symmetric.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))

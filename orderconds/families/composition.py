@@ -83,7 +83,7 @@ class CompositionFamily(WordFamily):
         return composition_formula(word, _pair)
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
-        """Return the values of one step on words."""
+        """Return a function that maps each word to the value of one step on this word."""
         if isinstance(method, Composition):
             steps = method.gamma
             return ProductOfExponentials(
@@ -143,15 +143,15 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""A function of (r, i). It returns the value of r letters in stage i as a pair: a formula, and an integer by
-which the formula is divided."""
+"""A function of a word and a summation index. It returns the value of one stage on the word as a pair: a
+formula, and an integer by which the formula is divided. The index denotes the stage."""
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
     """Return n! times the value on a word of n letters, as an index sum.
 
-    The function ``block`` returns the contribution of one stage. ``kind`` is the letter of the summation
-    indices: a lower-case letter for stages, an upper-case letter for exponentials.
+    The function ``block`` returns the value of one stage on a part of the word. ``kind`` is the letter of the
+    summation indices: a lower-case letter for stages, an upper-case letter for exponentials.
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))
@@ -177,7 +177,8 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
 
 
 def _pair(letters: Word, i: str) -> tuple[Formula, int]:
-    """Return two values: r! times the value of r letters in Phi_{alpha h} Phi*_{beta h}, and r!."""
+    """Return two results: r! times the value of Phi_{alpha h} Phi*_{beta h} on a word of r letters, and the
+    number r!."""
     r, terms = len(letters), []
     for m in range(r, -1, -1):
         late, early = sum(letters[r - m :]), letters[: r - m]

@@ -27,8 +27,8 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a complete tableau file claims orders. The file claims an order for a
-larger ``cutoff`` only if this order is higher than the orders for all smaller values."""
+"""The values of ``cutoff`` for which a complete tableau file claims orders. If a larger ``cutoff`` does not
+increase the order, the file contains no claim for it."""
 
 
 class DexpinvCut(Family):
@@ -66,8 +66,8 @@ class DexpinvCut(Family):
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return min(p, R + 2), where p is the order of the method on abelian groups. R is ``cutoff``, or
-        ``cutoff`` + 1 if it is even and at least 2."""
+        """Return min(p, R + 2), where p is the order of the method on abelian groups. R is ``cutoff`` + 1 if
+        ``cutoff`` is even and at least 2; otherwise R is ``cutoff``."""
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
 

@@ -1,7 +1,8 @@
 """Exponents of methods for Y' = A(t) Y, expanded in words.
 
-The values of A at the nodes are A_i = h A(c_i h) = sum_k c_i^(k-1) h^k X_k. Letter k denotes X_k, the
-coefficient of t^(k-1) in A, and has weight k. The letters of a word are in the order of action.
+The exponents are linear combinations of products of A_i = h A(c_i h) = sum_k c_i^(k-1) h^k X_k, where c_i are
+the nodes. Letter k denotes X_k, the coefficient of t^(k-1) in A, and has weight k. The letters of a word are
+in the order of action.
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     """Return the values of each exponent of a method on non-empty words, in the order in which the exponents
     act.
 
-    The function does not expand brackets into products of the A_i. It computes the value of a bracket on a
-    word as a sum over all divisions of the word into two parts. Each value is computed once and stored.
+    Brackets are not expanded into products of the A_i. The value of a bracket on a word is computed as a sum
+    over all divisions of the word into two parts. Each value is computed once and stored.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse

@@ -77,13 +77,14 @@ class FerFamily(MagnusFamily):
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as a sum over nodes: of b_i c_i^(k-1) for the
-        single letter k, and of phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ... for a longer word k_1 k_2 ...."""
+        """Return the left-hand side of the condition of a word as a sum over nodes. The terms of the sum are
+        b_i c_i^(k-1) for the single letter k. For a longer word k_1 k_2 ... they are phi_{ij...} c_i^(k_1-1)
+        c_j^(k_2-1) ...."""
         return node_sum("b" if len(word) == 1 else "phi", word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return the values of one step on words: the value of F_1 on single letters, and the value of the
-        logarithm of the other factors on longer words."""
+        """Return a function of a word. For a single letter its value is the coefficient of the letter in F_1;
+        for a longer word it is the coefficient in the logarithm of the other factors."""
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)
         return lambda word: last(word) if len(word) == 1 else rest(word)

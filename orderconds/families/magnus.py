@@ -67,8 +67,8 @@ class MagnusFamily(WordFamily):
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the method uses another map from the algebra to the
-        group."""
+        """Raise :class:`~orderconds.errors.InputError` unless the method maps the algebra to the group by
+        :attr:`transform`, the map of this family."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
@@ -85,7 +85,8 @@ class MagnusFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a method that uses the same map from the algebra to the group, else None."""
+        """Return this family for a method that maps the algebra to the group by the map of this family, else
+        None."""
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
@@ -112,7 +113,7 @@ class MagnusFamily(WordFamily):
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return the values of Omega, the logarithm of one step, on words."""
+        """Return a function that maps each word to its coefficient in Omega, the logarithm of one step."""
         return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
@@ -136,7 +137,7 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
     """Return the linear part of the polynomial in Lyndon words that represents a word in the shuffle algebra.
 
     A Lie element has the value zero on every shuffle product of non-empty words. Hence the products in the
-    polynomial contribute nothing, and the linear part is the value of the Lie element on the word.
+    polynomial have the value zero. The linear part therefore gives the value of the Lie element on the word.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

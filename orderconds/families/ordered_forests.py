@@ -110,8 +110,8 @@ def lyndon_forests(order: int) -> tuple[Forest, ...]:
 
 
 def longest_word(forest: Forest) -> int:
-    r"""Return the length of the longest word of trees in a forest. These words are the forest itself and, for
-    each vertex, the word of the branches at the vertex.
+    r"""Return the length of the longest word of trees in a forest. The trees of the forest form one word; the
+    branches at each vertex form another word.
 
     >>> longest_word(b"\0\1\1\1\0")
     3

@@ -1,7 +1,7 @@
 """Partitioned Runge-Kutta methods: one condition for each rooted tree with vertices of two colours (HLW
 III.2.2).
 
-If a file contains a single tableau, it is used for both parts of the system.
+If a file contains a single tableau, this tableau is used for both parts of the system.
 """
 
 from __future__ import annotations
@@ -88,8 +88,8 @@ class PartitionedFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return the family with conditions indexed by free trees if the pair is symplectic, b = bhat, and
-        all weights are non-zero; else None (HLW VI.7, Theorem 7.4)."""
+        """Return the family whose conditions are indexed by free trees (HLW VI.7, Theorem 7.4). Return None
+        unless the pair is symplectic, b = bhat, and all weights are non-zero."""
         if not isinstance(method, PartitionedRungeKutta):
             return None
         same = all(ring.is_zero(x - y) is True for x, y in zip(method.b, method.b_hat, strict=True))
@@ -111,8 +111,8 @@ def as_pair(method: Method) -> PartitionedRungeKutta:
 
 
 def rooted_weight(tree: BicolouredTree) -> Formula:
-    r"""Return the elementary weight of a coloured tree as an index sum. The colour of the root selects b or
-    bhat.
+    r"""Return the elementary weight of a coloured tree as an index sum. The weights are b if the root is
+    black, and bhat if it is white.
 
     >>> from orderconds.formula import named
     >>> named(rooted_weight(b"\1\2")).text()

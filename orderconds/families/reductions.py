@@ -1,4 +1,5 @@
-"""Reductions: theorems by which a check needs to evaluate fewer conditions, or none, at some order.
+"""Reductions: theorems that reduce the number of conditions that a check evaluates at one order, sometimes to
+zero.
 
 ``check`` evaluates orders 1, 2, .... When it evaluates order n, all conditions of lower order hold. Then
 

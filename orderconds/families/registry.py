@@ -1,5 +1,5 @@
-"""The registry of families. A family is built in, or a program registers it, or an installed package offers
-it in an entry point."""
+"""The registry of families. There are three kinds of families: families that are built in, families that a
+program registers, and families of installed packages, which are found by their entry points."""
 
 from __future__ import annotations
 
@@ -39,8 +39,7 @@ BUILT_IN = {
     "cayley": "orderconds.families.cayley",
     "taylor": "orderconds.families.taylor",
 }
-"""The modules of the built-in families, by the name of the family, in the order of ``orderconds list
-families``."""
+"""A map from the name of each built-in family to its module, in the order of ``orderconds list families``."""
 
 ENTRY_POINT_GROUP = "orderconds.families"
 """The entry-point group in which other packages register families. An entry has the form name =
@@ -163,7 +162,8 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        # The import should register the family. If it does not, this error is clearer than "unknown family".
+        # The import of the module registers the family, unless the module contains a mistake. In this case
+        # the message below is clearer than "unknown family".
         import_module(BUILT_IN[name])
         assert name in _registered, (
             f"{BUILT_IN[name]} has no class with this name and the decorator @register"

@@ -2,9 +2,10 @@
 conditions.
 
 Two laws make conditions dependent. First, for a symplectic method, phi(u o v) = phi(u) phi(v) - phi(v o u);
-this equation relates two trees that differ in the position of the root (HLW VI.7.1). Second, the values of a
-group-like series on words satisfy the shuffle relations a(u) a(v) = a(u sh v). Therefore the values on Lyndon
-words determine all other values (Reutenauer, Free Lie Algebras, Thm 6.1).
+this equation relates two trees that differ in the position of the root (HLW VI.7.1). Second, the values a(w)
+of a group-like series on words w satisfy the shuffle relations a(u) a(v) = a(u sh v), where u sh v is the
+shuffle product. Therefore the values on Lyndon words determine all other values (Reutenauer, Free Lie
+Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -147,8 +148,9 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The shuffle product of the Lyndon factors of a word is a multiple of the word itself, plus smaller
-    # words.
+    # The shuffle product of the Lyndon factors of a word is a multiple of this word plus a sum of smaller
+    # words. For a group-like series, the product of the values on the factors is the value on their shuffle
+    # product. This equation is solved for the value on the word.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

@@ -1,10 +1,10 @@
 """Runge-Kutta-Munthe-Kaas methods: ``rkmk(r)`` truncates dexpinv after the power r, ``rkmk`` does not
 truncate it.
 
-The left-hand sides of conditions are values of the series of the method on Lyndon words. The conditions do
-not assume any theorem about the order. They give the order min(p, R + 2), where p is the order of the tableau
-as a Runge-Kutta method. Here R = r if r is 0 or odd, and R = r + 1 if r >= 2 is even, because then the
-Bernoulli number B_{r+1} is zero.
+The left-hand sides of conditions are values of the series of the method on Lyndon words. No theorem about the
+order is used to derive these conditions. The order that follows from them is min(p, R + 2), where p is the
+order of the tableau as a Runge-Kutta method. Here R = r if r is 0 or odd, and R = r + 1 if r >= 2 is even,
+because then the Bernoulli number B_{r+1} is zero.
 """
 
 from __future__ import annotations
@@ -85,14 +85,14 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word of trees in a forest. These words are the forest itself and,
-        for each vertex, the word of the branches at the vertex."""
+        """Return the length of the longest word of trees in a forest. The trees of the forest form one word;
+        the branches at each vertex form another word."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .``. This is the condition of lowest order that a
-        truncation of dexpinv changes."""
+        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. At order R + 3, the
+        truncation of dexpinv changes this condition; it changes no condition of lower order."""
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
@@ -133,9 +133,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         with this truncation of dexpinv.
 
         At order R + 3 the values of every tableau satisfy a relation that the values of the exact flow
-        violate. Therefore the number of essential conditions of order R + 3 exceeds the number of rooted
-        trees by one. The number of essential conditions is computed by ranks of matrices, which requires
-        NumPy.
+        violate. This gives one essential condition that no tableau satisfies, in addition to one condition
+        for each rooted tree. The number of essential conditions is computed by ranks of matrices, which
+        requires NumPy.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -205,7 +205,8 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # u^0 = 1 has a non-zero coefficient only on the empty word.
+                # The coefficient of u^0 = 1 on a word is zero unless the word is empty. Therefore a term with
+                # m = 0 (or n = 0) is zero if letters stand before (or behind) the tree.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
                     # In a word of u^(k-m) x u^m, the letters of u^m precede the letters of u^(k-m). The class
                     # DexpinvSeries has the same convention.

@@ -47,8 +47,8 @@ T, V = 0, 1
 
 @register
 class NystroemFamily(Family):
-    """Splittings T + V whose tableau file names the part V in the key ``rkn``. Each condition belongs to a
-    linear combination of words over T and V.
+    """Splittings T + V. The key ``rkn`` of the tableau file states which part is V. Each condition belongs to
+    a linear combination of words over T and V.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
@@ -110,7 +110,7 @@ class NystroemFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a splitting whose file names the part V, else None."""
+        """Return this family for a splitting whose file contains the key ``rkn``, else None."""
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
@@ -193,8 +193,8 @@ def functionals(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def independent(order: int) -> tuple[Functional, ...]:
-    """Return members of :func:`functionals` that are independent modulo products of combinations of lower
-    order.
+    """Return as many members of :func:`functionals` as possible whose restrictions to Lie elements are
+    linearly independent. On Lie elements, products of functionals of lower order are zero.
 
     >>> [text(functional) for functional in independent(4)]
     ['TTTV', 'TTVV']
@@ -204,8 +204,8 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return the elements of this weight that the product x o y = [x,[T,y]] generates from V, as combinations
-    of words."""
+    """Return the elements of this weight that are generated from V by the product x o y = [x,[T,y]]. Each
+    element is given as a combination of words."""
     if weight == 1:
         return (expand(V),)
     potentials = []
@@ -273,7 +273,8 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return the products of two or more independent combinations whose weights add up to ``order``."""
+    """Return all products of two or more independent combinations of words; the lengths of the words in the
+    factors add up to ``order``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

@@ -1,4 +1,4 @@
-"""Symplectic Lie group integrators of Section 2.5 of Marthinsen's thesis. Methods with one stage are
+"""The symplectic Lie group integrators of Section 2.5 of Marthinsen's thesis. Those with one stage are
 theta-methods.
 
 The family is equal to ``vrkmk(0)``, that is, VRKMK without brackets in dexpinv. The order is at most two (H.

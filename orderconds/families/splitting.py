@@ -140,7 +140,7 @@ class SplittingFamily(WordFamily):
         return "rkn" if nystroem else self.label()
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
-        """Return the values of one step on words."""
+        """Return a function that maps each word to the value of one step on this word."""
         steps = expect(method, Splitting).steps
         return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
 
@@ -158,7 +158,7 @@ class SplittingFamily(WordFamily):
         return StageForm(names, method)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
-        """Return splittings with random steps. They have at least as many random coefficients as there are
+        """Return splittings with random steps. The number of random coefficients is at least the number of
         independent conditions up to ``order``."""
         stages = 1 + sum(len(self.independent(n)) for n in range(1, order + 1)) // self.parts
         steps = [(part, ring.random(generator)) for _ in range(stages) for part in range(self.parts)]
@@ -180,8 +180,8 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # In each stage, A acts before B. Therefore a letter A and a letter B after it may come from the
-            # same stage.
+            # In each stage, the parts act in the order A, B, .... Therefore the relation is ``<=`` if the
+            # next letter is a later part, because both letters may then come from the same stage.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -213,7 +213,8 @@ def two_part_formula(word: Word) -> Formula:
     terms = []
     for weight, split in _splits([length for _, length in runs]):
         factors, indices, before = [], [], None
-        # Only the first block of a run of letters B has letters A before it.
+        # A run of letters B may be divided into several blocks. The letters A before the run belong to its
+        # first block.
         blocks = [
             (0 if k else gap, n)
             for (gap, _), parts in zip(runs, split, strict=True)

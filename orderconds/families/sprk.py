@@ -1,8 +1,8 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i.
 
-Compare two rooted trees that differ only in the choice of the root: the roots are the two ends of one edge.
-By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the sum of the weights of both trees is a product of weights
-of smaller trees. Therefore the conditions are indexed by free trees with directed edges (Abia and Sanz-Serna
+Suppose that two rooted trees differ only in the choice of the root, and that one edge joins the two roots. By
+the relation b_i ahat_ij = b_i b_j - b_j a_ji, the sum of the weights of both trees is a product of weights of
+smaller trees. Therefore the conditions are indexed by free trees with directed edges (Abia and Sanz-Serna
 1993; HLW VI.7).
 """
 

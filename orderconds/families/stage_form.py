@@ -47,8 +47,8 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 
 
 def refuse_explicit(label: str, explicit: bool) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. Families without tableaux (A, b)
-    call this function, because they have no explicit methods.
+    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. An explicit method has a strictly
+    lower triangular matrix A. Families whose coefficients are not a tableau (A, b) call this function.
 
     >>> refuse_explicit("splitting", False)
     """

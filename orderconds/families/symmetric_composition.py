@@ -1,8 +1,8 @@
 """Symmetric compositions of a symmetric method of order two.
 
-A step is equal to its adjoint. Therefore the logarithm of the step contains only terms of odd weight. Hence
-conditions exist only for words over the letters 1, 3, 5, ..., and the conditions of even order follow from
-conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+The basic method is symmetric. Therefore its logarithm contains only odd powers of h, and the letters of all
+words are odd. The whole step is symmetric as well. Hence the conditions of even order follow from conditions
+of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
 from __future__ import annotations
@@ -107,8 +107,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None. No caller needs this method, because callers use it only for families whose name is
-        also the name of a tableau format."""
+        """Return None. This function is never called for this family: callers use it only for families that
+        have the same name as a tableau format, and no format has the name of this family."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -138,7 +138,8 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return (((word,), Fraction(1)),)
     # On words of even weight, the logarithm of the step has the value zero. The value of the logarithm on a
     # word is a sum over all divisions of the word into m = 1, 2, ... parts. The term of a division is
-    # (-1)^(m+1)/m times the product of the values of the step on the parts.
+    # (-1)^(m+1)/m times the product of the values of the step on the parts. The equation is solved for the
+    # term with m = 1, the value of the step on the word.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

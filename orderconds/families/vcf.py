@@ -2,8 +2,8 @@
 
 The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0`` and ``X_iJ =
 h sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj replace alpha_iJj, and ``b_i = sum_J
-beta_Ji``. Section 3.5 of Bogfjellmo and Marthinsen suggests this generalisation of variational
-Crouch-Grossman methods (VCG). The family contains methods of order 3 whose weights are all positive.
+beta_Ji``. These methods generalise the variational Crouch-Grossman methods (VCG), as Section 3.5 of
+Bogfjellmo and Marthinsen suggests. The family contains methods of order 3 whose weights are all positive.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """The family ``vcf``.
 
-    Independent conditions are selected by the ranks of matrices of their values for random methods.
-    ``update`` and ``stage`` are the numbers of exponentials in the update and in each stage of the random
-    methods. The default numbers are large enough to give one independent condition for each elementary
-    Hamiltonian. A Runge-Kutta tableau is interpreted with one velocity in each exponential.
+    Independent conditions are selected by the rank of a matrix, which contains the values of the conditions
+    at random methods. ``update`` and ``stage`` are the numbers of exponentials in the update and in each
+    stage of the random methods. The default numbers are large enough to give one independent condition for
+    each elementary Hamiltonian. A Runge-Kutta tableau is interpreted with one velocity in each exponential.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -81,7 +81,8 @@ class VariationalCommutatorFree(ActionFamily):
         return CommutatorFreeSeries(ring, rows)
 
     def formula(self) -> ActionFormula:
-        """Return the object that writes conditions as index sums over alpha, beta, b and c."""
+        """Return the object that constructs the index sums of conditions, with the coefficients alpha, beta,
+        b and c."""
         return CommutatorFreeFormula()
 
     @classmethod

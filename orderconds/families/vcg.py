@@ -1,5 +1,5 @@
-"""Variational Crouch-Grossman methods: a Butcher tableau on T*G, with one exponential for each coefficient
-a_ij and b_i.
+"""Variational Crouch-Grossman methods: integrators on T*G that are defined by a Butcher tableau. There is one
+exponential for each coefficient a_ij and b_i.
 
 Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the method. The six conditions of order 3 are
 in their Proposition 3.5.7. The conditions of every order are computed from the action series.
@@ -69,7 +69,8 @@ class VariationalCrouchGrossman(ActionFamily):
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))
 
     def formula(self) -> ActionFormula:
-        """Return the object that writes conditions as index sums over a, b and c."""
+        """Return the object that constructs the index sums of conditions, with the coefficients a, b and
+        c."""
         return CrouchGrossmanFormula()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

@@ -59,8 +59,8 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the tree ``o(o|L(o ... o))``. This is the condition of lowest order that a
-        truncation of dexpinv changes."""
+        """Return the condition of the tree ``o(o|L(o ... o))`` with ``order`` vertices. At order R + 3, the
+        truncation of dexpinv changes this condition; it changes no condition of lower order."""
         if self.cutoff is None or order < 3:
             return None
         leaf = velocity()
@@ -73,5 +73,6 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return MuntheKaasActionSeries(ring, rows[:-1], rows[-1], self.cutoff)
 
     def formula(self) -> ActionFormula:
-        """Return the object that writes conditions as index sums over a, b and c."""
+        """Return the object that constructs the index sums of conditions, with the coefficients a, b and
+        c."""
         return MuntheKaasFormula(self.cutoff)

@@ -62,17 +62,17 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return PadeActionSeries(ring, rows[:-1], rows[-1], self.cutoff)
 
     def formula(self) -> ActionFormula:
-        """Return the object that writes conditions as index sums over a, b and c."""
+        """Return the object that constructs the index sums of conditions, with the coefficients a, b and
+        c."""
         return super().formula() if self.cutoff is None else PadeFormula(self.cutoff)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a tableau file need not claim an order in this family."""
+        """Return None: a tableau file is complete without a claim in this family."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return a tuple that contains only this variant, and no variants with other values
-        of ``cutoff``."""
+        """Return a tuple that contains only this family with its own value of ``cutoff``."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -51,7 +51,8 @@ class WordFamily(Family):
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return the values of one step of ``method`` on words, as elements of ``ring``."""
+        """Return a function that maps each word to the value of one step of ``method`` on this word. The
+        value is an element of ``ring``."""
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -102,8 +103,8 @@ class WordFamily(Family):
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return the relation of :meth:`polynomial` between left-hand sides instead of values. A left-hand
-        side is a value multiplied by :meth:`scale`."""
+        """Return the left-hand side of the condition of a word as a polynomial in the left-hand sides of
+        independent words. Each left-hand side is a value multiplied by :meth:`scale`."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

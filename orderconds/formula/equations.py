@@ -1,5 +1,5 @@
-r"""Numbered equations in LaTeX for a paper, with a column of trees. The equations fit in a column of a
-two-column article.
+r"""Numbered equations in LaTeX for a paper, with a column of trees. The equations are narrow enough for one
+column of a two-column article.
 
 Long left-hand sides are broken between terms.
 """

@@ -127,7 +127,7 @@ def product(*factors: Formula) -> Formula:
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
     # Factors that contain sums count as equal if they differ only in the names of bound indices. This
-    # comparison takes time. It is omitted if at most one factor is not a single coefficient.
+    # comparison takes time. It is necessary only if there are at least two such factors.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -192,8 +192,8 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
 
 
 def fresh(kind: str = "i") -> str:
-    """Return a new index name, which no existing formula contains. ``kind`` is upper-case for an index of
-    exponentials.
+    """Return a new index name, which no existing formula contains. ``kind`` is a letter: lower-case for an
+    index of stages, upper-case for an index of exponentials.
 
     >>> fresh() != fresh()
     True
@@ -205,8 +205,8 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its bound indices. Free indices are renamed as ``names``
     specifies.
 
-    Copies of one formula with different bound indices can then be factors of one product, and their sums can
-    be merged.
+    The purpose is to use one formula several times in a product. If the copies have different bound indices,
+    their sums can be merged into one sum.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()
@@ -229,8 +229,8 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
 
 
 def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
-    """Return the formula with readable names of bound indices. In reading order, indices of stages become i,
-    j, k, ... and indices of exponentials I, J, K, ....
+    """Return the formula with readable names of bound indices. From left to right, the indices of stages are
+    called i, j, k, ..., and the indices of exponentials are called I, J, K, ....
 
     A free index is renamed if ``names`` has an entry for it. Sums that differ only in the names of bound
     indices become identical.
@@ -285,7 +285,7 @@ def coefficients(formula: Formula) -> Iterator[Coefficient]:
 
 
 def free_indices(formula: Formula) -> tuple[str, ...]:
-    """Return the indices that are not bound by a sum, in reading order.
+    """Return the indices that are not bound by a sum, from left to right.
 
     >>> free_indices(index_sum(("j",), (), coefficient("a", "i", "j")))
     ('i',)

@@ -67,8 +67,8 @@ def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Nota
     """Return the text below a summation sign. If possible, relations are joined to a chain, as in
     ``i<j<k,l``.
 
-    If the smallest index of a chain, such as i, is not bound by this sum, the chain is written in decreasing
-    order, ``k>j>i``. Then its first index is bound by the sum.
+    A chain should begin with an index that this sum binds. If the smallest index i of the chain is not bound
+    by this sum, the chain is therefore written in decreasing order, ``k>j>i``.
 
     >>> chains(["i", "j"], [("i", "<", "j")], TEXT)
     'i<j'

@@ -24,8 +24,8 @@ from orderconds.tableau.unknowns import Proof
 
 @dataclass(frozen=True)
 class Misrounded:
-    """A decimal of a file that differs from the correctly rounded solution. It consists of the name, the
-    digits in the file, and the correct digits."""
+    """A decimal of a file that differs from the correctly rounded solution: its name, its digits in the file,
+    and the correct digits."""
 
     name: str
     given: str
@@ -105,7 +105,8 @@ class _Key:
 
     @property
     def content(self) -> Mapping[str, object] | None:
-        """The content of the file; None if the tableau or its proof differs from the file."""
+        """The content of the file from which the tableau was read. None if there is no such file, or if the
+        proof of the tableau is not the proof in the file."""
         file = self.tableau.file
         return None if file is None or file.proof is not self.tableau.proof else file.data
 
@@ -174,7 +175,7 @@ def _certificate(
 
 
 def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
-    """Yield the decimals that are more than half a unit of their last digit away from the solution."""
+    """Yield each decimal whose distance from the solution is more than half a unit of its last digit."""
     for unknown, x in zip(proof.unknowns, solution, strict=True):
         given, unit = _fmpq(unknown.constant.value), _fmpq(unknown.constant.unit)
         low, high = endpoints(x)

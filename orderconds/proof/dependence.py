@@ -1,5 +1,5 @@
-"""A search modulo primes for dependent conditions of a sub-family. The coefficients modulo primes are then
-converted to fractions.
+"""A search for dependent conditions of a sub-family. Each dependent condition is first written as a
+combination of other conditions modulo primes. Its coefficients are then converted to fractions.
 
 Nothing in this module is a proof. A rank modulo a prime can be too small, and the numerator or denominator of
 a coefficient may be divisible by the prime. :class:`orderconds.proof.exact_member.ExactMember` verifies each
@@ -30,11 +30,12 @@ FIRST = 40
 because they have few independent conditions."""
 
 SPARE = 24
-"""The number of additional random methods, which make an accidental dependence improbable."""
+"""The number of additional random methods. With these it is improbable that independent conditions appear to
+be dependent."""
 
 PRIME_BITS = 61
-"""The size of the primes in bits. With this size, products of residues fit in a machine word, and one prime
-suffices to determine fractions with small numerator and denominator."""
+"""The size of the primes in bits. With this size, a residue fits in a machine word, and one prime suffices to
+determine fractions with small numerator and denominator."""
 
 MAX_PRIMES = 24
 """The largest number of primes. A combination whose coefficients are too large for this number of primes is
@@ -83,8 +84,8 @@ def dependences(
 ) -> Iterator[Dependences]:
     """Yield the dependences modulo one prime, two primes, ..., at most :data:`MAX_PRIMES`.
 
-    ``candidates`` are the conditions of each order. A prime is not used if another prime gives more
-    independent conditions.
+    ``candidates`` are the conditions of each order. Only primes that give the largest number of independent
+    conditions are used.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -175,7 +176,7 @@ def _independent(
 @dataclass(frozen=True)
 class _Value:
     """The values of a product of conditions: the product of the left-hand sides at random members of the
-    sub-family, and the product of the right-hand sides, which is the value of the exact flow."""
+    sub-family, and the product of the right-hand sides. The latter is the value of the exact flow."""
 
     factors: Monomial
     members: Sample
@@ -215,8 +216,8 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """A ring of samples modulo a prime, in which each radical is a random number. If the only radical is a
-    square root, its value is ``square_root``."""
+    """A ring of samples modulo a prime, in which each radical is a random number. If ``square_root`` is not
+    None, the only radical is a square root, and its value is ``square_root``."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)
@@ -224,14 +225,14 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return ``square_root`` if the only radical is a square root. Otherwise return a random number that
-        depends only on the radical."""
+        """Return ``square_root`` if the only radical is a square root. Otherwise return a random number;
+        equal radicals give equal numbers."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))
 
     def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
-        """Return a random number that depends only on the name."""
+        """Return a random number. Equal names give equal numbers."""
         return self._drawn(name)
 
     def _drawn(self, key: object) -> Sample:

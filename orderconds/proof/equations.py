@@ -20,11 +20,12 @@ the file and not from its decimals:
 ``spelling``     coefficients that are formulas in other coefficients define a sub-family, in which some of
                  the conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-2N schemes. The module :mod:`orderconds.series.two_registers` states the theorem and names the rooted trees
+2N schemes. The module :mod:`orderconds.series.two_registers` states the theorem, and selects rooted trees
 whose conditions are independent for these schemes. If the file has a second update that applies one further
 exponential to the first update, the equations contain the conditions of rooted trees for this second update.
-They imply its order on groups (docs/explanation/two_registers.md). From order 6 on, the conditions of some
-rooted trees are dependent: at order 6, the conditions of 18 of the 20 rooted trees are independent.
+These conditions imply the order of the second update on groups (docs/explanation/two_registers.md). From
+order 6 on, the conditions of some rooted trees are dependent: at order 6, the conditions of 18 of the 20
+rooted trees are independent.
 """
 
 from __future__ import annotations
@@ -66,7 +67,8 @@ class Equations:
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a 2N scheme; the equations contain them after all others."""
     lower_facts: tuple[tuple[str, int], ...] = ()
-    """The orders of the embedded method of a solution, by family, if ``lower`` is not empty."""
+    """The orders of the embedded method, by family, for every solution of the equations; empty if ``lower``
+    is empty."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
@@ -133,7 +135,8 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
 
 
 def equations(tableau: Tableau) -> Equations:
-    """Return the equations that the proof of a tableau names, after verification of the reduction.
+    """Return the equations that the ``[proof]`` table of a tableau file specifies. If the table contains a
+    reduction, its assumptions are verified first.
 
     Raises :class:`NotProved` if the reduction does not apply, and :class:`InputError` for an unknown family.
 
@@ -191,8 +194,8 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions of the embedded method if it is one exponential applied to the update of a 2N
-    scheme and its order is at most the order in the proof; otherwise an empty tuple."""
+    """Return the conditions of the embedded method of a 2N scheme. Return an empty tuple unless the embedded
+    method applies one exponential to the update and its order is at most the order in the proof."""
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
         return ()
@@ -202,7 +205,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions that, given the formulas in the file, do not follow from other conditions."""
+    """Return conditions that imply all other conditions for every method of the sub-family. The formulas in
+    the file define this sub-family."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -267,8 +271,9 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the indices of the equations that are not satisfied identically.
 
     ``values`` are jets over a box. If the value and the gradient of an equation both contain zero, the
-    equation may be an identity. It is then evaluated exactly, with random numbers for the unknowns
-    (:mod:`orderconds.tableau.random_member`), and left out if the exact value is zero.
+    equation may be an identity. Such an equation is evaluated exactly, with random numbers for the unknowns
+    (:mod:`orderconds.tableau.random_member`). If the exact value is zero, the equation is an identity and is
+    omitted.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

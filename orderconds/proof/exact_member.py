@@ -1,5 +1,5 @@
-"""Exact values of the conditions of one random method. They verify that a condition is a combination of other
-conditions.
+"""Exact values of the conditions at one random method. These values are used to verify that a condition is a
+combination of other conditions.
 
 A file whose coefficients are formulas in free numbers defines a sub-family of methods. A *member* is a method
 of this sub-family. :mod:`orderconds.tableau.random_member` draws a random member. The coefficients of the
@@ -40,8 +40,8 @@ Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 
 @dataclass(frozen=True)
 class Surd:
-    """The square root of a rational number that is the only radical of a file. It is an element of the field
-    that it generates."""
+    """A square root that is the only radical of a file. ``radicand`` is the rational number under the root;
+    ``root`` is the square root as an element of the field ``ring`` that it generates."""
 
     radicand: Fraction
     ring: Ring
@@ -94,9 +94,10 @@ class ExactMember:
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
         """Return True if two equations hold at this member. In the first, the combination of left-hand sides
-        equals the left-hand side of ``condition``. In the second, right-hand sides replace left-hand sides.
+        equals the left-hand side of ``condition``. The second is the same equation for the right-hand sides.
 
-        In this case ``condition`` follows from the conditions in the combination, at every member.
+        Because the member is random, both equations then hold at every member, except with negligible
+        probability. Hence ``condition`` follows from the conditions in the combination.
         """
         if combination is None:
             return False
@@ -120,7 +121,7 @@ def exact_member(
 ) -> ExactMember | None:
     """Return a random member of the sub-family that ``symbolic`` describes.
 
-    Return None if the member cannot be evaluated because its numbers grow too large or a divisor is zero.
+    Return None if the evaluation fails: the numbers become too large, or a divisor is zero.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions

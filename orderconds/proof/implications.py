@@ -18,7 +18,7 @@ Fact = tuple[str, int]
 
 
 def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
-    """Return True if ``facts`` about a tableau imply that it has at least this order in ``family``.
+    """Return True if ``facts`` about a tableau imply that the tableau has at least this order in ``family``.
 
     >>> facts = [("cg", 4)]
     >>> implied(facts, families.get("rk"), 4), implied(facts, families.get("rkmk(1)"), 3)
@@ -30,7 +30,8 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
 
 
 def least_order(facts: Iterable[Fact], family: Family) -> int:
-    """Return the order in ``family`` that ``facts`` about a tableau imply, or 0.
+    """Return the highest order in ``family`` that ``facts`` about a tableau imply. If they imply no order,
+    return 0.
 
     >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))
     5
@@ -59,9 +60,9 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders; ``orders`` are exact orders by label. Upper bounds come from
-    families whose conditions are a subset of the conditions of ``family``, because the order in ``family`` is
-    at most the order in such a family.
+    ``facts`` are lower bounds of orders; ``orders`` are exact orders by label. The conditions of some other
+    families are a subset of the conditions of ``family``. The order in such a family is an upper bound of the
+    order in ``family``.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

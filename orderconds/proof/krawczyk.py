@@ -74,7 +74,8 @@ def _image(system: System, box: Sequence[arb]) -> list[arb]:
 
 
 def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
-    """Return values and gradients of the equations at a point, or over a box.
+    """Return the values and gradients of the equations at ``point``. If the entries of ``point`` are balls
+    with positive radius, the results enclose the values and gradients over a box.
 
     >>> (square,) = jets(lambda x, ring: [x[0] * x[0]], [arb(3)])
     >>> square.value == 9, [x == 6 for x in square.gradient]
@@ -85,8 +86,8 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 
 
 def inverse(matrix: arb_mat) -> arb_mat:
-    """Return the matrix of the midpoints of the entries of the inverse. Raises :class:`NotProved` for a
-    singular matrix.
+    """Return the inverse of a matrix of balls, computed in ball arithmetic; each entry is replaced by its
+    midpoint. Raises :class:`NotProved` for a singular matrix.
 
     >>> inverse(arb_mat(1, 1, [4]))[0, 0] == 0.25
     True

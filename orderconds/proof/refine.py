@@ -26,7 +26,8 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""The largest accepted change of a decimal. After a larger change the solution would be another method."""
+"""The largest accepted change of a decimal. A solution at a larger distance would be a different method from
+that in the file."""
 
 
 @dataclass(frozen=True)
@@ -62,8 +63,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # The test uses a box and not a point, because the value and the gradient of an equation that is not
-        # an identity may both be zero at a point.
+        # The function ``independent`` looks for identities among the equations whose value and gradient may
+        # both be zero. A box is used, because at a point other equations may have this property, too.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -145,7 +146,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return the file with the new digits, and with pins and printed digits recorded under ``[proof]``."""
+    """Return the text of the file with the new digits. Its table ``[proof]`` then contains the list of the
+    pinned decimals and the digits that the source prints."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
         if unknown.name not in decimals:

@@ -192,8 +192,8 @@ class Enclosures:
 
 
 def _magnitude(x: arb) -> int:
-    # The exact number x must remain exact. Any operation of flint, even abs, would round x to the current
-    # precision.
+    # The integers ``mantissa`` and ``exponent`` are used, because any operation of flint with x, even abs,
+    # would round x to the current precision.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 
@@ -201,7 +201,8 @@ def _magnitude(x: arb) -> int:
 def _supported_places(radius: fmpq) -> int:
     """Return the largest d with 10^-d >= 2 radius. A decimal with d places then has an error of at most one
     unit of its last place: half a unit for the radius and half a unit for rounding."""
-    # The conversion by flint has no limit; Python converts at most 4300 digits.
+    # The integers of flint are converted to text, because this conversion has no limit; Python converts at
+    # most 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:
         places -= 1
@@ -274,8 +275,8 @@ class Ball:
             return _finite(self.value**n, self.bits)
 
     def __eq__(self, other: object) -> bool:
-        """Return True if two balls have the same end points. :meth:`Balls.is_zero` decides whether the
-        enclosed numbers are equal."""
+        """Return True if two balls have the same end points. Balls with the same end points may enclose
+        different numbers; to compare the numbers, apply :meth:`Balls.is_zero` to their difference."""
         return isinstance(other, Ball) and endpoints(self.value) == endpoints(other.value)
 
     def __hash__(self) -> int:

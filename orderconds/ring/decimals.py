@@ -15,8 +15,8 @@ from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
 Enclosure = Callable[[int], arb]
-"""A real number, given by a function: for each number of bits it returns a ball that contains the real
-number."""
+"""A real number, given by a function. The argument of the function is a number of bits; the result is a ball
+that contains the real number."""
 
 
 def endpoints(ball: arb) -> tuple[fmpq, fmpq]:
@@ -47,7 +47,8 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     p, q = abs(int(x.p)), int(x.q)
     if p == 0:
         return "0"
-    # After the correction by one, 10^exponent <= p/q < 10^(exponent+1).
+    # The exponent with 10^exponent <= p/q < 10^(exponent+1) is computed from the numbers of digits. This
+    # estimate may be too large by one and is then corrected.
     exponent = len(_figures(p)) - len(_figures(q))
     if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
         exponent -= 1
@@ -64,7 +65,8 @@ def rational_decimal(x: fmpq, digits: int) -> str:
 
 
 def _figures(n: int) -> str:
-    """Return the decimal digits of n. Python converts at most 4300 digits; flint has no limit."""
+    """Return the decimal digits of n. The conversion uses flint, which has no limit, because Python converts
+    at most 4300 digits."""
     return str(fmpz(n))
 
 

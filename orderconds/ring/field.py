@@ -34,7 +34,7 @@ class Generator(Struct, frozen=True):
 
     The symbol of a radical ``radicand^(1/index)`` is its radicand; the symbol of a named root is its name.
     ``degree`` is the degree of the field over the preceding field. Named roots store their ``minpoly``,
-    because a tableau file contains it.
+    because a tableau file defines a named root by this polynomial.
     """
 
     symbol: str
@@ -58,9 +58,8 @@ class NumberField:
 
     ``generators`` are the adjoined roots; ``images`` are these roots as polynomials in x. ``parent`` is the
     field to which the last root was adjoined; ``parent_image`` is the primitive element of the parent as a
-    polynomial in x. ``reciprocals`` is a cache of inverses. The cache is small, because the formulas of
-    methods divide only by a few weights. The cache saves time, because one division costs as much as many
-    products.
+    polynomial in x. ``reciprocals`` is a cache of inverses. It is useful because one division takes as long
+    as many products. It remains small, because the formulas of methods divide only by a few weights.
     """
 
     def __init__(
@@ -89,8 +88,8 @@ class NumberField:
 
     @cached_property
     def _identity(self) -> Key:
-        """The adjoined roots, in the order in which they were adjoined, with their enclosures. Equal fields
-        have equal keys."""
+        """The key by which two fields are compared: the name, the irreducible polynomial, and the named
+        roots. Two fields are equal iff their keys are equal."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:
@@ -116,7 +115,8 @@ class NumberField:
         return bool(x.polynomial.is_zero())
 
     def lift(self, x: Algebraic) -> Algebraic:
-        """Return an element of a smaller field of the same tower as an element of this field."""
+        """Return x as an element of this field. The number x may belong to a smaller field of the same
+        tower."""
         if x.field == self:
             return x
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
@@ -157,8 +157,8 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """The basis of the field that consists of products of powers of the generators. Each product is given
-        by its exponents, lowest exponents first."""
+        """A basis of the field over Q. Each element of the basis is a product of powers of the generators and
+        is given by the exponents. Lower exponents come first."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -264,7 +264,8 @@ class Algebraic:
         >>> x.minimal_polynomial
         x^4 + (-10)*x^2 + 1
         """
-        # The characteristic polynomial of multiplication by x is a power of the minimal polynomial of x.
+        # Multiplication by x is a linear map of the field. The characteristic polynomial of this map is a
+        # power of the minimal polynomial of x.
         factor = _columns(self._multiples(), self.field.degree).charpoly().factor()[1][0][0]
         return factor / factor.leading_coefficient()
 
@@ -280,7 +281,8 @@ class Algebraic:
         return None
 
     def __add__(self, other: object) -> Algebraic:
-        # Usually both operands are elements of the same field.
+        # Usually both operands are elements of the same field. This case is treated first, because it needs
+        # no conversion.
         if type(other) is Algebraic and other.field is self.field:
             return Algebraic(self.field, self.polynomial + other.polynomial)
         if (pair := self._pair(other)) is None:

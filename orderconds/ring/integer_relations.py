@@ -1,7 +1,8 @@
 """Integer relations between numbers that are known to few digits, by lattice reduction.
 
-The lattice spanned by (e_k, N x_k) has a short vector if a combination of the numbers x_k with small integer
-coefficients is zero (Lenstra, Lenstra and Lovasz 1982). The result is not proved. The caller must verify it.
+Let e_k be unit vectors and N a large number. The lattice spanned by the vectors (e_k, N x_k) contains a short
+vector if a combination of the numbers x_k with small integer coefficients is zero (Lenstra, Lenstra and
+Lovasz 1982). The result is not proved. The caller must verify it.
 """
 
 from __future__ import annotations
@@ -13,12 +14,13 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""A relation is accepted only if the probability is below 2^-GUARD that random numbers satisfy some relation
-with coefficients of the same size."""
+"""Let P be the probability that random numbers satisfy some relation with coefficients of the same size. A
+relation is accepted only if P is below 2^-GUARD."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
-    """Return small integers c_k with sum_k c_k values_k = 0 up to 2^-bits, or None.
+    """Return small integers c_k with sum_k c_k x_k = 0 up to 2^-bits, where x_k are the given values. Return
+    None if no such integers are found.
 
     >>> root = Fraction(2**0.5)
     >>> relation([root / 2 - 1, Fraction(1), root], 50)
@@ -54,8 +56,8 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return a square-free d such that x agrees, to the known digits, with a number p + q sqrt(d) with
-    rational p and q. Return None if there is no such d.
+    """Return a square-free integer d such that, to ``bits`` binary digits, x is equal to a number p + q
+    sqrt(d) with rational p and q. Return None if no such d is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

@@ -53,7 +53,7 @@ class Jets:
     def root(self, x: Jet, index: int) -> Jet:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError if x may be zero. For an even index, it also raises ValueError if x may be negative.
+        Raises ValueError if x may be zero, and for an even index also if x may be negative.
         """
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
@@ -78,7 +78,7 @@ class Jets:
         return str(x.value.str(15))
 
     def key(self, x: Jet) -> tuple[str, ...]:
-        """Return the text of the enclosures of value and gradient. This text identifies an element."""
+        """Return the texts of the enclosures of the value and of the gradient."""
         return (str(x.value), *map(str, x.gradient))
 
     def approximate(self, x: Jet, digits: int = 20) -> str:

@@ -9,8 +9,8 @@ nodes generate a field of degree 24. Then the product of two vectors requires on
 polynomials modulo M, and not five products in this field.
 
 Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
-field. The polynomial ``A p`` is stored as ``int_0^z p`` modulo M, plus corrections for a few powers z^k in p.
-A collocation method has no corrections.
+field. The polynomial ``A p`` is computed as ``int_0^z p`` modulo M, plus corrections for a few powers z^k in
+p. A collocation method needs no corrections.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ Matrix = Sequence[Sequence[Element]]
 
 
 class NodalAlgebra:
-    """The algebra Q[z]/M for the nodes of a method. The matrices and weights of the method are linear maps of
-    this algebra.
+    """The algebra Q[z]/M for the nodes of a method. Each matrix of the method is a linear map from this
+    algebra to itself; the weights are a linear map to Q.
 
     ``corrections[kind]`` contains a pair (k, polynomial) for each k for which A z^k differs from the integral
     of z^k. The polynomial is the difference. ``moments`` contains a pair (k, number) for each k for which
@@ -165,8 +165,8 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """A function that returns candidates for the rational coefficients of a polynomial. They are computed by
-    interpolation at the nodes with balls."""
+    """A function that returns candidates for the rational coefficients of a polynomial with given values at
+    the nodes. The candidates are computed by interpolation with balls."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)

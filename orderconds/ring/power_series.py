@@ -50,7 +50,8 @@ class PowerSeries:
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 
     def is_zero(self, x: Series) -> bool | None:
-        """Return True if all coefficients up to the order are zero; None if the base ring cannot decide."""
+        """Return True if all coefficients up to the order are zero, False if some coefficient is not zero,
+        and None if the base ring cannot decide."""
         verdicts = [self.base.is_zero(c) for c in x.coefficients]
         return False if False in verdicts else None if None in verdicts else True
 
@@ -80,7 +81,7 @@ class PowerSeries:
 
     def valuation(self, x: Series) -> int:
         """Return the lowest power of h whose coefficient is not proved to be zero, or order + 1 if all
-        coefficients are zero."""
+        coefficients are proved to be zero."""
         for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is not True:
                 return k
@@ -150,8 +151,8 @@ class Series:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Series:
-        """Return 1/x for a series x with invertible x_0, by the recurrence b_n = -b_0 sum_{k>=1} x_k
-        b_{n-k}."""
+        """Return 1/x for a series x = sum_k x_k h^k with invertible x_0. The coefficients b_n of 1/x satisfy
+        the recurrence b_n = -b_0 sum_{k>=1} x_k b_{n-k}."""
         unit = self.coefficients[0]
         if self.ring.base.is_zero(unit) is True:
             raise ZeroDivisionError("division by a power series whose constant term is zero")

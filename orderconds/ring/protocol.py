@@ -1,5 +1,5 @@
-"""The interface of scalar rings, so that one algorithm works over exact, certified, symbolic and numeric
-scalars.
+"""The interface of scalar rings. An algorithm that uses only this interface works over exact, certified,
+symbolic and numeric scalars.
 
 Elements define the arithmetic operators: ``+ - *`` with other elements and with Python ``int`` on either
 side, unary ``-``, and ``/`` if the ring is a field. All other operations are methods of the ring object.

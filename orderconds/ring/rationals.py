@@ -1,5 +1,5 @@
-"""The field of rational numbers. Elements have python-flint's type ``fmpq``, without a wrapper, because this
-is fastest."""
+"""The field of rational numbers. Elements have python-flint's type ``fmpq``, because operations with a
+wrapper would take more time."""
 
 from __future__ import annotations
 

@@ -50,8 +50,9 @@ class Samples:
         return Sample(self, total)
 
     def random(self, generator: Random) -> Sample:
-        """Return independent, uniformly distributed samples. The function generates uniformly distributed
-        coefficients of the polynomial."""
+        """Return independent, uniformly distributed samples. The coefficients of the polynomial are drawn
+        uniformly; the samples are then also uniform, because the map between them is linear and
+        invertible."""
         return Sample(
             self, nmod_poly([generator.randrange(self.prime) for _ in range(self.count)], self.prime)
         )
@@ -65,8 +66,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial. An invertible linear map takes the samples to
-        these coefficients."""
+        """Return the ``count`` coefficients of the polynomial. They can replace the samples in a computation
+        of ranks, because the map from the samples to the coefficients is linear and invertible."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 

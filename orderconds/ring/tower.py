@@ -34,8 +34,8 @@ class DegreeError(ArithmeticError):
 
 
 class Tower:
-    """A number field that is extended when a root is adjoined. Elements of an earlier, smaller field remain
-    valid, because they can be converted to elements of the current field.
+    """A number field that is extended when a root is adjoined. Elements that were computed before remain
+    valid: they belong to a smaller field, and are converted to the current field when this is necessary.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -62,8 +62,8 @@ class Tower:
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the final ring (Q if no root was adjoined), and the map from earlier numbers to elements of
-        this ring."""
+        """Return the final ring (Q if no root was adjoined), and the map that converts numbers of all fields
+        of the tower to elements of this ring."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -224,7 +224,7 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
 
 def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
-    """Return the matrix whose columns are elements of the algebra, as vectors over Q."""
+    """Return the matrix over Q whose columns are the coordinates of elements of the algebra."""
     rows = [
         [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
     ]
@@ -232,7 +232,7 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
-    """Return the monic irreducible factor that has the enclosed number as a root."""
+    """Return the monic irreducible factor of ``characteristic`` that has the enclosed number as a root."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:

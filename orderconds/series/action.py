@@ -35,7 +35,7 @@ Row = tuple[Exponential, ...]
 
 
 class ActionSeries(ABC):
-    """The action series of one method over one ring; every value is cached.
+    """The action series of one method over one ring. Computed values are cached.
 
     ``weights`` are the b_i, all invertible in ``ring``. A row is an index: row i < ``stages`` denotes stage
     i, and the last row, with index ``stages``, denotes the update.
@@ -134,8 +134,8 @@ class ActionSeries(ABC):
         return total
 
     def condition(self, tree: Velocity) -> Element:
-        """Return sum_i b_i tau_t(i). It is the coefficient of the tree t in the update, and the coefficient
-        of the elementary Hamiltonian of t.
+        """Return sum_i b_i tau_t(i). This number is the coefficient of the tree t in the update, and also the
+        coefficient of the elementary Hamiltonian of t.
 
         Intermediate values that only this tree needs are not cached, so that the cache for all trees of one
         order fits in memory.
@@ -166,9 +166,9 @@ class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials (VCG, VCF).
 
     ``rows`` contains the exponentials of each stage and, as the last row, of the update. The weight b_i is
-    the sum of the update's coefficients of stage i. For VCG the series follows from equation (3.18) of
-    Bogfjellmo and Marthinsen. For VCF the discrete Lagrangian has the same form; the equations of motion
-    contain the coefficients of each exponential.
+    the sum of the coefficients of stage i in all exponentials of the update. For VCG the series follows from
+    equation (3.18) of Bogfjellmo and Marthinsen. For VCF the discrete Lagrangian has the same form; the
+    equations of motion contain the coefficients of each exponential.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities

@@ -32,10 +32,11 @@ def velocity_count(vertices: int) -> int:
 def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees under root switching.
 
-    A class corresponds to an unrooted tree. In this tree, the number of possible root vertices is one more
-    than the number of edges across which the root can move. Hence the number of classes is the number of
-    rooted trees minus the number of unrooted trees with one such edge marked. The marked edge joins a force
-    to the rest of the tree, so these trees are counted as pairs of a force and a g-valued tree.
+    A class corresponds to an unrooted tree. Across some edges of this tree the root can move; the number of
+    possible roots is one more than the number of these edges. Hence the number of classes is R - E. Here R is
+    the number of rooted trees, and E is the number of unrooted trees with one marked edge across which the
+    root can move. The marked edge joins a force to the rest of the tree. Therefore E is the number of pairs
+    of a force and a g-valued tree.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

@@ -29,7 +29,8 @@ from orderconds.series.action_trees import (
 )
 
 LIMITS = (8, 16, 32, 64, math.inf)
-"""The cost limits of successive parts of the enumeration."""
+"""The enumeration is divided into parts. Each part contains the trees whose cost exceeds the previous limit
+but not its own limit."""
 
 
 def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
@@ -155,8 +156,9 @@ def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
     """Yield multisets with their costs. The trees of a multiset are chosen in decreasing order of (number of
-    vertices, index in the list of all trees with this number of vertices). ``bound`` is the index of the tree
-    that was chosen before."""
+    vertices, index in the list of all trees with this number of vertices). The tree that was chosen before
+    has ``largest`` vertices and index ``bound``, which is None for the first tree. The costs of the other
+    trees may add up to ``rest``."""
     if vertices == 0:
         yield 0, ()
         return

@@ -88,8 +88,8 @@ def psi_product(momenta: Momenta) -> UnivariatePolynomial:
 
 
 def condition(tree: Velocity) -> Fraction:
-    """Return the coefficient of a tree in the exact flow, which is the right-hand side of its order
-    condition.
+    """Return the coefficient of a tree in the exact flow. This is the right-hand side of the order condition
+    of the tree.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(condition(t)) for t in velocities(2)]

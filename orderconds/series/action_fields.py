@@ -20,7 +20,8 @@ Matrix = tuple[tuple[Element, ...], ...]
 
 
 class Nilpotent:
-    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. A bit mask denotes a product of different eps_k.
+    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` contains the coefficients by bit mask.
+    Each bit mask denotes a product of different eps_k; the mask 0 denotes the constant term.
 
     >>> eps = Nilpotent({1: 1})
     >>> ((3 + eps) * (3 + eps)).parts
@@ -193,8 +194,8 @@ class ActionFields:
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the covector x -> derivative of H along x, along the word of the tree, and along the
-        covectors of the tree."""
+        """Return the covector that maps x to a derivative of H: the derivative along x, along the word of the
+        tree, and along the covectors of the tree."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

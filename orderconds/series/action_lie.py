@@ -19,11 +19,11 @@ from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
-"""Triples (coefficient, m, n) of the terms X^n xi X^m."""
+"""The terms of dexpinv. A triple (coefficient, m, n) represents the coefficient times X^n xi X^m."""
 
 Varied = dict[int, Element]
-"""A map from stages to coefficients of a word u x v, where the letter x is a variation of the velocity of the
-stage. Zero coefficients may be omitted."""
+"""A map from each stage to the coefficient of a word u x v, where the letter x is a variation of the velocity
+of this stage. Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -44,8 +44,8 @@ class MuntheKaasActionSeries(ActionSeries):
     ) -> None:
         super().__init__(ring, b)
         self._cutoff = cutoff
-        # The table has one entry for the exponents of all stages, and one entry for the exponent of the
-        # update.
+        # The first entry of ``_rows`` contains the rows of A, for the exponents of the stages. The second
+        # entry contains only the row b, for the exponent of the update.
         self._rows: tuple[list[Exponential], ...] = ([sparse(ring, row) for row in A], [sparse(ring, b)])
         self._sums = tuple(Sums(rows, ring.zero) for rows in self._rows)
         self._powers: dict[tuple[int, int, Word], Stages] = {}
@@ -67,8 +67,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v in the exponential of a row; x is a variation of the velocity of
-        ``stage``."""
+        """Return the coefficient of u x v in exp(X_i) for row i, or in exp(Y) for the update; x is a
+        variation of the velocity of ``stage``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -132,8 +132,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add to ``totals`` the coefficients of u x v in X_i X_i^(n-1). The first part of the word comes from
-        X_i."""
+        """Add to ``totals`` the coefficients of u x v in X_i X_i^(n-1). The word is cut into two parts: the
+        first part comes from X_i, and the second part from X_i^(n-1)."""
         for cut in range(1, len(before) + len(after) + 3 - n):
             # The number of letters of v in the first part of the word. It is negative if this part ends
             # before x.
@@ -182,8 +182,9 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return, for each stage j, the factor that dexpinv_{(r),X_j} contributes to a letter of xi_j. The
-        letter follows the word ``before`` and precedes the word ``behind``. The result None means zero."""
+        """Return, for each stage j, the factor by which dexpinv_{(r),X_j} multiplies the coefficient of a
+        letter of xi_j. The letter follows the word ``before`` and precedes the word ``behind``. The result
+        None means that all factors are zero."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -198,8 +199,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return, for each stage j, the factor that dexpinv_{(r),X_j} contributes to a letter of xi_j. The
-        letter follows the word u x v and precedes the word ``behind``; x is a variation."""
+        """Return, for each stage j, the factor by which dexpinv_{(r),X_j} multiplies the coefficient of a
+        letter of xi_j. The letter follows the word u x v and precedes the word ``behind``; x is a
+        variation."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -209,8 +211,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return, for each stage j, the factor that dexpinv_{(r),X_j} contributes to a letter of xi_j. The
-        letter follows the word ``first`` and precedes the word u x v; x is a variation."""
+        """Return, for each stage j, the factor by which dexpinv_{(r),X_j} multiplies the coefficient of a
+        letter of xi_j. The letter follows the word ``first`` and precedes the word u x v; x is a
+        variation."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -249,8 +252,8 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 
 
 class PadeActionSeries(MuntheKaasActionSeries):
-    """The action series of VRKMK with the inverse of a truncated dexp: dexp_(r),X_j v_j = xi_j, X_i = h sum_j
-    a_ij v_j.
+    """The action series of VRKMK in which the inverse of a truncated dexp replaces dexpinv: X_i = h sum_j
+    a_ij v_j, where v_j is the solution of dexp_(r),X_j v_j = xi_j.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities

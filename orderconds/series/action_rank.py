@@ -3,10 +3,10 @@
 A condition of order n depends on other conditions if its value is a linear combination of two kinds of terms:
 other values of order n, and products of values of lower order. The coefficients must be constant, and the
 combination must be valid for every method **and for the exact flow**. Such dependences are computed from the
-values for many random methods and for the exact flow. Pivots are chosen in the canonical order of the trees,
-so that the simplest trees are selected. The values for the exact flow are necessary. Without these values, a
-condition that no method of the family satisfies would count as dependent. Such conditions exist, for example,
-for VRKMK with too few terms of dexpinv.
+values of the trees for many random methods and for the exact flow. Pivots are chosen in the canonical order
+of the trees, so that the simplest trees are selected. The values for the exact flow are necessary. Without
+these values, a condition that no method of the family satisfies would count as dependent. Such conditions
+exist, for example, for VRKMK with too few terms of dexpinv.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ SPARE_SAMPLES = 24
 """The number of samples beyond the largest possible rank; they make accidental dependences improbable."""
 
 BLOCK = 256
-"""The number of samples that are evaluated together. It is large enough for speed, and small enough that
-order 6 does not exceed the memory."""
+"""The number of samples that are evaluated together. A larger number would be faster, but would need too much
+memory at order 6."""
 
 
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
@@ -76,7 +76,7 @@ def sample(
     """Return the values of trees for the exact flow and for random methods. The number of methods exceeds the
     largest possible rank.
 
-    The random methods do not depend on the list of trees.
+    Calls with different lists of trees use the same random methods.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -102,7 +102,8 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 
 
 def _largest_rank(order: int) -> int:
-    """Return the largest possible number of independent conditions and of their products at one order.
+    """Return the largest possible rank at one order, which is the largest number of independent conditions
+    and products of conditions of lower order.
 
     It is the number of monomials of degree ``order`` in graded unknowns, with U_n unknowns of degree n = 1,
     2, ..., where U_n is the number of unrooted trees.

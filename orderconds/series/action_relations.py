@@ -30,11 +30,13 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial. Each term is a coefficient and the trees whose values are multiplied."""
+"""The terms of a polynomial. Each term consists of a coefficient and of trees; it denotes the product of the
+coefficient and the values of the trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return each dependent tree of the last order, with the polynomial that is equal to its value.
+    """Return a map from each dependent tree of the highest order to the polynomial that is equal to the value
+    of the tree.
 
     ``independent`` contains the independent trees of each order 1, 2, ..., from
     :func:`orderconds.series.action_rank.independent_trees`. The result is wrong with a probability of about
@@ -75,7 +77,7 @@ SEED = 61
 
 
 class _Drawn(Rationals):
-    """The ring Q with random elements of 61 bits."""
+    """The ring Q. The numerators and denominators of random elements have at most 61 bits."""
 
     def random(self, generator: np.random.Generator) -> Element:
         """Return a random non-zero fraction."""
@@ -89,9 +91,10 @@ def hold_over_rationals(
 ) -> bool:
     """Return True if the relations hold exactly for a random method over Q and for the exact flow.
 
-    ``series`` returns the series of a random method with coefficients in a ring. The random method should
-    have more stages than the methods from which the relations were computed. If a relation of degree d is not
-    an identity, it holds at a random method with a probability below d/2^60.
+    The function ``series`` returns the series of a random method; its first argument is the ring of the
+    coefficients. The random method should have more stages than the methods from which the relations were
+    computed. If a relation of degree d is not an identity, it holds at a random method with a probability
+    below d/2^60.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -127,8 +130,8 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Return, for each tree, the coefficients modulo a prime of its value as a combination of monomials. The
-    keys are the indices of the monomials."""
+    """Return, for each tree, the linear combination of monomials that is equal to the value of the tree. The
+    result maps indices of monomials to coefficients modulo the prime."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:

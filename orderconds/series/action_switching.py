@@ -1,9 +1,10 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
 The root of a tree can be moved to the vertex of a force that is attached to the root: ``o(w | M, H(u*v |
-N))`` and ``o(u o(w | M) v | N)`` have equal coefficients, for every method and for the flow. Both
-coefficients contain one double sum over the stages of the two vertices of the connecting edge, and the two
-sums may be exchanged. Hence one tree of each class is sufficient.
+N))`` and ``o(u o(w | M) v | N)`` have equal coefficients, for every method and for the flow. In both
+coefficients, the indices of a double sum are the stages of the two vertices of the connecting edge. The
+coefficients are equal because the order of the two summations may be exchanged. Hence one tree of each class
+is sufficient.
 """
 
 from __future__ import annotations
@@ -63,7 +64,8 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return the list of the classes computed so far, and an iterator over the remaining classes."""
+    """Return the list of the classes computed so far, and an iterator over the remaining classes. Both are
+    stored and continued by later calls of :func:`classes_in_turn`."""
     return [], _classes(vertices)
 
 
@@ -73,7 +75,7 @@ def _classes(vertices: int) -> Iterator[tuple[Velocity, ...]]:
         if tree not in seen:
             members = [tree]
             seen.add(tree)
-            for member in members:  # Trees are appended to the list during the loop.
+            for member in members:  # The loop appends trees to ``members`` and visits them, too.
                 for other in switched(member):
                     if other not in seen:
                         seen.add(other)

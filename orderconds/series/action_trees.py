@@ -1,7 +1,7 @@
 """The trees that index the action series of variational Lie group methods on T*G.
 
-Every vertex is a copy of the Hamiltonian H, except a :class:`Transport`, which is not counted. There are two
-kinds of trees. A tree of either kind may contain subtrees of both kinds:
+Every node of a tree is either a copy of the Hamiltonian H or a :class:`Transport`. Only the copies of H count
+as vertices. There are two kinds of trees. A tree of either kind may contain subtrees of both kinds:
 
 - g-valued ``t = (word w of t's, multiset M of p's)``, a :class:`Velocity`: the derivative of ``D_mu H`` along
   the word w of right-invariant fields (the first letter acts first) and along the covectors of M;
@@ -84,7 +84,8 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # A wide tree is easier to read than a deep tree. The cost of a letter is therefore counted twice.
+        # A deep tree is harder to read than a wide tree. Therefore the cost of a tree counts twice if the
+        # tree is a letter in a word of another tree.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:
@@ -93,7 +94,7 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree, which permutes momenta."""
+        """The order of the symmetry group of the tree. The symmetries permute equal momenta."""
         return _symmetry(self.word, self.momenta)
 
 
@@ -119,7 +120,7 @@ class Force(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree, which permutes momenta."""
+        """The order of the symmetry group of the tree. The symmetries permute equal momenta."""
         return _symmetry(self.before + self.after, self.momenta)
 
 
@@ -157,8 +158,8 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the cost that a word has because its letters differ. A word that repeats one letter costs
-    nothing, because its coefficient is a power of one sum.
+    """Return the additional cost of a word with different letters. The additional cost is zero if all letters
+    are equal, because the coefficient of the word then contains only a power of one sum.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -255,8 +256,8 @@ def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
 def hamiltonian(tree: Velocity) -> str:
     """Return the elementary Hamiltonian of a tree as text; ``m`` denotes mu, and ``ad(x) y = [x, y]``.
 
-    Arguments before the semicolon are the directions of right-invariant derivatives in q; the first acts
-    first.
+    Arguments before the semicolon are the directions of right-invariant derivatives in q. The derivative in
+    the first direction acts first.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

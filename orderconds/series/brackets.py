@@ -2,12 +2,13 @@
 graded free Lie algebra.
 
 A linear combination of the stage values k_1, ..., k_s of an explicit method has grade g if h times the
-combination is of order h^g. q_j is the combination of k_j and earlier stage values that has the highest
-grade. For order p, the arguments of the stages are required up to grade p - 1, and the argument of the step
-up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003)
-723). One argument after another is then expressed by stage values, earlier brackets, and as few new brackets
-as possible. If a combination of two arguments needs fewer brackets than each of the two, the combination is
-computed first. For example, in Butcher's method of order 6, u_7 then needs no additional bracket.
+combination is of order h^g. Let q_j be the sum of k_j and that combination of earlier stage values for which
+the grade of the sum is highest. For order p, the arguments of the stages are required up to grade p - 1, and
+the argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas
+and Owren, BIT 43 (2003) 723). One argument after another is then expressed by stage values, earlier brackets,
+and as few new brackets as possible. If a combination of two arguments needs fewer brackets than each of the
+two, the combination is computed first. For example, in Butcher's method of order 6, u_7 then needs no
+additional bracket.
 """
 
 from __future__ import annotations
@@ -72,9 +73,9 @@ def fewest_brackets(
 
     The tableau must have the order ``order``. The ring must be able to decide whether an element is zero, and
     to divide. The equations of the search may leave some coefficients free. First, the search sets these
-    coefficients to zero. If this fails, it makes ``attempts`` further attempts, in which some of these
-    coefficients are small pseudorandom numbers. The limit for the number of brackets is at first the lower
-    bound ``least``. It is raised by one whenever all attempts have failed. Raises
+    coefficients to zero. If no program is found, it makes ``attempts`` further attempts, in which some of
+    these coefficients are small pseudorandom numbers. The limit for the number of brackets is at first the
+    lower bound ``least``. It is raised by one whenever all attempts have failed. Raises
     :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
@@ -116,8 +117,8 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return, for each j, the grade g of q_j (h q_j is of order h^g) and the coefficients of q_j in k_1, ...,
-    k_j."""
+    """Return, for each j, the grade g of q_j (h q_j is of order h^g), and the coefficients of k_1, ..., k_j
+    in q_j."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -183,9 +184,10 @@ class _Shape:
     """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e] with C_n = [q_1, z_n
     + C_(n+1)].
 
-    The pool is the list of known elements. ``inner`` is the number of brackets C_n. If ``leading`` is true,
-    the coefficient of the second pool element in y is one, so that the equations for x are linear. ``extra``
-    contains the indices in the pool of the left factors e.
+    The pool is the list of known elements. ``inner`` is the number of brackets C_n. If ``outer`` is true, the
+    bracket [q_1 + x, y + C_1] occurs. If ``leading`` is true, the coefficient of the second pool element in y
+    is one, and the equations for x are linear. ``extra`` contains the indices in the pool of the left factors
+    e.
     """
 
     outer: bool = False
@@ -213,7 +215,7 @@ class _Search:
     """A search that expresses one argument after another. ``pool`` contains the known elements and their
     rows.
 
-    The search fails if it needs more than ``most`` brackets.
+    ``most`` is the limit on the number of brackets. The search fails if it needs more brackets.
     """
 
     def __init__(
@@ -254,7 +256,7 @@ class _Search:
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
         """Return the row of an argument whose new brackets have this shape, and add these brackets to the
-        pool. Return None if the argument has no such form.
+        pool. Return None if no brackets of this shape are found.
 
         The equations are linear, except for products of an unknown in x and an unknown in y. The method is
         therefore iterative. Each iteration fixes one of the two factors and solves the resulting linear
@@ -309,8 +311,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return a solution of the equations. If a random generator is given, some unknowns may be set to
-        random values before the equations are solved."""
+        """Return a solution of the equations. If there are several solutions and the search has a random
+        generator, the solution may be chosen at random."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -378,7 +380,7 @@ class _Search:
         x, y = (self.algebra.combine(*((c, self.pool[n][0]) for c, n in side)) for side in (left, right))
         rows = self._row(left), self._row(right)
         if len(rows[0]) == 1:
-            rows[1].pop(next(iter(rows[0])), None)  # The bracket [k, k] is zero.
+            rows[1].pop(next(iter(rows[0])), None)  # Remove multiples of x from y: [x, x] = 0.
         self.brackets.append(rows)
         self.pool.append((self.algebra.bracket(x, y), {("B", len(self.brackets) - 1): self.ring.one}))
         return len(self.pool) - 1

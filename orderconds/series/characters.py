@@ -22,7 +22,8 @@ Value = Callable[[bytes], Element]
 
 @dataclass(frozen=True)
 class TreeAlgebra:
-    """An algebra of trees, given by the cuts of a tree and by the values of the exact flow.
+    """An algebra of trees or forests. It is defined by two functions: one returns the cuts, the other returns
+    the values of the exact flow.
 
     >>> str(ROOTED.exact(bytes((0, 1, 1)))), len(ORDERED.cuts(bytes((0, 1, 1))))
     ('1/3', 4)
@@ -107,8 +108,8 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return the sum, over all cuts, of the values of this step on the components times the value of
-        ``other`` on the rest.
+        """Return a sum over all cuts. Each summand is the product of the values of this step on the
+        components and the value of ``other`` on the rest.
 
         If ``whole`` is false, the cut that removes the whole tree is omitted.
         """

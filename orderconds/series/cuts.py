@@ -3,9 +3,9 @@ cuts.
 
 A cut divides a tree or forest into the rest, which contains the roots, and the components above the rest. For
 unordered trees, a cut is a set of edges, at most one on each path from the root (Connes and Kreimer 1998; HLW
-III.1.4, ordered subtrees). For ordered forests, the branches that a cut removes at one vertex are the
-leftmost branches of this vertex, and they form one component. The same rule applies to the roots (left
-admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+III.1.4, ordered subtrees). For ordered forests, a cut removes only leftmost branches at each vertex. The
+branches that are removed at one vertex form one component. In the same way, a cut may remove the leftmost
+trees of the forest (left admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 
 from __future__ import annotations

@@ -37,7 +37,8 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # The table has one entry for the arguments of all stages, and one entry for the argument of the step.
+        # The first entry of ``_rows`` sums over the rows of A, for the arguments of the stages. The second
+        # entry sums over b, for the argument of the step.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
@@ -106,8 +107,9 @@ class DexpinvSeries:
         """Return, for each stage j, the number by which dexpinv_{(r),u_j} multiplies the coefficient of a
         letter in k_j.
 
-        In the resulting word, the words ``start`` and ``end`` precede and follow the letter. They have
-        ``before`` and ``behind`` letters. The result None means that all numbers are zero.
+        In the resulting word, the words ``start`` and ``end`` precede and follow the letter. ``before`` and
+        ``behind`` are the numbers of letters of these two words. The result None means that all numbers are
+        zero.
         """
         values = None
         for q, m, n in self._present(before, behind):

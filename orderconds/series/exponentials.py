@@ -21,8 +21,7 @@ class ProductOfExponentials:
     """The coefficients of words in a product of ``count`` exponentials. ``letter(J, k)`` returns the
     coefficient of letter k in X_J.
 
-    The function ``letter`` returns None if the letter k does not occur in X_J, whatever the coefficients of
-    the method are.
+    The result of ``letter`` is None if the letter k does not occur in X_J for any coefficients of the method.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]

@@ -1,8 +1,8 @@
 """Polynomials in non-commuting graded letters, truncated above a grade, and their brackets.
 
 A polynomial is a map from words of letters to coefficients. The letters are numbered from 0, and each letter
-has a grade. Words above a largest grade are zero. The product xy is the word xy; this module does not define
-which letter acts first.
+has a grade. Words whose grade is greater than a given largest grade are set to zero. The product xy is the
+word xy; this module does not define which letter acts first.
 """
 
 from __future__ import annotations

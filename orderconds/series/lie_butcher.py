@@ -55,8 +55,8 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """For each place (partial product) except the first: its index, the index of the preceding place, and
-        the row of the exponential that leads from the preceding place to it."""
+        """One triple for each place (partial product) except the first: the index of the place, the index of
+        the preceding place, and the row of the exponential between these two places."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -179,9 +179,9 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     """Return the value a(w) of a series on every ordered forest w with ``order`` vertices.
 
     These values determine the step. Let w = t_1 ... t_k, and let X_l differentiate along the fixed element
-    F(t_l) of the Lie algebra. The elements are F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Then every function
-    phi satisfies phi(y1) = sum_w h^|w| a(w) (X_1 ... X_k phi)(y0). For matrices, g1 = sum_w h^|w| a(w) F(t_k)
-    ... F(t_1).
+    F(t_l) of the Lie algebra. These elements are defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Then
+    every function phi satisfies phi(y1) = sum_w h^|w| a(w) (X_1 ... X_k phi)(y0). For matrices, g1 = sum_w
+    h^|w| a(w) F(t_k) ... F(t_1).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

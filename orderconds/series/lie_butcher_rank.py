@@ -1,12 +1,13 @@
-"""Selection of independent conditions on ordered forests in a family. The conditions are evaluated at random
-methods of the family, and the rank of their values shows which conditions are independent.
+"""Selection of independent conditions on ordered forests in a family. A matrix contains the values of the
+conditions for random methods of the family. The rank of this matrix shows which conditions are independent.
 
-A condition is superfluous under two requirements. First, its left-hand side is a linear combination of
-simpler left-hand sides of the same order and of products of left-hand sides of lower order. The coefficients
-of this combination are the same for every method of the family. Second, the values of the exact flow satisfy
-this relation. The exact flow is therefore one of the samples. If the exact flow violates the relation, no
-method satisfies the condition, and the condition is not removed. An example is order 3 of
-Runge-Kutta-Munthe-Kaas methods without brackets (cutoff 0).
+A condition is superfluous if two requirements are satisfied. First, its left-hand side is a linear
+combination of simpler left-hand sides of the same order and of products of left-hand sides of lower order.
+The coefficients of this combination are the same for every method of the family. Second, the values of the
+exact flow satisfy this relation. The exact flow is therefore one of the samples. If the exact flow violates
+the relation, no method of the family satisfies this condition together with the simpler conditions. The
+condition is then not removed. An example is order 3 of Runge-Kutta-Munthe-Kaas methods without brackets
+(cutoff 0).
 """
 
 from __future__ import annotations
@@ -54,7 +55,8 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # The dimension of the span of the values on forests of one order is at most the number of forests.
+    # The rank of the values on forests of one order is at most the number of these forests. The number of
+    # samples must exceed this rank.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

@@ -1,6 +1,7 @@
 """Products of exponentials, or of Cayley transforms, whose exponents are given by their values on words.
 
-Letter k denotes X_k, the coefficient of t^(k-1) in A(t), and has weight k. Words are in the order of action.
+Letter k denotes X_k, the coefficient of t^(k-1) in the matrix A(t) of the equation Y' = A(t) Y, and has
+weight k. Words are in the order of action.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""For each map (exponential, Cayley transform): its power series and the power series of its inverse, without
-constant terms."""
+"""For the exponential and the Cayley transform: the coefficients of the power series of this map and of the
+inverse map, without constant terms."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:

@@ -24,8 +24,8 @@ class VectorField:
     series).
 
     B-series: f~ = sum h^(|t|-1) b(t)/sigma(t) F(t). Lie-Butcher series, for matrices: f~ = sum h^(|w|-1) b(w)
-    F(t_k) ... F(t_1). This sum is an element of the Lie algebra, because b is zero on shuffle products of
-    non-empty words.
+    F(t_k) ... F(t_1) with w = t_1 ... t_k. This sum is an element of the Lie algebra, because b is zero on
+    shuffle products of non-empty words.
 
     >>> from orderconds.ring import QQ
     >>> f = VectorField(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -100,11 +100,11 @@ def modified_field(step: Character) -> VectorField:
 def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, Element], ...]:
     """Return pairs of a tree t and its coefficient b(t)/sigma(t) in H~ = sum h^(|t|-1) b(t)/sigma(t) H(t).
 
-    For t = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). The sum is over the
-    free trees with at most ``order`` vertices that no edge divides into equal halves (HLW IX.9.2). Raises
-    :class:`~orderconds.errors.InputError` for a Lie-Butcher series. The same error is raised unless it is
-    proved that b(u o v) + b(v o u) = 0 for all u and v. Without this proof, the field need not be
-    Hamiltonian.
+    For t = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). The sum is over free
+    trees with at most ``order`` vertices. Trees that an edge divides into two equal halves are omitted (HLW
+    IX.9.2). Raises :class:`~orderconds.errors.InputError` for a Lie-Butcher series. The same error is raised
+    unless it is proved that b(u o v) + b(v o u) = 0 for all u and v. Without this proof, the field need not
+    be Hamiltonian.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

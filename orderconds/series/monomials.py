@@ -1,5 +1,5 @@
-"""Products of graded generators, which are left-hand sides of conditions of lower order. If these conditions
-hold, the products have the same values for the method and for the exact flow."""
+"""Products of graded generators. The generators are left-hand sides of conditions of lower order. If these
+conditions hold, each product has the same value for the method and for the exact flow."""
 
 from __future__ import annotations
 

@@ -90,8 +90,8 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the sum that defines the substitution. Its terms belong to the partitions of a tree into
-    components. If ``whole`` is false, the partition into one component is omitted."""
+    """Return the sum that defines the substitution, with one term for each partition of a tree into
+    components. If ``whole`` is false, the term for the partition into one component is omitted."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:

@@ -28,14 +28,14 @@ from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
 """A product of derivatives of a function, from left to right. None denotes the derivative along k. A tuple
-denotes the derivative along a vector field, which is obtained by applying the derivatives in the tuple to
-f."""
+denotes the derivative along a vector field. This vector field results if the derivatives in the tuple are
+applied to f."""
 
 Combination = dict[Operator, int]
 
 
 def words(order: int) -> tuple[str, ...]:
-    """Return the words in K and D that have ``order`` letters each and in which no suffix contains more K
+    """Return the words with ``order`` letters K and ``order`` letters D in which no suffix contains more K
     than D.
 
     >>> words(2)
@@ -75,8 +75,8 @@ def on_vector_space(word: str) -> dict[Forest, int]:
 
 
 def unordered(forest: Forest) -> Forest:
-    r"""Return the forest of canonical rooted trees, in descending order, that an ordered forest becomes if
-    the order of branches and of trees is forgotten.
+    r"""Return the unordered forest that results from an ordered forest if the order of branches and of trees
+    is ignored. Its trees are canonical and in descending order.
 
     >>> unordered(b"\0\0\1")
     b'\x00\x01\x00'
@@ -85,7 +85,7 @@ def unordered(forest: Forest) -> Forest:
 
 
 def rooted_forests(order: int) -> tuple[Forest, ...]:
-    """Return the forests of rooted trees with ``order`` vertices, from many trees to one tree.
+    """Return the forests of rooted trees with ``order`` vertices in total. Forests of many trees come first.
 
     >>> from orderconds.trees.levels import text
     >>> [text(forest) for forest in rooted_forests(3)]
@@ -123,12 +123,12 @@ def independent_trees(order: int) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=16)
 def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
-    """Return the value of a 2N scheme on each ordered forest with ``order`` vertices as a combination of its
-    values on rooted forests, {ordered forest: {rooted forest: coefficient}}.
+    """Return the coefficients that express the values of a 2N scheme on ordered forests with ``order``
+    vertices by its values on rooted forests: {ordered forest: {rooted forest: coefficient}}.
 
     The value on a rooted forest is the product of the elementary weights of its trees. The result holds for
     every 2N scheme and for the exact flow. Raises ValueError if the value on an ordered forest is not such a
-    combination, which the theorem excludes.
+    combination. The theorem in docs/explanation/two_registers.md excludes this case.
 
     >>> from orderconds.trees.levels import text
     >>> {text(w): {text(u): str(x) for u, x in row.items()} for w, row in in_rooted_forests(2).items()}
@@ -154,8 +154,8 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
 
 
 def _symmetry(forest: Forest) -> int:
-    """Return the order of the symmetry group of a forest: the value of a method on the forest divided by
-    this number is the coefficient of the elementary differential operator."""
+    """Return the order of the symmetry group of a forest. In the series of a method, the elementary
+    differential operator of the forest has as coefficient the value on the forest, divided by this order."""
     return symmetry(rooted_at_new_vertex(forest))
 
 
@@ -184,7 +184,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K: return the sum of the products in which one of the k is replaced by f."""
+    """Apply the letter K. The result is a sum of products, one for each factor k; in each of them f replaces
+    this factor."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:
@@ -194,8 +195,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Apply the letter of ``act`` to one elementary differential at a time, and return the sum of the
-    results."""
+    """Apply ``act`` (:func:`_drift` or :func:`_kick`) to one elementary differential at a time, and return
+    the sum of the results."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

@@ -10,8 +10,9 @@ x_i y_i = 1/3 for any two abscissae x, y among c, chat, m. Hence sum_i b_i (c_i 
 (chat_i - m_i)^2 = 0. If the weights are positive, the three abscissae are equal. In practice the three
 abscissae are also equal in solutions with negative weights. For a given update, sum_j a_ij = m_i then holds
 for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. The row sums and column sums of the
-matrix with the entries b_i a_ij are therefore known. This linear system is solved for the entries on a
-spanning tree, as in a transportation problem.
+matrix with the entries b_i a_ij are therefore known. As in a transportation problem, these linear equations
+are solved for entries that form a spanning tree. The nodes of the tree are the rows and columns, and its
+edges are the entries.
 """
 
 from __future__ import annotations
@@ -57,8 +58,8 @@ def _sum(row: Sequence[str]) -> str:
 
 
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
-    """Return the entries of A that are determined by the row sums m_i and the weighted column sums b_j (1 -
-    m_j).
+    """Return formulas for those entries of A that the row sums m_i and the weighted column sums b_j (1 - m_j)
+    determine.
 
     ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values.
     Raises :class:`~orderconds.errors.InputError` if the free entries do not connect all rows and columns.

@@ -24,11 +24,11 @@ class Ansatz:
     the names of the unknowns, ``numbers`` the formulas of dependent coefficients by name, and ``body`` all
     other lines. ``cells`` contains the names of the coefficients that are not constants.
 
-    ``family`` is the label of the family whose conditions are solved. ``reduction`` is the reason, stated in
-    the file, why some of these conditions suffice (:mod:`orderconds.proof.equations`). If ``abelian`` is
-    true, the conditions are those of the tableau to which the method reduces on an abelian group. The
-    principal error is computed for the family ``measured`` or, if ``measured`` is None, for ``family``.
-    Random starts are near ``centre``, a value for each free coefficient.
+    ``family`` is the label of the family whose conditions are solved. ``reduction`` is the reason why some of
+    these conditions imply all others; the file contains this reason (:mod:`orderconds.proof.equations`). If
+    ``abelian`` is true, the conditions are those of the tableau to which the method reduces on an abelian
+    group. The principal error is computed for the family ``measured`` or, if ``measured`` is None, for
+    ``family``. Random starts are near ``centre``, a value for each free coefficient.
     """
 
     family: str
@@ -71,7 +71,8 @@ class Ansatz:
         return symbolic.method(ring, known)[0]
 
     def _sorted(self, values: Sequence[Element]) -> list[Element]:
-        """Return the values of the free coefficients in the order in which the file names them."""
+        """Return the values of the free coefficients, sorted by the names of these coefficients
+        (:func:`_place`)."""
         return [x for _, x in sorted(zip(self.free, values, strict=True), key=lambda pair: _place(pair[0]))]
 
     @cached_property
@@ -86,7 +87,8 @@ class Ansatz:
 
 
 def _place(name: str) -> tuple[bool, bool, str, list[int]]:
-    """Return the sort key of a name: its letters, then its indices as numbers."""
+    """Return the sort key of a name. Names with the letter m come first, then names with the letter b.
+    Otherwise, names are sorted by their letters, then by their indices as numbers."""
     letters = name.rstrip("0123456789_")
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
 

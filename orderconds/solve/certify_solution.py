@@ -2,10 +2,11 @@
 
 Coefficients that the equations do not determine are first rounded to short decimals. All other coefficients
 are then computed to high precision by Newton's method in balls. If lattice reduction recognises them as
-algebraic numbers of one field, the file has closed forms and its order is checked exactly. Otherwise the file
-contains rounded decimals, which are the unknowns of the conditions. Only those conditions are used that are
-independent for the ansatz (the reduction ``spelling`` of :mod:`orderconds.proof.subfamily`). Interval
-arithmetic then proves that these conditions have a solution near the decimals.
+algebraic numbers of one field, the file contains closed forms, and the order of the method is checked
+exactly. Otherwise the file contains rounded decimals, which are the unknowns of the conditions. The proof
+uses only conditions that are independent for the ansatz (the reduction ``spelling`` of
+:mod:`orderconds.proof.subfamily`). Interval arithmetic then proves that these conditions have a solution near
+the decimals.
 """
 
 from __future__ import annotations
@@ -53,8 +54,8 @@ solution is found.
 """
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""The units for rounding if the principal error was minimised. They may be coarse, because near a minimum
-rounding hardly changes the error."""
+"""The units for rounding if the principal error was minimised. Coarse units are sufficient, because near a
+minimum of the error rounding hardly changes the error."""
 
 DIGITS = 50
 """Decimal places of a coefficient in the file."""
@@ -185,8 +186,8 @@ def determined(slopes: Floats) -> list[int]:
 def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
-    """Return the unknowns to nearly :data:`BITS` bits. Newton's method is applied to a system with as many
-    equations as unknowns.
+    """Return the unknowns with nearly :data:`BITS` correct bits. Newton's method is applied to a system with
+    as many equations as unknowns.
 
     Raises NotProved if Newton's method does not converge.
     """
@@ -281,8 +282,8 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # Each decimal in the file is one unknown, and equal decimals are the same unknown. Decimals that
-            # agree up to the sign therefore get more digits, until they differ.
+            # Decimals that are equal up to the sign count as the same unknown. Different coefficients must
+            # therefore have different decimals: digits are added until the decimals differ.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1
@@ -299,7 +300,7 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Return a rounded decimal with ``places`` places and the sign ``~``."""
+    """Return a decimal that is rounded to ``places`` places and ends with ``~``."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 

@@ -28,8 +28,8 @@ MAX_TEXT = 160
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """A number in a tableau file, given by its ``text``. If the text contains the name ``r``, the lines
-    ``root`` of the file define ``r``."""
+    """A number in a tableau file, given by its ``text``. If the text contains the name ``r``, then ``root``
+    contains the lines of the file that define ``r``."""
 
     text: str
     root: tuple[str, ...] = ()
@@ -161,8 +161,8 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return sqrt(D), with D square-free, such that sqrt(D) generates the field of the roots of a quadratic
-    polynomial."""
+    """Return sqrt(D) for the square-free number D for which sqrt(D) and the roots of a quadratic polynomial
+    generate the same field."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():
@@ -172,7 +172,8 @@ def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
 
 
 def _named(x: arb, p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return the root of a polynomial, with the name ``r`` and the lines that define ``r`` in a file."""
+    """Return three values: the root of the polynomial near x, the name ``r`` of this root, and the lines that
+    define ``r`` in a file."""
     monic = fmpq_poly([fmpq(c) for c in p.coeffs()]) / fmpq(p[p.degree()])
     place = min(
         range(len(real_roots(monic, 128))), key=lambda k: float(abs(real_roots(monic, 128)[k] - x).mid())

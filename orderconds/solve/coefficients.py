@@ -16,7 +16,8 @@ Nodes = Mapping[str, Sequence[str]]
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the coefficients after elimination of all constraints. A constraint ``--fix`` may name nodes.
+    """Return the coefficients after elimination of all constraints. A constraint of the option ``--fix`` may
+    contain the names of nodes.
 
     >>> from orderconds.solve.linear import Constraint, equality
     >>> from orderconds.solve.spec import Spec
@@ -47,7 +48,7 @@ class Cells:
     extra: Mapping[str, str] | None = None
 
     def written(self, name: str) -> str:
-        """Return the text of a coefficient: a constant, or the name of a number in the file."""
+        """Return the text of a coefficient in the file: its value if it is a constant, otherwise its name."""
         form = self.elimination.cell(name)
         if self.extra and name in self.extra:
             return name

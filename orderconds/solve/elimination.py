@@ -28,7 +28,8 @@ if TYPE_CHECKING:
     from orderconds.tableau.unknowns import RootedRing
 
 Member = tuple[OrderCondition, fmpq_mpoly]
-"""A condition, and the polynomial that is its left-hand side minus its right-hand side."""
+"""A pair of a condition and a polynomial. The polynomial is the left-hand side minus the right-hand side of
+the condition."""
 
 MAX_VARIABLES = 3
 """The largest number of coefficients in a condition that is used for elimination."""
@@ -142,7 +143,8 @@ def _subsystems(
 def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
-    """Return a polynomial that belongs to the ideal and has no admissible real root, or None."""
+    """Return a polynomial in the ideal of ``members`` that has no real root, or None. The root zero is
+    ignored if the formulas of the family divide by the variable."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
@@ -191,8 +193,8 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Return the multipliers with which the equations add up to the consequence. They are computed by linear
-    algebra. Return None if their degree would be too large."""
+    """Return the proof that the sum of multipliers times equations is ``consequence``. The multipliers are
+    computed by linear algebra. Return None if their degree would be too large."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:
@@ -217,8 +219,8 @@ def _multipliers(
     degree: int,
     plain: Polynomials,
 ) -> list[fmpq_mpoly] | None:
-    """Return polynomials m_k of at most this degree with sum_k m_k f_k = consequence, or None if there are
-    none."""
+    """Return polynomials m_k of at most this degree with sum_k m_k f_k = ``consequence``, where f_k are the
+    ``members``. Return None if there are no such polynomials."""
     monomials = [plain.one]
     frontier = [plain.one]
     for _ in range(degree):

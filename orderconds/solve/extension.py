@@ -5,8 +5,8 @@ elementary weight of the tree t. The extension has order q if, for each p and fo
 nodes, sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) if |t| = p, and 0 otherwise. For each p these equations are a
 linear system, and the program computes the solution of least norm. If the first stage value is f(y_0), the
 program chooses beta_1 such that the derivative at theta = 0 is f(y_0). It then changes the coefficients of
-the last powers such that b_i(1) = b_i. If, in addition, the last stage value is f(y_1) and q > 1, it changes
-these coefficients such that the derivative at theta = 1 is f(y_1). All changes belong to the kernel of the
+the highest powers of theta such that b_i(1) = b_i. If, in addition, the last stage value is f(y_1) and q > 1,
+the change also makes the derivative at theta = 1 equal to f(y_1). All changes belong to the kernel of the
 linear system.
 """
 
@@ -29,8 +29,8 @@ Rows = list[list[Element]]
 
 
 def extended(tableau: Tableau, order: int | None = None) -> Tableau:
-    """Return a tableau with a continuous extension of an order, by default of the highest order for which
-    there is one.
+    """Return the tableau with a continuous extension of the given order. By default, the order is the highest
+    order for which an extension exists.
 
     Raises :class:`~orderconds.errors.TableauError` if there is no extension of this order, or for a tableau
     that is not an exact Runge-Kutta method.

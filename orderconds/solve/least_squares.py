@@ -66,13 +66,16 @@ def _squares(values: Floats) -> Floats:
 def _solved(normal: Floats, right: Floats) -> Floats:
     try:
         return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
-    except np.linalg.LinAlgError:  # At least one matrix is singular. The damping is increased at all points.
+    except np.linalg.LinAlgError:
+        # At least one matrix is singular, but numpy does not report which one. The damping is therefore
+        # increased at all points.
         eye = np.eye(normal.shape[1]) * 1e-9 * (1 + np.trace(normal, axis1=1, axis2=2))[:, None, None]
         return np.asarray(np.linalg.solve(normal + eye, right), dtype=np.float64)
 
 
 def rank(jacobian: Floats, tolerance: float = 1e-7) -> int:
-    """Return the numerical rank of one Jacobian. The rows are first scaled to length one.
+    """Return the numerical rank of one Jacobian. The rows are first scaled to length one. Therefore the rank
+    does not depend on the scale of each residual.
 
     >>> rank(np.array([[1.0, 0.0], [1e6, 0.0]]))
     1

@@ -25,8 +25,8 @@ class Constraint:
     form: Affine
 
     def expanded(self, sums: Mapping[str, Sequence[str]]) -> Constraint:
-        """Return the constraint in which each name in ``sums`` is replaced by the sum of the names listed for
-        it."""
+        """Return the constraint in which each name that is a key of ``sums`` is replaced by the sum of the
+        names in ``sums[name]``."""
         form: dict[str, Fraction] = {}
         for name, factor in self.form.items():
             for summand in sums.get(name, (name,)):

@@ -17,7 +17,8 @@ from orderconds.solve.linear import named, zero
 from orderconds.solve.spec import Spec, refuse
 
 CENTRE = {"A": -0.8, "B": 0.25}
-"""The centre of the random starts. The coefficients of published schemes are near these values."""
+"""The values of A_i and B_i near which the random starts are drawn. The coefficients of published schemes are
+near these values."""
 
 
 def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 MAX_STEPS = 400
 RESTORED = 1e-12
 ENOUGH = 1e-7
-"""The minimisation ends if the relative decrease of the principal error is below this value
-:data:`PATIENCE` times in a row."""
+"""The minimisation ends if the relative decrease of the principal error is below this value in
+:data:`PATIENCE` successive accepted steps."""
 PATIENCE = 12
 
 

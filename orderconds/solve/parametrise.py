@@ -187,7 +187,8 @@ def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
     """Return formulas for the sums a_ij of the exponents of each stage, and for the last exponent of each
-    stage. The formulas give the stages the required abscissae."""
+    stage. With these formulas, the stages have the abscissae that :mod:`orderconds.solve.abscissae`
+    requires."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -209,7 +210,8 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return A and b of the Gauss tableau as text. Row i of A is the sum of the exponents of stage i."""
+    """Return A and b of the Gauss tableau as text. The constraints of :func:`_totals` make row i of A the sum
+    of the exponents of stage i."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
@@ -236,7 +238,8 @@ def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
     """Return formulas for the sums x_ij of the exponents of each stage, and for the last exponent of each
-    stage. The formulas give the stages the required abscissae."""
+    stage. With these formulas, the stages have the abscissae that :mod:`orderconds.solve.abscissae`
+    requires."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -293,7 +296,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The middle step is the last name, so that the constraint on the sum of the steps determines it.
+    # The constraint on the sum of the steps determines the last name in this order, which is the middle step.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)

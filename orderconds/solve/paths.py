@@ -55,8 +55,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return pairs of stages that branch off a symmetric update, each with at most ``inner`` exponentials of
-    its own.
+    """Return stages that branch off a symmetric update. Each stage has at least one exponential that does not
+    belong to the update.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update

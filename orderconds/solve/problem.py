@@ -28,7 +28,8 @@ SMALLEST = 0.01
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations of one search. Equal problems in one process use the same compiled programs.
+    """The equations of one search. Use :func:`find_problem` to create a problem: the function returns the
+    same object for equal arguments, and its programs are then compiled only once.
 
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
@@ -86,7 +87,7 @@ class Problem:
 
     def _read(self, method: Method, ring: Ring) -> Method:
         """Return the method whose coefficients occur in the conditions of the search. If the ansatz is
-        ``abelian``, this is the tableau on an abelian group."""
+        ``abelian``, this method is the tableau to which ``method`` reduces on an abelian group."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method
@@ -149,8 +150,8 @@ class Problem:
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
-        """Return random points near the point at which all weights are equal and other coefficients are
-        zero."""
+        """Return random points near the centre of the ansatz. If the ansatz has no centre, the points are
+        near the point at which all weights are equal and all other coefficients are zero."""
         free = self.ansatz.free
         if self.ansatz.centre is not None:
             centre = np.array([self.ansatz.centre[name] for name in free])
@@ -162,7 +163,8 @@ class Problem:
 
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
-    """Return the problem. In one process, calls with equal arguments return the same object.
+    """Return the problem with these arguments. In one process, calls with equal arguments return the same
+    object.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

@@ -34,8 +34,9 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class SearchResult:
-    """The result of a search. Either ``tableau`` is a method and ``certificate`` its certificate, or
-    ``impossible`` is a proof that there is no such method, or all three are empty.
+    """The result of a search. There are three cases. If a method was found, ``tableau`` is the method and
+    ``certificate`` its certificate. If it was proved that there is no method, ``impossible`` is the proof.
+    Otherwise, ``tableau`` and ``impossible`` are None.
 
     ``best_residual`` is the least norm of the residuals of all starts, ``tried`` has one line for each
     structure that was tried. The truth value of a result is True if a tableau was found.

@@ -2,9 +2,8 @@
 batches run in one process, in several processes, or on a cluster.
 
 The result of a batch depends only on the problem, the seed and the number of the batch, and batches are
-evaluated in the order of their numbers. Therefore the result does not depend on the number of processes, and
-an interruption does not change it. A worker process receives only strings and numbers, and compiles the
-programs itself.
+evaluated in the order of their numbers. Therefore the number of processes and interruptions do not change the
+result. A worker process receives only strings and numbers, and compiles the programs itself.
 """
 
 from __future__ import annotations
@@ -35,8 +34,8 @@ POLISHED = 1e-11
 """A residual norm below which a point counts as a solution."""
 
 KEPT = 4
-"""Two numbers: how many solutions of one batch are kept, and for how many solutions of one batch the
-principal error is minimised.
+"""The number of solutions of one batch that are kept. If the principal error is minimised, it is minimised
+for only this number of solutions of the batch.
 """
 
 

@@ -34,7 +34,8 @@ class Spec:
 
 
 def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
-    """Raise :class:`~orderconds.errors.InputError` for an option that the family does not have.
+    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``, which do not
+    exist in this family.
 
     >>> refuse("rk", Spec(stages=2), ("rkn",))
     """

@@ -35,7 +35,7 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """The degree of a root operation."""
+    """The degrees of the roots, if the operations of the level compute roots."""
 
 
 class Tape:

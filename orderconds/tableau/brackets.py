@@ -53,7 +53,7 @@ Combination = tuple[tuple[Term, Element], ...]
 
 
 def parse(text: str, where: str) -> Term:
-    """Read a term; raise a :class:`TableauError` that names the place ``where`` if the term is malformed.
+    """Read a term. If the term is malformed, raise :class:`TableauError` with ``where`` in its message.
 
     >>> parse("[2,1]", "exponents")
     Bracket(left=1, right=0)
@@ -95,7 +95,7 @@ def leaves(term: Term) -> Iterator[int | str]:
 
 
 def has_product(term: Term) -> bool:
-    """Return True if a term of a linear combination contains a product.
+    """Return True if a term contains a product, also inside brackets.
 
     >>> has_product(parse("[1,2]", "")), has_product(parse("[1,2*3]", ""))
     (False, True)
@@ -106,8 +106,8 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that maps a term to the least and the greatest number of nodes in the products of its
-    expansion.
+    """Return a function that maps a term to two numbers. If the term is expanded into products of nodes,
+    these are the least and the greatest number of factors in a product.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)

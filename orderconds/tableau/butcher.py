@@ -22,10 +22,11 @@ BETWEEN = 10.0
 """The space between two columns of an array in points."""
 
 SPACED = r" \\[2pt] "
-"""The end of a row. Without space, fractions of neighbouring rows touch."""
+"""The LaTeX code that ends a row and adds vertical space. Without this space, fractions of neighbouring rows
+would touch."""
 
 NARROWER = r"\!"
-"""A negative space at both sides of an entry."""
+"""The LaTeX code of a negative space. It is placed at both sides of each entry if an array is too wide."""
 
 CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 
@@ -33,8 +34,8 @@ CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 def tableau_latex(tableau: Tableau) -> str:
     r"""Return LaTeX of the Butcher array or, for other methods, of the equations that define the method.
 
-    The formula fits in a column of a two-column article. The columns of a wide array are set closer. If the
-    array is still too wide, its rows are printed as equations.
+    The formula fits in a column of a two-column article. In a wide array the space between the columns is
+    reduced. If the array is still too wide, its rows are printed as equations.
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
@@ -66,7 +67,8 @@ def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> 
 
 
 def tableau_html(tableau: Tableau) -> str:
-    """Return a table in HTML that needs no LaTeX.
+    """Return the Butcher array as an HTML table without LaTeX. For a method without a Butcher array, return
+    equations in LaTeX.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau_html(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])).count("<td")

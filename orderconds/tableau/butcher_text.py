@@ -1,4 +1,4 @@
-"""A Butcher tableau as text: c and A, a rule, and b, with exact entries."""
+"""A Butcher tableau as text: the columns c and A, a horizontal line, and the row b below the line."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ DIGITS = 24
 def butcher_text(tableau: Tableau) -> list[str]:
     """Return the lines of the Butcher tableau. Decimals have about twenty digits and end with "~".
 
-    A composition is printed as the Runge-Kutta method that it is for the implicit midpoint rule, and a
-    commutator-free method as its Runge-Kutta method on vector spaces. Embedded
+    For a composition, the tableau of the composition of implicit midpoint rules is printed. For a
+    commutator-free method, the tableau to which the method reduces on vector spaces is printed. Embedded
     weights are not printed. Raises :class:`orderconds.errors.TableauError` for a splitting and for a Magnus
     method.
 
@@ -57,5 +57,6 @@ def entry(tableau: Tableau, x: Element) -> str:
     text = SHORT.text(SHORT.enclose(x.value) + 0)
     if len(text) <= DIGITS:
         return text
-    # The sum of rounded numbers can have more zeros than digits that are correct.
+    # If a sum of rounded numbers is near zero, its text contains many zeros and is too long. The format ``g``
+    # prints such a number with an exponent.
     return f"{Decimal(text.rstrip('~')):.{DIGITS - 2}g}~"

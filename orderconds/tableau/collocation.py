@@ -14,8 +14,8 @@ mean                the mean of two of these matrices (IIID: IIIC and IIIC*; III
 Two kinds, Radau IIA and Lobatto IIIA, have an embedded method for step-size control. The embedded weights are
 those of the quadrature of order s - 1 on all nodes except one. The omitted node is the last node for Radau
 IIA and the (first) middle node for Lobatto IIIA. The update and the embedded update differ by a multiple of
-the divided difference of the stages. Radau IIA and Lobatto IIIA are collocation methods. Their stages, and
-therefore this error estimate, stay accurate for stiff equations. The stages of methods of low stage order
+the divided difference of the stages. Radau IIA and Lobatto IIIA are collocation methods. Therefore their
+stages, and this error estimate, stay accurate for stiff equations. For methods of low stage order, both would
 lose accuracy.
 
 All coefficients are computed: the nodes are algebraic numbers, and the other coefficients follow from them by
@@ -49,8 +49,10 @@ class Nodes:
     """The nodes c in ascending order, as elements of one number field, with their weights and Lagrange
     polynomials.
 
-    ``left`` is true if 0 is a node, ``right`` if 1 is a node, and ends = left + right. M is the derivative of
-    order s - ends of x^(s - right) (x - 1)^(s - left); hence 0 and 1 are roots of M if they are nodes.
+    ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node. In formulas, true counts as 1 and
+    false as 0. M is the derivative of order ``s - left - right`` of the polynomial
+    ``x^(s - right) (x - 1)^(s - left)``. Hence 0 is a root of M if ``left`` is true, and 1 is a root of M if
+    ``right`` is true.
     """
 
     def __init__(self, s: int, left: bool, right: bool) -> None:
@@ -203,14 +205,14 @@ KINDS = {
 """The kinds of methods that can be constructed."""
 
 LEAST_WITH_ROW = 3
-"""The least number of stages with an embedded method."""
+"""The least number of stages for which the method has an embedded method."""
 
 
 def construct(kind: str, stages: int) -> Tableau:
     """Return the method of this kind with this number of stages. The coefficients are elements of the field
     of the nodes.
 
-    Raises :class:`UnknownName` for another kind and :class:`InputError` for too few stages, or for nodes
+    Raises :class:`UnknownName` for an unknown kind and :class:`InputError` for too few stages, or for nodes
     whose field has a degree above :data:`orderconds.ring.tower.MAX_DEGREE`.
 
     >>> construct("radau2a", 2).method

@@ -156,8 +156,8 @@ def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
 
 
 def _claimed(claims: object, family: str) -> dict[str, int | bool]:
-    """Return the claims by label. The value of a label is the claimed order in a family, or the truth value
-    of a property."""
+    """Return a map from labels to claims. The label of a family is mapped to the claimed order, and the name
+    of a property is mapped to its claimed truth value."""
     if isinstance(claims, numbers.Integral) and not isinstance(claims, bool):
         claims = {family: claims}
     if not isinstance(claims, Mapping):

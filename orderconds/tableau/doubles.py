@@ -21,7 +21,7 @@ from fractions import Fraction
 from orderconds.errors import TableauError
 
 UNITS = 8
-"""The default uncertainty of a double, in units of rounding (2^-53)."""
+"""The default uncertainty of a double x, in units of 2^-53 max(1, |x|)."""
 
 ROUNDING = Fraction(1, 2**53)
 """The largest relative error of rounding a number to a double."""

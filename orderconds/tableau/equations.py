@@ -51,7 +51,7 @@ part."""
 def equations(tableau: Tableau) -> str:
     r"""Return the equations that define the method, aligned at the equality signs.
 
-    A method whose equations do not fit on a page is shown by its number of stages or factors.
+    If the equations do not fit on a page, the result states only the number of stages or factors.
 
     >>> from orderconds.tableau import Tableau
     >>> print(equations(Tableau.cf([[], [["1/2"]]], [[0, 1]])))
@@ -75,7 +75,7 @@ def has_name(text: str) -> bool:
 
 
 def short_text(x: Element, tableau: Tableau) -> str:
-    """Return the text of a coefficient. A double has six digits, and the text of a ball has about
+    """Return the text of a coefficient. A double is printed with six digits. The text of a ball has about
     :data:`SHORT` characters.
 
     >>> from orderconds.tableau import Tableau

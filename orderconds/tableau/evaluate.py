@@ -105,8 +105,9 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Return the values as elements of the larger field. Each element is converted once, so that equal
-    expressions are still represented by the same object."""
+    """Return the values as elements of the field that contains all of them; ``lift`` converts an element to
+    this field. Each object is converted only once. Therefore equal expressions are still represented by the
+    same object."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 

@@ -117,7 +117,7 @@ def meant_as_tableau(path: str | Path) -> bool:
 
 
 def parsed(text: str, where: str) -> Data:
-    """Return the keys and values of TOML text; ``where`` names the text in messages.
+    """Return the keys and values of TOML text; messages call the text ``where``.
 
     >>> parsed('A = [[]]', "text")
     {'A': [[]]}
@@ -155,7 +155,7 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # The message already names the tableau and the key. This line adds the name of the file.
+    # The error already states the name of the tableau and the key. The file replaces the name of the tableau.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -284,7 +284,8 @@ def _numbers(entry: Format, where: str) -> dict[str, Definition]:
 
 
 def _rational(x: str | int, where: str) -> Fraction:
-    """Parse a rational number: either a coefficient of a minimal polynomial, or a printed decimal."""
+    """Parse a rational number: either a coefficient of a minimal polynomial, or a decimal that the source of
+    the method prints."""
     try:
         return _fraction(_parsed(x, where))
     except (TypeError, ZeroDivisionError):

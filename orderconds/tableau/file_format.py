@@ -1,9 +1,10 @@
 """The keys that all tableau formats share, the types of claims and proofs, and the reading of rows of
 coefficients.
 
-A format is read in two steps, because the ring of a tableau depends on all its coefficients: ``coefficients``
-yields the text of every coefficient with its position in the file, and ``build`` receives the value at each
-position. A position consists of a key and indices, such as ``A[2][1]``. The indices count from 1.
+A format is read in two steps, because the ring of a tableau depends on all its coefficients. First,
+``coefficients`` yields the text of every coefficient with its position in the file. When the ring is known,
+``build`` receives the value at each position. A position consists of a key and indices, such as ``A[2][1]``.
+The indices count from 1.
 """
 
 from __future__ import annotations
@@ -78,14 +79,15 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored in named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The name of the array that identifies this format. It is empty for the format that is assumed if there
-    is no identifying array."""
+    """The name of the array that identifies this format. It is empty for the default format, which is assumed
+    if no array identifies another format."""
     as_products: ClassVar[bool] = False
     """True if a file of arrays stores a tableau of this format as a list of exponentials."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return those keys of the file whose values follow from the names of the given arrays."""
+        """Return the keys and values of the file that follow from ``names``, the names of the arrays in which
+        a tableau is stored."""
         return {}
 
     def coefficients(self) -> Places:

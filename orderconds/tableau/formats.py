@@ -205,8 +205,8 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """A second update of lower order that uses the same stages. With s stages, the start s + 1 is the
-    (first) update."""
+    """A second update of lower order that uses the same stages. If the method has s stages, the start s + 1
+    means that the product is applied to the result of the first update."""
 
     order: Annotated[int, Meta(ge=1)]
 
@@ -219,8 +219,8 @@ class LowStorage(Struct, forbid_unknown_fields=True):
 
 
 class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "cf"``: the file contains either stages and an update, or a low-storage scheme, which is
-    converted to stages and an update when the file is read.
+    """``family = "cf"``: the file contains either stages and an update, or a low-storage scheme. Such a
+    scheme is converted to stages and an update when the file is read.
 
     ``embedded`` is a second update that uses the same stages.
     """

@@ -62,8 +62,8 @@ class Name(Struct, frozen=True, cache_hash=True):
 
 
 class Chain(Struct, frozen=True, cache_hash=True):
-    """Operands that are combined from left to right by ``operators``. The operators are either all + or -, or
-    all * or /.
+    """Operands that are combined from left to right by ``operators``. A chain does not mix the two groups of
+    operators: + and -, * and /.
 
     All operands are stored in one list. The nesting depth of an expression is therefore the nesting depth of
     its parentheses.

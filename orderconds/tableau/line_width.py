@@ -62,9 +62,9 @@ class _Reader:
         self.position = 0
 
     def formula(self, scale: float = 1.0) -> float:
-        """Return the width from the current token to the end of its group in braces or, outside of braces, to
-        the end of the formula. ``scale`` is the size of the font relative to normal text. It is smaller in
-        numerators, indices and exponents."""
+        """Return the width of the part of the formula that begins at the current token. This part ends at the
+        end of the current group in braces or, outside of braces, at the end of the formula. ``scale`` is the
+        size of the font relative to normal text; the font is smaller in numerators, indices and exponents."""
         total = 0.0
         while self.position < len(self.tokens):
             token = self._next()
@@ -110,7 +110,8 @@ def at_top(latex: str, token: str) -> bool:
 
 
 def with_small_fractions(latex: str) -> str:
-    r"""Return a formula in which the fractions outside of braces are small also in a displayed formula.
+    r"""Return a formula in which fractions outside of braces are small. Without this change, LaTeX would
+    print them large in a displayed formula.
 
     >>> print(with_small_fractions(r"\frac{\frac{1}{2} + x}{3}"))
     \tfrac{\frac{1}{2} + x}{3}
@@ -145,7 +146,8 @@ def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
 
 
 def separated(entries: Sequence[str], opening: str = "(", closing: str = ")") -> list[str]:
-    """Return a list of entries in brackets, divided into parts. A line may be broken between two parts.
+    """Return the parts of the text of a list in brackets, one part for each entry. A line may be broken
+    between two parts.
 
     >>> separated(["1", "2"])
     ['(1, ', '2)']

@@ -90,7 +90,8 @@ def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
 def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
     """Return True if the method is symmetric: a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3).
 
-    The test does not permute the stages.
+    The stages are compared in the given order. The test does not recognise a method that is symmetric only
+    after a permutation of its stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))

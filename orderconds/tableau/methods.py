@@ -176,7 +176,7 @@ class Composition:
     first.
 
     ``base`` is ``"symmetric-2"``: the basic method is any symmetric method of order 2. If the composition is
-    read as a Runge-Kutta method, the basic method is the implicit midpoint rule.
+    converted to a Runge-Kutta method, the basic method is the implicit midpoint rule.
     """
 
     base: str

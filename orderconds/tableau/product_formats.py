@@ -85,7 +85,8 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "splitting"``: flows of named parts; ``rkn`` names the part V if [V,[V,[V,T]]] = 0."""
+    """``family = "splitting"``: flows of named parts; ``rkn`` is the name of the part V if [V,[V,[V,T]]] =
+    0."""
 
     parts: list[str]
     step: list[tuple[str, Coefficient]]
@@ -133,8 +134,8 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     """``family = "magnus"``: nodes c, and exponents as tables of brackets. Nodes are counted from 1.
 
-    ``elements`` names Lie elements, to which later elements and the exponents may refer; ``map`` is ``exp``
-    or ``cay``.
+    ``elements`` defines Lie elements with names. Later elements and the exponents may contain these names.
+    ``map`` is ``exp`` or ``cay``.
     """
 
     c: list[Coefficient]
@@ -149,8 +150,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check that terms are brackets of nodes and of earlier elements. Terms may be products only if the
-        map is cay."""
+        """Check that every term is a node, an earlier element, or a bracket of such terms. Products of terms
+        are allowed only if the map is ``cay``."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []

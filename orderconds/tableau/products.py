@@ -1,6 +1,6 @@
 """Methods that are products of flows or of exponentials of Lie elements: splittings, compositions, Magnus.
 
-In every product the first factor acts first.
+Each product is stored as a sequence in which the first factor acts first.
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ class AdjointComposition:
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
         """Return the tableau with the explicit Euler method as Phi and the implicit Euler method as Phi*.
 
-        Phi_{alpha h} Phi*_{beta h} evaluates f once: b_i = beta_i + alpha_i, a_ii = beta_i, a_ij = b_j for
-        j < i (HLW, Section II.4).
+        Phi_{alpha h} Phi*_{beta h} evaluates f at only one argument, which is the stage of this pair. Hence
+        b_i = beta_i + alpha_i, a_ii = beta_i, a_ij = b_j for j < i (HLW, Section II.4).
         """
         b = tuple(y + x for x, y in zip(self.alpha, self.beta, strict=True))
         A = tuple((*b[:i], y, *((ring.zero,) * (self.s - i - 1))) for i, y in enumerate(self.beta))
@@ -142,14 +142,16 @@ class Magnus:
         )
 
     def words(self, ring: Ring) -> tuple[NodeSeries, ...]:
-        """Return each exponent as words of nodes in the order of action, nodes counted from 0."""
+        """Return each exponent as a combination of words of nodes. The nodes of a word are in the order of
+        action and are counted from 0."""
         named: dict[str, NodeSeries] = {}
         for name, combination in self.elements:
             named[name] = expand(combination, named, ring)
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
     def extents(self) -> tuple[tuple[int, int], ...]:
-        """Return for each exponent the least and the greatest number of nodes in its products."""
+        """Return two numbers for each exponent: the least and the greatest number of factors in the products
+        of nodes to which the exponent expands."""
         extent = extents(dict(self.elements))
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 

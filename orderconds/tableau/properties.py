@@ -56,7 +56,7 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
 
 def low_storage(tableau: Tableau) -> Rewriting | None:
     """Return the scheme with two registers (2N) that is equal to the method, or the reason why there is none.
-    For formats other than tableaux (A, b) and commutator-free methods, return None.
+    Return None for a method that is neither a tableau (A, b) nor a commutator-free method.
 
     If the rounded decimals of the file have a ``[proof]``, and the method is a 2N scheme for all values of
     these decimals, ``holds`` is True.

@@ -26,8 +26,8 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""The number of bits of a random number. The degree D in the bound above is far below 2^40, because the size
-of values is bounded."""
+"""The number of bits of a random number. The degree D in the bound D / 2^128 is far below 2^40, because the
+size of all intermediate values is limited."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """The errors that are raised if a random method cannot be evaluated, because numbers grow too large or a
@@ -41,15 +41,15 @@ class RandomMember(Rationals):
         self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))
 
     def variable(self, constant: Constant) -> fmpq:
-        """Return the random number for a decimal."""
+        """Return the random number that replaces a decimal."""
         return self._drawn(f"decimal {constant.value} {constant.unit}")
 
     def root(self, x: fmpq, index: int) -> fmpq:
-        """Return the random number for this root."""
+        """Return the random number that replaces the root of x with this index."""
         return self._drawn(f"root {index} {x}")
 
     def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> fmpq:
-        """Return the random number for this name."""
+        """Return the random number that replaces the root with this name."""
         return self._drawn(f"named {name}")
 
     def size(self, x: fmpq) -> int:

@@ -227,8 +227,9 @@ defined under numbers (none)
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
         """Return the same method with coefficients in another ring.
 
-        ``convert`` maps one coefficient. By default it is the embedding of the tableau's ring in ``ring``.
-        Raises TypeError if there is no embedding (:func:`orderconds.ring.embed.embedding`).
+        The function ``convert`` converts one coefficient to ``ring``. By default it is the embedding of the
+        tableau's ring in ``ring``. Raises TypeError if there is no embedding
+        (:func:`orderconds.ring.embed.embedding`).
         """
         if convert is None:
             from orderconds.ring.embed import embedding
@@ -260,9 +261,9 @@ defined under numbers (none)
         """Return the method, converted to the first of these formats to which a conversion exists; None if
         there is no conversion.
 
-        Every tableau has the format of its file. A composition of a symmetric method can be converted to
-        ``rk`` as a composition of midpoint rules. A composition of an adjoint pair can be converted to ``rk``
-        as a composition of Euler methods, and to ``splitting``.
+        No conversion is needed if the format of the file is wanted. A composition of a symmetric method can
+        be converted to ``rk`` as a composition of midpoint rules. A composition of an adjoint pair can be
+        converted to ``rk`` as a composition of Euler methods, and to ``splitting``.
         """
         method = self.method
         for wanted in formats:
@@ -359,8 +360,9 @@ def _with_embedded_order(data: Data, name: str) -> Tableau:
 
 
 def _above(module: str) -> ModuleType:
-    """Return a module of a layer above this one. Python users call most functions of the package through this
-    class. Therefore a few methods of the class need functions of higher layers."""
+    """Return a module of a layer above this one. Python users call most functions of the package through
+    :class:`Tableau`. Therefore a few methods of this class need functions of higher layers, which this module
+    cannot import at its start."""
     return import_module(f"orderconds.{module}")
 
 
@@ -373,4 +375,5 @@ def _flows(method: Method, ring: Ring) -> Method | None:
 
 
 READINGS: dict[str, Callable[[Method, Ring], Method | None]] = {"rk": _composed, "splitting": _flows}
-"""For each file format, a function that converts a method to this format, or returns None if it cannot."""
+"""For each file format, a function that converts a method to this format. It returns None if there is no such
+conversion."""

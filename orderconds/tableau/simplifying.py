@@ -75,7 +75,7 @@ def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
 
 
 def _simplifies(algebra: NodalAlgebra, m: int) -> bool:
-    """Return True if C(m) and D(m) hold over Q."""
+    """Return True if C(m) and D(m) hold. The test uses only polynomials with rational coefficients."""
     stages = range(int(algebra.modulus.degree()))
     powers = [fmpq_poly([0] * k + [1]) % algebra.modulus for k in range(max(m + 1, len(stages)))]
     for k in range(1, m + 1):

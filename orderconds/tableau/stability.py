@@ -92,7 +92,8 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
 
 
 def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
-    """Return the result of :func:`stability` for midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
+    """Return the result of :func:`stability` for a composition of midpoint rules with step sizes gamma_i h.
+    Its stability function is R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
     |R| = 1 on the imaginary axis and at infinity. A negative gamma_i gives a pole in the left half plane. If
     another step size is equal to -gamma_i, the factor of that step size cancels this pole.
@@ -238,8 +239,9 @@ def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
 
 
 def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
-    """Return True if |R(iy)| <= 1 for all real y. For this test, E is a polynomial in x = y^2. The result is
-    True if E is zero, or if its leading coefficient is positive and no zero x > 0 has odd multiplicity.
+    """Return True if |R(iy)| <= 1 for all real y. For R = P/Q, let E be |Q(iy)|^2 - |P(iy)|^2 as a polynomial
+    in x = y^2. The result is True if E is zero, or if its leading coefficient is positive and no zero x > 0
+    has odd multiplicity.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))
@@ -285,7 +287,8 @@ def _changes(values: Sequence[Element], ring: SignedRing) -> int:
 
 
 def _squarefree(p: Polynomial, ring: Ring) -> list[Polynomial]:
-    """Return f_1, f_2, ... with p = f_1 f_2^2 f_3^3 ..., up to constants (Yun 1976)."""
+    """Return square-free polynomials f_1, f_2, ... with p = f_1 f_2^2 f_3^3 ..., up to a constant factor (Yun
+    1976)."""
     common = _gcd(p, _derivative(p, ring), ring)
     rest = _quotient(p, common, ring)
     factors = []

@@ -13,9 +13,9 @@ from orderconds.tableau.record import Tableau
 
 
 def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
-    """Return the tableau with this uncertainty of its doubles, in units of rounding
-    (:data:`orderconds.tableau.doubles.UNITS`). Other coefficients do not change. If the uncertainty is None,
-    the tableau does not change.
+    """Return the tableau, in which every double has the uncertainty ``units`` (measured as
+    :data:`orderconds.tableau.doubles.UNITS`). Other coefficients do not change. If ``units`` is None, the
+    tableau does not change.
 
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.1d"]]\\nb = ["1"]'
     >>> wide = with_tolerance(Tableau.loads(text), 2**43)
@@ -38,7 +38,7 @@ def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
 
 
 def _scaled(x: Expression, units: Fraction) -> Expression:
-    """Return an expression in which every double has this uncertainty."""
+    """Return the expression in which every double has the uncertainty ``units``."""
     if isinstance(x, Constant):
         return Constant(x.value, radius(x.value, units)) if x.is_double else x
     if isinstance(x, Chain):

@@ -3,13 +3,14 @@
 The state Y and one element K of the Lie algebra are all that a step stores (Williamson, J. Comput. Phys. 35
 (1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). As a commutator-free method a 2N scheme
 has one exponential for each stage, and each stage begins where the previous stage ended. On a vector space, a
-2N scheme is a Runge-Kutta method. The rows i and i + 1 of A differ by B_i K_i, where b counts as row s + 1.
+2N scheme is a Runge-Kutta method. Row i + 1 of A minus row i is B_i K_i, as a combination of F_1, ..., F_s;
+here b counts as row s + 1.
 
 The recognition compares the increment from each stage to the next, or to the update, with B_i K_i, where K_i
 = F_i + sum_{j < i} A_{j+1} ... A_i F_j. The coefficient of F_i in an increment is B_i, and A_i is the
-quotient of the coefficients of F_{i-1} and F_i. If B_i is zero, a later increment gives A_i. At the end the
-scheme is expanded and compared with every coefficient of the tableau, so that the result does not rely on the
-quotients alone.
+quotient of the coefficients of F_{i-1} and F_i. If B_i is zero, a later increment gives A_i. At the end, the
+increments of the scheme are compared with those of the tableau. This is necessary because the quotients use
+only some of the coefficients.
 """
 
 from __future__ import annotations
@@ -99,10 +100,11 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
 
 
 def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | None:
-    """Return the exponent of the one exponential that leads from the update to the second update; None if
-    the second update is another product.
+    """Return the last exponent of the second update if the second update is the update followed by one
+    exponential. Otherwise, return None.
 
-    With the exponent sum_i D_i F_i, a third register E <- E + D_i F_i holds all that the second update needs.
+    Let this exponent be sum_i D_i F_i. The second update then needs only one additional register, E <- E +
+    D_i F_i.
 
     >>> from orderconds.tableau import Tableau, find
     >>> pair = Tableau.load(find("cf43"))
@@ -115,8 +117,8 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
 
 
 def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
-    """Return A_i (i counts from 0). The result is a :class:`Rewriting` if no A_i exists because a denominator
-    is zero, and if a rounded denominator may be zero."""
+    """Return A_i (i counts from 0). In two cases the result is a :class:`Rewriting` with a reason: a
+    denominator is zero and there is no A_i, or a rounded denominator may be zero."""
     above = ""
     for m in range(i, len(rows)):
         denominator = rows[m][i]
@@ -132,12 +134,13 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"the denominator of A_{i + 1} is zero: in the increment of stage {m + 1}, the coefficient "
                 f"of k_{i + 1} is 0, but the coefficient of k_{i} is {ring.text(rows[m][i - 1])}"
             )
-    # No later stage contains F_{i-1}, so that any A_i would do.
+    # If ``above`` is empty, no increment from number i on contains F_{i-1}. Every value of A_i is then
+    # correct, and zero is returned.
     return Rewriting(False, reason=above) if above else ring.zero
 
 
 def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
-    """Compare every coefficient of the scheme with those of the tableau."""
+    """Compare every coefficient of the scheme with the corresponding coefficient of the method."""
     holds: Verdict = True
     for i, (row, expected) in enumerate(zip(rows, scheme.increments(ring), strict=True)):
         for j, (x, y) in enumerate(zip(row, expected, strict=True)):
@@ -153,8 +156,8 @@ def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
 
 
 def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
-    """Return the differences of successive rows, which are the rows of A followed by b. If the first stage is
-    not the start value, return a text that says so."""
+    """Return the differences of successive rows, where the rows are those of A, followed by b. If the first
+    stage is not the start value, return a text that says so."""
     if any(ring.is_zero(x) is False for x in method.A[0]):
         return "the first stage is not the start value"
     rows = (*method.A, method.b)

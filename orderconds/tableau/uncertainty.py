@@ -19,9 +19,10 @@ the end points of a ball are rounded."""
 def uncertainty(tableau: Tableau, bits: int) -> str:
     """Return the largest radius of those coefficients that are less accurate than a format of ``bits`` bits.
 
-    A coefficient is less accurate if its ball is wider than the error of one rounding to ``bits`` bits. The
-    result is a decimal of two digits. It is empty if all coefficients are exact or accurate enough. A double
-    is always accurate enough, because generated code contains the double without further rounding.
+    A coefficient counts as less accurate if the radius of its ball is larger than the error of one rounding
+    to ``bits`` bits. The result is a decimal of two digits. It is empty if all coefficients are exact or
+    accurate enough. A double is always accurate enough, because generated code contains the double without
+    further rounding.
 
     >>> from orderconds.tableau import find
     >>> uncertainty(Tableau.load(find("rk4")), 53)

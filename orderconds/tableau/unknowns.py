@@ -93,7 +93,7 @@ class SymbolicCoefficients(Struct, frozen=True):
     build: Callable[[Mapping[str, Element], Ring], Built]
 
     def method(self, ring: RootedRing, known: Mapping[Constant, Element]) -> Built:
-        """Return the method with the given values for its decimals."""
+        """Return the method in which the decimals of the file have the values ``known``."""
         values = evaluate_in(_Substituted(ring, known), self.expressions, self.numbers, self.where)
         return self.build(values, ring)
 
@@ -135,5 +135,6 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # Some rings (jets, residues) do not define the size of an element. The size is not limited there.
+        # Some rings (jets, residues) do not define the size of an element. In these rings the size is not
+        # limited, and 0 is returned.
         return 0 if size is None else int(size(x))

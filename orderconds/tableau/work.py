@@ -1,12 +1,12 @@
 """The cost of a step in each family: field evaluations, exponentials and brackets.
 
-A field evaluation is counted for each stage on which the update depends. Stages that only the error
-estimate uses are not counted. An explicit first-same-as-last method evaluates its last stage for the next
-step, in place of the first stage of that step. For an implicit method, one sweep of the iteration for the
-stages is counted. Equal exponents count as one exponential. The brackets of dexpinv are counted at each
-stage, without simplification. At a stage that is equal to the start value, the argument of dexpinv is zero,
-and no bracket is needed. For a Magnus method the brackets are the different commutators in its exponents, and
-a Cayley transform counts as an exponential.
+A field evaluation is counted for each stage on which the update depends. Stages that only the error estimate
+uses are not counted. An explicit first-same-as-last method evaluates its last stage for the next step, in
+place of the first stage of that step. For an implicit method, the counts are for one iteration, which
+evaluates each stage once. Equal exponents count as one exponential. The brackets of dexpinv are counted at
+each stage, without simplification. At a stage that is equal to the start value, the argument of dexpinv is
+zero, and no bracket is needed. For a Magnus method the brackets are the different commutators in its
+exponents, and a Cayley transform counts as an exponential.
 """
 
 from __future__ import annotations
@@ -71,8 +71,8 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
 
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a step of a Crouch-Grossman method, which has one exponential for each coefficient
-    of the Butcher tableau.
+    """Return the cost of a step of a Crouch-Grossman method, which has one exponential for each non-zero
+    coefficient of the Butcher tableau.
 
     >>> from orderconds.tableau import find
     >>> crouch_grossman_work(Tableau.load(find("cg3")))
@@ -137,7 +137,7 @@ def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
     while waiting:
         stage = waiting.pop()
         rows += stage.exponentials
-        # The product of a stage may start from an earlier stage.
+        # The product of a stage may start from an earlier stage. This earlier stage is then needed, too.
         further = _used(stage.exponentials, ring) | ({stage.start} if stage.start is not None else set())
         waiting += [method.stages[j] for j in sorted(further - reached)]
         reached |= further
@@ -145,7 +145,7 @@ def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
 
 
 def _used(rows: Iterable[Sequence[Element]], ring: Ring) -> set[int]:
-    """Return the indices i for which at least one row has a non-zero entry i."""
+    """Return the indices of the columns in which at least one row has a non-zero entry."""
     return {j for row in rows for j, x in enumerate(row) if ring.is_zero(x) is not True}
 
 
@@ -178,7 +178,8 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of brackets of dexpinv: the highest power k up to ``cutoff`` with B_k != 0."""
+    """Return the number of nested brackets in dexpinv. It is the highest power k <= ``cutoff`` with a
+    Bernoulli number B_k != 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

@@ -1,4 +1,4 @@
-"""Conversion of a tableau to a tableau file. If the file is read, the result is the same tableau."""
+"""Conversion of a tableau to a tableau file. Reading this file gives the same tableau again."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ class _Radicals:
 
 
 def _named_roots(tableau: Tableau) -> Data:
-    """Return the named numbers that the texts of field elements refer to."""
+    """Return the named numbers whose names occur in the texts of field elements."""
     return {
         name: {"minpoly": list(minpoly), "near": near}
         for name, minpoly, near in getattr(tableau.ring, "named_roots", ())

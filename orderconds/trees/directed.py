@@ -109,7 +109,8 @@ def directed_rooted_trees_in_turn(vertices: int) -> Iterator[DirectedTree]:
 
 
 def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
-    """Return every free tree with directed edges exactly once. Its root is chosen by :func:`representative`.
+    """Return every free tree with directed edges exactly once. The function :func:`representative` chooses
+    the root of each tree.
 
     >>> [text(tree) for tree in directed_free_trees(3)]
     ['[..]', '[^.^.]', '[[.]]']
@@ -165,7 +166,8 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the vertices, by index in preorder, that give the simplest rooted trees."""
+    """Return the indices, in preorder, of those vertices that give the simplest rooted trees if they are
+    chosen as root."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])
@@ -173,7 +175,7 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        hats[place] = hats[parents[place]] + 1 - 2 * kind  # Only this edge changes its kind.
+        hats[place] = hats[parents[place]] + 1 - 2 * kind  # Only the edge to the parent changes its kind.
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)
     places = [place for place, n in enumerate(rare) if n == least]

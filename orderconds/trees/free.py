@@ -2,8 +2,8 @@
 
 The conditions of symplectic Runge-Kutta methods are indexed by free trees. The reason is that b_i a_ij + b_j
 a_ji = b_i b_j implies phi(u o v) + phi(v o u) = phi(u) phi(v), where o is Butcher's product (Sanz-Serna and
-Abia 1991; HLW VI.7.1). If a tree can be rooted as u o u, then phi(u o u) = phi(u)^2/2, so its condition
-follows from the condition of u. Such a tree is called superfluous.
+Abia 1991; HLW VI.7.1). If a tree can be rooted as u o u, then phi(u o u) = phi(u)^2/2. The condition of this
+tree therefore follows from the condition of u. Such a tree is called superfluous.
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@ elementary differential along another.
 Let u > v denote the graft of u onto v. Then F(u > v) is the derivative of F(v) in the direction F(u).
 Unordered trees with this product form the free pre-Lie algebra (Chapoton and Livernet 2001). For an ordered
 tree, F([t_1 ... t_k]) = X_1 ... X_k f, where X_l differentiates along the fixed element F(t_l) of the Lie
-algebra. A further derivative is written to the left of X_1. Hence ordered trees are grafted to the left of
-the existing branches (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+algebra. In a further derivative of F, the new operator is written to the left of X_1. Hence ordered trees are
+grafted to the left of the existing branches (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from orderconds.trees.levels import (
 
 
 def butcher_product(u: Tree, v: Tree) -> Tree:
-    r"""Return u o v, the tree u with v as an additional branch at the root (HLW VI.7.1). It is canonical if u
-    and v are.
+    r"""Return u o v, the tree u with v as an additional branch at the root (HLW VI.7.1). The result is
+    canonical if u and v are canonical.
 
     >>> butcher_product(b"\0\1", b"\0\1\1")
     b'\x00\x01\x02\x02\x01'
@@ -74,8 +74,9 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Return the trees in which one subword is attached to the root, left of the branches of the root, and
-    the other subword is attached to vertices of these branches."""
+    """Return the trees that result from all divisions of ``word`` into two subwords. The trees of one subword
+    are attached to the root, left of its branches; the other trees are attached to vertices of these
+    branches."""
     grafted = []
     for root, above in deshuffles(word):
         grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]

@@ -40,8 +40,8 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # The last level that can decrease is decreased. The levels after it then increase as fast as
-        # possible.
+        # The last level that can decrease is decreased. From this level on, all later levels increase as fast
+        # as possible.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

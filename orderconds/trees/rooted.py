@@ -12,8 +12,8 @@ from orderconds.trees.levels import Tree
 
 
 def rooted_trees(vertices: int) -> Iterator[Tree]:
-    """Yield every rooted tree with ``vertices`` vertices exactly once, in canonical form, from the tall tree
-    (a path) to the bushy tree (all vertices except the root are leaves).
+    """Yield every rooted tree with ``vertices`` vertices exactly once, in canonical form. The first tree is a
+    path. In the last tree, all vertices except the root are leaves.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in rooted_trees(4)]

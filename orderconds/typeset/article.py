@@ -15,8 +15,8 @@ from orderconds.typeset.legend import legend
 
 
 def article(family: str, by_order: Sequence[Sequence[OrderCondition]], *, explain: bool = False) -> str:
-    r"""Return the conditions of a family in LaTeX. If ``explain`` is true, comments name the elementary
-    differentials.
+    r"""Return the conditions of a family in LaTeX. If ``explain`` is true, LaTeX comments state the
+    elementary differential of each condition.
 
     The first line lists the packages. The label of condition k of order n is ``FAMILY:n:k``.
 

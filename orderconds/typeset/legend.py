@@ -25,7 +25,7 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
     symbols = [x for formula in formulas for x in coefficients(formula)]
     known = families.family_class(family.partition("(")[0]).symbols
     names = list(dict.fromkeys(x.name for x in symbols))
-    # A symbol that occurs only inside the definition of another symbol is also defined.
+    # The legend also defines symbols that occur only inside the definitions of other symbols.
     used = [name for name in known if name in names]
     inner = [name for name in known if name not in used and any(_occurs(name, known[u]) for u in used)]
     defined = [known[name] for name in used]
@@ -36,8 +36,8 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
 
 
 def _range(indices: set[str]) -> str:
-    """Return a sentence that states the range of the sums. The argument contains the first character of each
-    index."""
+    """Return a sentence that states the range of the sums. ``indices`` contains the first character of each
+    index in the conditions."""
     if any(index.isupper() for index in indices):
         return " Lower-case indices run over all stages, upper-case indices over all exponentials."
     return " Sums run over all stages." if any(index.isalpha() for index in indices) else ""

@@ -51,9 +51,9 @@ def goldberg(word: str) -> Fraction:
     """Return the coefficient of a non-empty word over A and B in log(exp A exp B).
 
     For a word that begins with A and has run lengths s_1, ..., s_m, the coefficient is the integral over [0,
-    1] of t^[m/2] (t - 1)^[(m-1)/2] prod G_{s_i}(t), where G_1 = 1 and s G_s = (t (t - 1) G_{s-1})'. If A and
-    B are exchanged in a word of n letters, the coefficient is multiplied by (-1)^(n-1) (Goldberg 1956, Thm 1
-    and Cor. 2).
+    1] of t^[m/2] (t - 1)^[(m-1)/2] prod G_{s_i}(t), where [x] is the integer part of x, G_1 = 1 and s G_s =
+    (t (t - 1) G_{s-1})'. If A and B are exchanged in a word of n letters, the coefficient is multiplied by
+    (-1)^(n-1) (Goldberg 1956, Thm 1 and Cor. 2).
 
     >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0
     ('1/2', '1/12', True)
@@ -80,8 +80,8 @@ def _run_polynomial(s: int) -> UnivariatePolynomial:
 
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
-    """Return the coordinates of one multidegree, that is, for fixed numbers of letters A and B. ``words`` are
-    the Lyndon words of this multidegree in ascending order."""
+    """Return the coordinates of log(exp A exp B) at ``words``, the Lyndon words of one length in ascending
+    order. The coordinate of a word depends only on smaller words with the same numbers of letters A and B."""
     coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}
     for word in words:

@@ -1,4 +1,5 @@
-"""Compositions of an integer. They describe the divisions of a word into runs."""
+"""Compositions of an integer. A composition contains the lengths of the parts into which a word is
+divided."""
 
 from __future__ import annotations
 

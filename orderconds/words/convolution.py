@@ -2,9 +2,9 @@
 computes the value on one word.
 
 A function on words represents a series. The product of two functions is a sum over all divisions of the word
-into two parts. The first function is evaluated on the first part, which acts first, and the second function
-on the second part. Values are elements of any ring. If a function is zero on the empty word, each of its
-power series is a finite sum on every word. Hence nothing is truncated.
+into two parts. The first function is evaluated on the first part, and the second function on the second part.
+The first part acts first. Values are elements of any ring. If a function is zero on the empty word, each of
+its power series is a finite sum on every word. Hence nothing is truncated.
 """
 
 from __future__ import annotations
@@ -42,10 +42,11 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     Fraction(3, 1)
     """
     n = len(word)
-    # powers[end] is the value of f^m on the first ``end`` letters.
+    # In step m of the loop below, powers[end] is the value of f^m on the first ``end`` letters. At the start,
+    # m = 1.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
-    # Skip zeros, because most values of most series are exactly zero.
+    # Omit values that are zero, because most values of most series are zero.
     tails = [
         [(start, x) for start in range(1, end) if (x := f(word[start:end])) is not zero]
         for end in range(n + 1)

@@ -26,7 +26,8 @@ from orderconds.words.shuffle import Series, Word
 
 
 def iterated_integral(word: Word) -> Fraction:
-    """Return the value of the flow on a word: the integral of s_1^(k_1-1) ... over 0 < s_1 < ... < s_n < 1.
+    """Return the value of the flow on a word: the integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ...
+    < s_n < 1.
 
     It is the product of 1/(k_1 + ... + k_j) over j = 1, ..., n.
 
@@ -145,7 +146,7 @@ def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
 
 @lru_cache(maxsize=1 << 14)
 def _fer_field(n: int, word: Word) -> Fraction:
-    """Return the coefficient of a word in A_n, apart from its factor t^(weight - 1)."""
+    """Return the number c for which the coefficient of a word in A_n is c t^(weight - 1)."""
     if n == 1:
         return Fraction(len(word) == 1)
     result = Fraction(0)
@@ -183,7 +184,7 @@ def _adjoint_series(length: int, scale: Callable[[int], Fraction]) -> Series:
     for k in range(length):
         if factor := scale(k):
             for m in range(k + 1):
-                # ad_U^k X = sum_m (-1)^m binomial(k, m) U^(k-m) X U^m
+                # Store the terms of ad_U^k X = sum_m (-1)^m binomial(k, m) U^(k-m) X U^m.
                 binomial = factorial(k) // factorial(m) // factorial(k - m)
                 result[("U",) * (k - m) + ("X",) + ("U",) * m] = (-1) ** m * binomial * factor
     return result

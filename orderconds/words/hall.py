@@ -80,7 +80,8 @@ class HallBasis:
         return self.from_lyndon(lyndon_coordinates(element, order.__getitem__))
 
     def from_lyndon(self, coordinates: Mapping[Word, Fraction]) -> Coordinates:
-        """Return the Hall coordinates of a Lie element that is given in the Lyndon basis, such as ``bch``.
+        """Return the Hall coordinates of a Lie element that is given by its coordinates in the Lyndon basis,
+        such as a result of the function ``bch``.
 
         >>> from orderconds.words.bch import bch
         >>> {str(x): str(value) for x, value in HallBasis("AB", 2).from_lyndon(bch(2)).items()}
@@ -117,7 +118,8 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The rewriting terminates, because x < u < v.
+            # By Jacobi's identity, [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The rewriting terminates, because
+            # x < u < v.
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

@@ -57,8 +57,8 @@ def lyndon_words(
 def lyndon_factors(
     word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None
 ) -> list[tuple[Letter, ...]]:
-    """Return the non-increasing Lyndon words whose concatenation is a word (J.-P. Duval, J. Algorithms 4
-    (1983) 363).
+    """Return the non-increasing sequence of Lyndon words whose concatenation is ``word`` (J.-P. Duval, J.
+    Algorithms 4 (1983) 363).
 
     >>> ["".join(factor) for factor in lyndon_factors("BANANA")]
     ['B', 'AN', 'AN', 'A']

@@ -27,7 +27,7 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """Return a basis of the functionals on words of this length that vanish on the ideal of ``generators``.
 
     Each functional is named by one of its words. The names are different, and are Lyndon words if possible.
-    A functional contains few words besides its name.
+    No functional contains the name of another functional.
 
     >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
     >>> orthogonal([commuting], (0, 1), 2)
@@ -35,8 +35,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Pivot columns are chosen from the left. Hence the columns without pivot, whose words are the names
-        # of the functionals, are at the right.
+        # The words of the columns without pivot become the names of the functionals. Pivot columns are chosen
+        # from the left. Lyndon words are therefore at the right, so that they become names if possible.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
@@ -44,8 +44,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
 
 
 def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[Functional, ...]:
-    """Return a subset of the functionals that is linearly independent as functions on Lie elements.
-    Functionals named by Lyndon words are preferred.
+    """Return a largest subset of the functionals whose restrictions to Lie elements are linearly independent.
+    Functionals whose names are Lyndon words are preferred.
 
     >>> independent_on_lie([(((0, 1), 1),), (((1, 0), 1),)], 2)
     ((((0, 1), 1),),)

@@ -2,8 +2,8 @@
 
 Let a word have the Lyndon factors l_1^{i_1} ... l_k^{i_k}, l_1 > ... > l_k. The shuffle product of all
 factors, divided by i_1! ... i_k!, is this word plus smaller words (Reutenauer, Free Lie Algebras, Thm 6.1).
-For a product of exponentials, the value on a shuffle product is the product of the values on its factors.
-Hence the polynomials also express the value on a word in terms of the values on Lyndon words.
+The value of a product of exponentials on a shuffle product is the product of its values on the factors. Hence
+the same polynomials express the value of such a product on a word by its values on Lyndon words.
 """
 
 from __future__ import annotations

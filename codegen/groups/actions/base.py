@@ -21,7 +21,7 @@ class Action(ABC):
 
     A point y of the manifold is a flat tuple of scalars; its length may depend on the group. ``name`` is
     printed in messages and headers. ``needs`` is the capability that the formulas require of the group.
-    ``on_itself`` says that the points are elements of the group, in its coordinates.
+    ``on_itself`` is true if the points are elements of the group, in the coordinates of the group.
     :func:`codegen.groups.register` adds the class to the list of actions.
     """
 
@@ -51,7 +51,7 @@ class Action(ABC):
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations of the manifold in the coordinates of a point: pairs of a name and a residual.
 
-        The residuals vanish exactly on the manifold. By default there are no equations.
+        The residuals are zero for every point of the manifold. By default there are no equations.
         """
         return ()
 
@@ -68,7 +68,8 @@ class Action(ABC):
         """Return a point closer to the orbit of ``start`` than y. If y has the distance eps from the orbit,
         the result has the distance O(eps^2).
 
-        By default y is returned, which is correct if the orbit is open.
+        By default y is returned. This is correct if the orbit is open, because a small error does not leave
+        an open set.
         """
         return y
 

@@ -17,8 +17,8 @@ from codegen.lab.runner import RunFailed
 from codegen.lab.timing import span_times
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""Tolerances, from loose to tight. The first tolerance is looser than the first tolerance of peers, because a
-method with an error estimate of low order needs many short steps for a tight tolerance.
+"""Tolerances, from loose to tight. The first tolerance is looser than the first tolerance of peers, because
+methods with an error estimate of low order are measured, too. For a tight tolerance they need too many steps.
 """
 
 

@@ -1,5 +1,5 @@
 """The Python function that recommends a method: the fastest method of the library that reaches an error on a
-scene and satisfies the needs.
+scene and satisfies given needs (for example, that the method is symplectic).
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ class AdvisedMethod:
 
 @dataclass(frozen=True, repr=False)
 class Advice:
-    """``best`` is the fastest method, and ``runner_up`` is the second fastest method. Each of them is None if
-    no such method reaches the error. ``search`` contains all details. In an ``if`` statement, the object
-    counts as true if there is a best method.
+    """``best`` is the fastest method, and ``runner_up`` is the second fastest method. ``best`` is None if no
+    method reaches the error, ``runner_up`` is None if fewer than two methods reach the error. ``search``
+    contains all details. In an ``if`` statement, the object counts as true if there is a best method.
     """
 
     scene: str
@@ -120,7 +120,7 @@ def recommend(
 
 
 def _interval(span: object) -> tuple[Fraction, Fraction]:
-    """Return a time interval; raise InputError unless it is a pair of rational numbers."""
+    """Return a time interval; raise InputError unless ``span`` is a pair of rational numbers."""
     try:
         first, last = (Fraction(t) for t in span)  # type: ignore[attr-defined]
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):

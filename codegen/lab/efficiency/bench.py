@@ -64,7 +64,8 @@ class Result:
         """For each candidate: its name, the time of emission, and the longest time to compile the code of a
         run, in seconds.
 
-        Each form of the equations is emitted and compiled separately.
+        If a candidate was measured on several forms of the equations, there is one entry for each form,
+        because each form is emitted and compiled separately.
         """
         return tuple(
             (in_form(label, form), own[0].emit_seconds, max(r.compile_seconds for r in own))
@@ -76,7 +77,7 @@ class Result:
 @dataclass(frozen=True)
 class Bench:
     """Candidates on one scene. :meth:`run` measures the candidates and writes the results to ``folder``,
-    unless it is None.
+    unless ``folder`` is None.
     """
 
     scene: Problem
@@ -126,7 +127,7 @@ def bench(
     ``adaptive`` run with step-size control by their embedded methods. ``forms`` selects classical forms of
     the equations by their keys, for peers and for methods that integrate coordinates. By default all forms
     are measured. Names and options are checked before the first measurement (InputError). If a method cannot
-    be emitted for the scene, its only row contains the reason.
+    be emitted for the scene, the only row of this method contains the reason.
     """
     for target in targets:
         if target not in names():
@@ -184,7 +185,7 @@ def peer_forms(
 
 
 def entry_name(candidate: Candidate) -> str:
-    """Return the label of a candidate, followed by its target if this is not the default target."""
+    """Return the label of a candidate, followed by its target if the target is not the default target."""
     other = candidate.target in names() and candidate.target != DEFAULT
     return f"{candidate.label} ({candidate.target})" if other else candidate.label
 

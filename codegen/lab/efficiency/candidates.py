@@ -1,5 +1,5 @@
-"""The recipes of a scene: the methods of the library that can integrate it, with equal steps or step-size
-control.
+"""The recipes of a scene: the methods of the library that can integrate the scene, with equal steps or with
+step-size control.
 """
 
 from __future__ import annotations

@@ -49,8 +49,8 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 def is_symplectic(compiled: Compiled) -> bool:
     """Return True if steps of constant size are symplectic maps.
 
-    The result is False for methods with step-size control, because symplectic methods lose their long-time
-    behaviour with variable steps.
+    The result is False for methods with step-size control, because with variable steps symplectic methods
+    lose their good behaviour over long times.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:

@@ -41,8 +41,8 @@ class CountingDomain(FloatDomain):
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return two values: True if the iteration may end, for example because the relative change is at
-        most SETTLED; and the change. The sweep is counted."""
+        """Count one sweep. Return True if the iteration may end, for example because the relative change is
+        at most SETTLED; return also the change."""
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
         return done or change <= SETTLED * max(map(abs, old), default=0.0), change
@@ -74,7 +74,7 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("a number is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the run takes too long")
-    # An emitted program solves its equations to twice as many digits.
+    # An emitted program solves its equations to twice as many digits, so it needs about twice as many sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 

@@ -47,7 +47,7 @@ def usual_order(error: float) -> float:
 
 
 Kind = tuple[str, str, bool, bool]
-"""A kind of recipe: family, form, True if the tableau is explicit, and True if it has an error estimate for
+"""A kind of recipe: family, form, True if the tableau is explicit, and True if the recipe can also run with
 step-size control. Recipes of one kind have similar costs.
 """
 
@@ -122,8 +122,8 @@ class Jobs(Sequence[Job]):
         return recipe
 
     def _place(self, queue: Queue) -> float:
-        """Return the whole delay of a queue. It is small for queues with a fast family, few turns and a usual
-        order. The queue with the smallest delay is next.
+        """Return the whole delay of a queue. The delay is small for queues with a fast family, few turns and
+        a usual order. The queue with the smallest delay is next.
         """
         distance = min(abs(queue[1] - order) for order in self.usual)
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN

@@ -24,7 +24,8 @@ from orderconds.errors import InputError
 
 @dataclass
 class PeerCandidate:
-    """A peer on a scene. If the peer does not support the scene, its only row contains the reason.
+    """A peer on a scene. If the peer does not support the scene, the only row of the candidate contains the
+    reason.
 
     ``equations`` are the equations in one form of the scene, by default the form as printed (in the
     coordinates of the scene).

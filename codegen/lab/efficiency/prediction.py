@@ -333,9 +333,9 @@ def _reached(
 def matrix(block: Solve, widths: Mapping[Var, int], sweep: float) -> float:
     """Return the time in nanoseconds for the matrix of Newton's method and its inversion.
 
-    ``sweep`` is the time of one evaluation of the equations. The equations of different stages contain the
-    same field at different states. The matrix therefore takes only as many evaluations as the largest vector
-    of unknowns has components.
+    ``sweep`` is the time of one evaluation of the equations. All stages contain the same field, so one
+    evaluation of all equations gives one column of the derivative for every stage. Therefore the number of
+    evaluations for the matrix is the largest number of components of an unknown.
     """
     own = [widths[u] for u in block.unknowns]
     return max(own) * sweep + WEIGHTS.arithmetic * sum(own) ** 2 + WEIGHTS.cubes * sum(own) ** 3

@@ -106,8 +106,8 @@ class Result:
 
 @dataclass
 class Racer:
-    """Runs one entry. ``equations`` are the equations in the form of its recipe; ``exact`` is the reference
-    solution at the end of the span.
+    """Runs one entry. ``equations`` are the equations in the form that the recipe of the entry integrates;
+    ``exact`` is the reference solution at the end of the span.
     """
 
     equations: Equations
@@ -138,7 +138,7 @@ class Racer:
         return tuple(self.integrator.run(self.initial, h, spans * steps, self.first)), spans * steps
 
     def prepare(self, control: float) -> None:
-        """Prepare runs with a control. This time is not measured. An emitted module needs no preparation."""
+        """Do nothing: an emitted module needs no preparation before a run with another control."""
 
     def error(self, control: float) -> float:
         """Return the error of a run; infinity if the run fails."""

@@ -82,7 +82,7 @@ def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def in_form(label: str, form: str) -> str:
-    """Return the label of a candidate. If the name of a form is not empty, it follows in brackets.
+    """Return the label of a candidate. If the name of the form is not empty, this name follows in brackets.
 
     >>> in_form("heyoka", "as printed"), in_form("cf:cf4", "")
     ('heyoka (as printed)', 'cf:cf4')

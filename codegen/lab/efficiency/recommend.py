@@ -1,4 +1,5 @@
-"""The recommendation: the fastest recipe of the library that reaches an error and satisfies the needs."""
+"""The recommendation: the fastest recipe of the library that reaches the error of a request and satisfies its
+needs."""
 
 from __future__ import annotations
 
@@ -37,7 +38,7 @@ class Request:
 
     @property
     def goal(self) -> Goal:
-        """The error and the needs."""
+        """The goal of the search: the error, the needs and the largest stack memory."""
         return Goal(self.error, self.needs, self.stack)
 
     @property
@@ -73,7 +74,7 @@ class Recommendation:
     kinks: int = 0
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return the recommendation as a dictionary of plain data, which can be written as JSON."""
         asked, task = self.request, self.request.task
         return {
             "scene": asked.scene,

@@ -75,8 +75,8 @@ times.
 """
 
 Kind = tuple[str, bool, bool]
-"""A kind of recipe: its family, True if it is explicit, True if it has step-size control. Predictions of one
-kind have similar errors.
+"""A kind of recipe: its family, True if it is explicit, True if it has step-size control. Within a kind, the
+ratios of measured to predicted times are similar.
 """
 
 Key = tuple[str, str]
@@ -121,7 +121,7 @@ class Search:
         return (time.monotonic() - self.start) / self.task.budget
 
     def run(self) -> None:
-        """Predict and race."""
+        """Run both parts of the search: predict the recipes, then race them."""
         self.predict()
         self.race()
 

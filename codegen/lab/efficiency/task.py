@@ -27,10 +27,10 @@ BUDGET = 50.0
 class Task:
     """The name of a scene, and the extent of the search.
 
-    ``span`` replaces the span of the scene. ``budget`` is the longest time of the search in seconds. If
-    ``tableaux`` is not empty, only these tableaux are searched. ``methods`` contains pairs: the label of a
-    method to search, and True if the method has step-size control. If ``methods`` is empty, the library is
-    searched.
+    If ``span`` is not None, it replaces the span of the scene. ``budget`` is the longest time of the search
+    in seconds. If ``tableaux`` is not empty, only methods with these tableaux are searched. ``methods``
+    contains pairs: the label of a method to search, and True if the method has step-size control. If
+    ``methods`` is empty, all methods of the library are searched.
     """
 
     scene: str
@@ -49,7 +49,7 @@ class Task:
         return replace(self, span=(first, first + (last - first) / PARTS))
 
     def equations(self, form: str) -> Equations:
-        """Return the equations of the scene in a form."""
+        """Return the equations of the scene in the classical form with the name ``form``."""
         return _equations(self.scene, self.span, form)
 
     def recipes(self) -> list[Recipe]:
@@ -92,10 +92,11 @@ def _beginning(task: Task, form: str) -> tuple[Equations, Reference]:
 
 
 def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:
-    """Return the prediction of a recipe for the bars of its goals; runs in a worker process.
+    """Return the predicted errors and times of a recipe; this function runs in a worker process.
 
-    The prediction is for equal steps. If the recipe has step-size control and equal steps have large errors,
-    a prediction with step-size control is added. None is returned if there is no bar.
+    ``job`` contains the recipe and one bar (the largest error and time that are of use) for each goal of the
+    search. The prediction is for equal steps. If the recipe has step-size control and equal steps have large
+    errors, a prediction with step-size control is added. The result is None if there is no bar.
     """
     recipe, bars = job
     if not bars:
@@ -110,7 +111,8 @@ def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | N
 
 
 def emitted(task: Task, recipe: Recipe) -> Entry | Failed:
-    """Return a recipe as a compiled module in the cache; runs in a worker process."""
+    """Compile the module of a recipe into the cache and return the entry, or the reason why the compiler
+    refuses the recipe. This function runs in a worker process."""
     problem = task.problem()
     try:
         candidate = entry(recipe, compile_method(problem, method_of(recipe, problem), form=recipe.form))

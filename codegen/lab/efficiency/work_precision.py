@@ -23,7 +23,8 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""The largest number of repeated measurements of a run that takes longer than a run with more steps."""
+"""If a run takes longer than a run with more steps, one of the two times is probably wrong. Such runs are
+measured again, at most AGAIN times."""
 
 NEAR_ROUNDING = 1e-9
 """If the error relative to the size of the state is below NEAR_ROUNDING, rounding errors may prevent further
@@ -65,8 +66,8 @@ class Row:
 
 
 class Candidate(Protocol):
-    """A method or peer to measure. ``label`` and ``target`` are its names in tables; ``key`` identifies its
-    code.
+    """A method or peer to measure. ``label`` and ``target`` identify the candidate in tables; ``key``
+    identifies its code in the cache.
 
     ``form`` is the name of the form of the equations; '' if the scene has one form only.
     """
@@ -86,7 +87,7 @@ class Candidate(Protocol):
         """Run once for the error, then several times for the CPU time."""
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if finer runs are not needed."""
+        """Return True if runs with more steps or smaller tolerances are not needed after ``rows``."""
 
 
 def measure_rows(
@@ -99,7 +100,7 @@ def measure_rows(
     """Return the rows of a candidate; ``done`` is called with each row.
 
     Rows in ``cache`` are not measured again. The candidate is prepared only if a row is not in the cache. If
-    it cannot be prepared, the last row contains the reason.
+    the preparation fails, the last row contains the reason.
     """
     rows: list[Row] = []
     ready = False
@@ -135,8 +136,8 @@ def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collec
     """Return the rows. Some runs are measured again if the times do not increase with the number of steps.
 
     If a run took longer than a run with more steps, both runs are measured again, at most :data:`AGAIN`
-    times, and for each run the smallest time is used. Only runs whose controls are in ``fresh`` are measured
-    again.
+    times. For each run the smallest time is used. ``fresh`` contains the controls (tolerances or numbers of
+    steps) of the runs that may be measured again.
     """
     kept = list(rows)
     for _ in range(AGAIN):
@@ -170,7 +171,8 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield a single control, so that the candidate has one row, which contains the reason."""
+        """Yield a single number: the candidate is then tried once, and the row of this trial contains the
+        reason."""
         yield 0.0
 
     def prepare(self) -> None:
@@ -201,8 +203,8 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 
 
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
-    """Return True if the errors are near rounding and the last two halvings of the step size hardly reduced
-    the errors.
+    """Return True if the errors are below :data:`NEAR_ROUNDING`, relative to the size of the state, and the
+    last two halvings of the step size reduced the error by less than a factor of three.
     """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))

@@ -52,32 +52,32 @@ deviation is bounded, this ratio is at most LATE, or at most LATE_CONFINED if a 
 """
 
 LEVEL, STAYS = 0.9, 0.5
-"""A deviation saturates if it reaches LEVEL times its largest value within the first half of the record, and
-is never smaller than STAYS times the largest value afterwards.
+"""Let d be the largest deviation of the whole record. The deviation saturates if it reaches LEVEL d within
+the first half of the record, and is never smaller than STAYS d afterwards.
 """
 
 WALKING = (0.5, 1.6)
-"""Bounds of the variance ratio of a random walk. The ratio is the variance of the increments over k blocks,
-divided by k times the variance of the increments over one block. It is about 1 for a random walk, about 1/k
-for noise, and up to k for a slow modulation.
+"""Bounds of the variance ratio of a random walk. The ratio is V_k/(k V_1), where V_k is the variance of the
+increments over k blocks. The ratio is about 1 for a random walk, about 1/k for noise, and up to k for a slow
+modulation.
 """
 
 CONFINED = 0.04
-"""A bound of the following ratio: the variance of the block means, divided by the number of blocks times the
-variance of the increments between consecutive block means. The ratio is less than CONFINED for 3 % of all
-random walks, whatever their length and size."""
+"""An upper bound of the ratio V/(n D), where V is the variance of the means of n blocks, and D is the
+variance of the increments between consecutive means. The ratio is less than CONFINED for 3 % of all random
+walks, whatever their length and size."""
 
 STRAIGHT = 0.0225
-"""A bound of the ratio described at CONFINED, but with the variance of the block means about a fitted line.
-The ratio is less than STRAIGHT for 1 % of all random walks.
+"""An upper bound of the ratio V/(n D) described at CONFINED; here V is the variance of the block means about
+a fitted line. The ratio is less than STRAIGHT for 1 % of all random walks.
 """
 
 STEADY = 3.2
-"""A bound of the mean increment between the means of BLOCKS blocks, divided by its standard error. This ratio
-exceeds STEADY for 1 % of all random walks."""
+"""A lower bound of the following ratio: the mean increment between the means of BLOCKS blocks, divided by the
+standard error of this mean increment. The ratio exceeds STEADY for 1 % of all random walks."""
 
 TINY = 1e-24
-"""A variance below TINY times the square of the largest deviation consists of rounding errors."""
+"""Let d be the largest deviation. A variance below TINY d^2 is attributed to rounding errors."""
 
 FINE, NEAR, FAR = 100, 5, 20
 """For variance ratios the record is divided into FINE blocks. One ratio is computed for increments over NEAR
@@ -142,8 +142,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # If a deviation alternates and its size grows, its mean does not grow, but the deviation is not
-        # bounded.
+        # The slope of the mean is not enough: if a deviation alternates and its size grows, its mean does not
+        # grow, but the deviation is not bounded. Therefore the growth exponent is tested, too.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -152,8 +152,8 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """True if the verdict is ``drift``, ``random walk`` or ``lost``; None if the run is too short to
-        tell."""
+        """True if the verdict is ``drift``, ``random walk`` or ``lost``, False for the other verdicts, and
+        None if the run is too short for a verdict."""
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
     def as_json(self) -> dict[str, object]:
@@ -222,7 +222,8 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 
 
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
-    """Return the drift of finite values; the caller sets ``largest``, ``rounding`` and ``until``."""
+    """Return the drift for times, deviations and largest deviations that are all finite. The caller replaces
+    ``largest``, ``rounding`` and ``until`` in the result."""
     whole, scale = float(t[-1]), float(size.max()) or 1.0
     # Times and values are scaled, so that their squares do not overflow.
     t, y, size = t / whole, y / scale, size / scale

@@ -2,8 +2,8 @@
 errors.
 
 Energy, declared invariants and the manifold equations are evaluated after every step; deviations are
-relative to the size of the quantity. Reversibility is tested by a run to the end and back with -h; a
-symmetric method returns to the initial state up to rounding.
+relative to the size of the quantity. Reversibility is tested by a run to the end with the step size h,
+followed by a run back with -h; a symmetric method returns to the initial state up to rounding.
 """
 
 from __future__ import annotations
@@ -149,7 +149,8 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Return pairs: a number of steps, and the distance from the start after the run forward and back."""
+    """Return pairs: a number of steps, and the distance between the initial state and the state after this
+    number of steps forward and the same number back."""
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
         n = trajectory.counts[k]
@@ -166,11 +167,11 @@ def _kept(
 ) -> tuple[Kept, ...]:
     """Return the quantities with their drifts.
 
-    The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
-    ``changes`` contains the change of each quantity by one step in 60 digits. The deviation of any other
-    quantity counts as rounding error only if its change in ``changes`` is too small to explain the deviation.
-    If a quantity saturates within the first samples, the function calls ``early(n)``, which records the first
-    n steps with more samples.
+    The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors. For
+    any other quantity, ``changes`` contains the change by one step in 60 digits. The deviations of such a
+    quantity count as rounding errors only if this change is much smaller than one rounding error. If a
+    quantity saturates within the first samples, the function calls ``early(n)``, which records the first n
+    steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:

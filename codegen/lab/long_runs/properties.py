@@ -1,9 +1,9 @@
 """Three measured properties of a method on a scene: symplectic, symmetric, without drift of a quantity.
 
-They are the columns of Table 2.1 of H. Marthinsen's thesis. A step is symplectic if its symplectic defect
-vanishes (:mod:`codegen.lab.long_runs.symplecticity`). It is symmetric if a step with h and a step with -h
-return to the start. Both properties are tested in more digits than doubles have, so rounding errors do not
-affect the result.
+Table 2.1 of H. Marthinsen's thesis has a column for each of these properties. A step is symplectic if its
+symplectic defect vanishes (:mod:`codegen.lab.long_runs.symplecticity`). A step is symmetric if a step with h,
+followed by a step with -h, returns to the state at which it started. Both properties are tested in more
+digits than doubles have, so rounding errors do not affect the result.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from codegen.lab.stability.extreme_steps import DIGITS, solved_step
 from codegen.lower import problem_for
 
 SYMPLECTIC = 1e-12
-"""A step counts as symplectic if its defect is below this number. The difference quotients from which the
-defect is computed have an error of about 1e-20."""
+"""A step counts as symplectic if its defect is below this number. The errors of the difference quotients from
+which the defect is computed are about 1e-20, and thus far smaller."""
 
 SYMMETRIC = 1e-30
 """A step counts as symmetric if its ``reversal`` is below this number."""
@@ -69,14 +69,17 @@ def properties(compiled: Compiled, run: LongRun) -> Properties:
 
 
 def reversal(compiled: Compiled, h: float) -> float | None:
-    """Return the distance from the start after a step with h and a step with -h, divided by the change of the
-    state by the first step; None if the steps are not possible.
+    """Return the distance between a state and the result of a step with h, followed by a step with -h.
+
+    The distance is divided by the change of the state in the step with h. The result is None if a step fails,
+    or if the step with h does not change the state.
     """
     problem, domain = problem_for(compiled.scene, compiled.method), PreciseDomain(0, DIGITS)
     runner, start = Emitted(compiled), problem.initial(domain)
     t = domain.context.mpf(float(compiled.scene.span[0]))
     try:
-        # The initial state of a scene may be special, so the test begins one step later.
+        # The test begins one step after the initial state of the scene. The initial state may have a
+        # symmetry, and even a method that is not symmetric may then return to it.
         first = solved_step(compiled, runner, start, t, h)
         after = solved_step(compiled, runner, first, t + h, h)
         back = solved_step(compiled, runner, after, t + 2 * h, -h)

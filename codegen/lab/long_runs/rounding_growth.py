@@ -51,7 +51,8 @@ because the quantity may be stationary at one state.
 """
 
 NEARLY = 1e-14
-"""The bound that replaces EXACT for states that rounding errors have moved off the manifold."""
+"""If rounding errors have moved a state off the manifold, a quantity counts as exactly conserved if a step
+from this state changes it by less than NEARLY, and not EXACT, relative to its size."""
 
 
 @dataclass(frozen=True)
@@ -220,7 +221,8 @@ class _Sizes:
         self.magnitudes = _quantities(compiled, domain, magnitudes(compiled.scene))
 
     def size(self, name: str, value: Vector, state: Sequence[Scalar], t: float) -> Scalar:
-        """Return the size of a quantity, given its value and the state. Manifold equations have size one."""
+        """Return the size of a quantity, given its value and the state. The size of the manifold equations is
+        defined as 1, because their value on the manifold is zero."""
         if name == MANIFOLD:
             return 1
         (magnitude,) = self.magnitudes[name](state, t)

@@ -88,9 +88,9 @@ def symplectic_defect(
     Entries are compared by absolute value.
 
     ``state`` contains the coordinates of the group element, then the momentum. The scene must be Hamiltonian.
-    Implicit blocks are solved by fixed-point iteration. If it does not converge, Newton's method begins at
-    ``near``, the solutions of emitted code. Raises :class:`NotConverged` if Newton's method does
-    not converge either.
+    Implicit blocks are solved by fixed-point iteration. If the iteration does not converge, Newton's method
+    starts from ``near``, the solutions that the emitted code computes in floating point. Raises
+    :class:`NotConverged` if Newton's method does not converge either.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)

@@ -29,7 +29,8 @@ CHUNK = 100_000
 """Number of steps whose states are in memory at the same time."""
 
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
-"""A function of two arrays: states, with one coordinate in each row, and times. It returns rows of values."""
+"""A function of two arrays: the states, with one coordinate in each row, and the times. The result has one
+row for each component of the quantity."""
 
 FUNCTIONS = of_arrays(numpy)
 
@@ -124,8 +125,8 @@ def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
     """Return the initial magnitudes of the quantities.
 
     If an initial magnitude is zero, the largest magnitude in the first tenth of the record replaces it. Later
-    states are not used, because their magnitudes grow if the method loses the quantity. The magnitude of the
-    manifold equations is one.
+    states are not used, because their magnitudes grow if the method does not conserve the quantity. The
+    magnitude of the manifold equations is defined as 1.
     """
     count = max(len(trajectory.states) // 10, 1)
     states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])

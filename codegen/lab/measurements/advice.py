@@ -23,8 +23,8 @@ BODY = '{% include "sections/advice.html.j2" %}'
 OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
-"""The safety factor of predicted run times. It is smaller than in a search for a single goal, because all
-goals share the time of the search.
+"""The safety factor of predicted run times. The factor is smaller than in a search for a single goal, because
+the time of this search is divided among many goals.
 """
 
 
@@ -108,8 +108,8 @@ class Advice(Measurement[Recommendations]):
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
 
     def verdict(self, result: Recommendations, subject: Subject) -> str:
-        """Return a sentence with the fastest methods, without any requirement, for the largest error and for
-        the smallest error that a method reaches.
+        """Return a sentence that names two methods: the fastest for the largest error, and the fastest for
+        the smallest error that a method reaches. The methods need not satisfy any further requirement.
         """
         own = result.advice[0].best if result.advice else ()
         choices = [
@@ -185,8 +185,8 @@ def completed(
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return the fastest peers; their times are interpolated between measured runs. The result is () if no
-    peer was measured.
+    """Return one line with the fastest peer for each error. The times of peers are interpolated between
+    measured runs. The result is () if no peer was measured.
     """
     others = {label: rows for label, rows in entries.items() if rows and rows[0].target == "peer"}
     if not others:
@@ -202,7 +202,7 @@ def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
 def table(result: Recommendations, subject: Subject) -> dict[str, object]:
     """Return the recommendations as a table with a column for each requirement that some method satisfies.
 
-    ``unmet`` lists the other requirements.
+    The entry ``unmet`` of the result lists the requirements that no method satisfies.
     """
     met = [a for a in result.advice if any(a.best)]
     rows = [

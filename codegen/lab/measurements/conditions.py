@@ -102,8 +102,8 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            # No conditions are shown: the family exists only in the compiler and has no index sums, or the
-            # family has no order conditions.
+            # The family is omitted, because there are no formulas to show: it is not a family of
+            # :mod:`orderconds.families`, or its methods have no tableau.
             continue
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())

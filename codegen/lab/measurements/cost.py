@@ -63,11 +63,12 @@ class Cost(Measurement[CostResult]):
         return CostResult(result, tuple(candidates))
 
     def as_json(self, result: CostResult) -> object:
-        """Return the rows."""
+        """Return the rows (one for each run of a method or peer) as plain data."""
         return [row.as_json() for row in result.result.rows]
 
     def verdict(self, result: CostResult, subject: Subject) -> str:
-        """Return the methods that are the fastest for at least one accuracy, each with these accuracies."""
+        """Return a sentence that lists the methods that are the fastest for at least one accuracy, each with
+        the accuracies for which it is the fastest."""
         places = result.result.places
         if not places:
             return ""
@@ -139,8 +140,8 @@ def _decades(numbers: Sequence[int]) -> str:
 
 
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
-    """Return the set-up times of each candidate, and the operations of a step in its run with the shortest
-    steps.
+    """Return, for each method and peer, the set-up times and the operations of one step. The operations are
+    those of the run with the shortest steps.
     """
     lines = []
     for label, rows in entries.items():

@@ -39,7 +39,8 @@ Results = tuple[Result, ...]
 
 
 class Figures(Measurement[Results]):
-    """Draws the figures of the scene. The methods and the effort of the report do not change them."""
+    """Draws the figures of the scene. The figures do not depend on the methods and the effort of the
+    report."""
 
     name = "figures"
     title = "Figures"

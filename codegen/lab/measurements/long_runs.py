@@ -57,8 +57,8 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence on the first quantity of the page: each law of growth with the methods that
-        follow it.
+        """Return a sentence on the first quantity of the page. It states each observed law of growth, such as
+        ``bounded`` or ``drift``, and the methods whose deviations follow this law.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -119,7 +119,8 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 
 
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
-    """Return the running maximum of the deviation: the points where it increases, and the last point."""
+    """Return points (time, largest deviation so far): the points at which the largest deviation increases,
+    and the last point."""
     for kept in run.kept:
         if kept.name != name:
             continue

@@ -17,7 +17,7 @@ from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 OVERVIEW = '<p class="note">Extreme steps: {{ wrong }} silent wrong answers in {{ all }} cases.</p>'
 
 NAMED = 2
-"""If at most this number of methods have the longest usable step, the verdict names them."""
+"""If at most this number of methods have the longest usable step, the verdict lists these methods."""
 
 Result = MethodResults[Stability]
 
@@ -52,7 +52,8 @@ class StabilityTests(Measurement[Result]):
         return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Return True if every method was tested, no result is wrong, and every endurance run passed."""
+        """Return True if every method could be tested, no result of a step is wrong, and every endurance run
+        passed."""
         return not result.failures and all(s.honest for s in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
@@ -159,7 +160,8 @@ def _length(x: float) -> str:
 
 
 def _cases(stability: Stability) -> dict[str, object]:
-    """Return the cases of a method as rows; consecutive cases with the same status share a row."""
+    """Return the results of a method for extreme inputs as rows of a table. If steps with consecutive inputs
+    return the same status message, these inputs are in one row."""
     rows: list[dict[str, object]] = []
     names: list[str] = []
     for a in stability.findings.answers:

@@ -36,7 +36,8 @@ FEWEST = 4
 class Convergence:
     """The runs of one method on one scene, and the order from the order conditions.
 
-    ``kinks`` describes the kinks of the reference solution (:class:`codegen.lab.reference.Reference`).
+    ``kinks`` contains, for each point of the solution at which the field is not smooth, the number of
+    continuous derivatives of the field (:class:`codegen.lab.reference.Reference`).
     """
 
     scene: str

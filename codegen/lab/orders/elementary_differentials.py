@@ -26,7 +26,8 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 
 
 class RingDomain(Domain):
-    """Arithmetic in an exact ring, for polynomial scenes. The step size ``h`` is one."""
+    """Arithmetic in an exact ring, for polynomial scenes. The step size ``h`` is set to 1, because elementary
+    differentials do not contain it."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
@@ -65,7 +66,8 @@ def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
 class FrozenFields:
     """The elementary differentials of the field of an autonomous scene at its initial point.
 
-    Trees and forests are ordered (:mod:`orderconds.trees.levels`). The first tree of a forest acts first.
+    Trees and forests are ordered (:mod:`orderconds.trees.levels`). The initial point is displaced along the
+    frozen field of the first tree of a forest, then along the frozen field of the second tree, and so on.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:

@@ -4,7 +4,8 @@ A slope only estimates the order. For a scene whose field is polynomial or ratio
 of the local error are exact numbers. The order is p if the coefficients of h, ..., h^p vanish and the
 coefficient of h^(p+1) does not vanish. Coordinates of the initial state that are not in the ring of the
 method's coefficients are replaced by nearby rational numbers. The initial point may then lie off the
-manifold, where the equations, the group action and the order conditions remain valid.
+manifold. This does not matter, because the equations, the group action and the order conditions are valid at
+such points, too.
 """
 
 from __future__ import annotations

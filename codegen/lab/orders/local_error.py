@@ -129,8 +129,8 @@ def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
 
 
 def _trees(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the term of the B-series: the sum over rooted trees t of residual/symmetry times F(t) (Hairer,
-    Lubich and Wanner, *Geometric Numerical Integration*, III.1)."""
+    """Return the term of the B-series: the sum over rooted trees t of residual/symmetry times the elementary
+    differential F(t) (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.1)."""
     fields = FrozenFields(scene, method.ring)
     terms = [
         (x * method.ring.rational(1, levels.symmetry(t)), fields.forest(t))
@@ -140,16 +140,17 @@ def _trees(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _forests(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the Lie-Butcher series: a sum over ordered forests w of d(w) F(w), where d(w) is the
-    coefficient of w in the numerical solution minus its exact coefficient."""
+    """Return a term of the Lie-Butcher series: a sum over ordered forests w of d(w) F(w). Here F(w) is the
+    elementary differential of w, and d(w) is the coefficient of w in the numerical solution minus its
+    coefficient in the exact solution."""
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
     return _sum(method.ring, terms, len(scene.symbols))
 
 
 def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the P-series: a sum over trees t with directed edges of residual/symmetry times the
-    pair (xi, n) of t."""
+    """Return a term of the P-series: a sum over trees t with directed edges. Each summand is
+    residual/symmetry times the elementary differential of t (:meth:`CanonicalFields.tree`)."""
     fields = CanonicalFields(scene, method.ring)
     terms = [
         (x * method.ring.rational(1, directed.symmetry(t)), fields.tree(t))

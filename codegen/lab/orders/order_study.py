@@ -67,7 +67,7 @@ class OrderStudy:
 
 @dataclass(frozen=True)
 class _Measured:
-    """The part of a study that is cached."""
+    """The measured part of an order study, which is stored in the cache."""
 
     refinements: dict[str, Refinement]
     times: tuple[Timing, ...]
@@ -113,7 +113,8 @@ def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float
 
     The number of steps is the first number in ``steps`` that is at least :data:`COMPARED` and with which no
     runner fails. A long step may fail in some runners only: Newton's method of emitted code solves some steps
-    that the interpreter cannot solve. The result is None if a runner fails for each number of steps.
+    that the interpreter cannot solve. The result is None if there is no number of steps with which all
+    runners succeed.
     """
     for n in steps:
         if n < COMPARED:

@@ -30,8 +30,8 @@ DIGITS = (DOUBLE, 60)
 
 @dataclass(frozen=True)
 class ConvergenceTest:
-    """A convergence test of methods on a scene; its arguments are already checked. :meth:`result` runs one
-    method.
+    """A convergence test of methods on a scene. :meth:`of` creates the test and checks its arguments, and
+    :meth:`result` runs one method.
     """
 
     scene: Problem
@@ -79,7 +79,7 @@ class ConvergenceTest:
             run = runner(self.equations, method, self.target, self.digits, order)
             progress(f"running {method.label}")
             return convergence.converge(run, order, exact, steps=self.steps, form=self.form)
-        except CompilerMissing:  # Without the compiler, no method can run on this target.
+        except CompilerMissing:  # Without the compiler, no method can be tested with this target.
             raise
         except (InputError, ArithmeticError) as error:
             return NotEmitted(self.scene.name, method.label, self.target, str(error))

@@ -44,7 +44,7 @@ def strict(
     alter: Alter = lambda c: c,
     scenes: Sequence[Problem] | None = None,
 ) -> Iterator[Convergence]:
-    """Yield the convergence of the method on each scene of the protocol, or on each of ``scenes``.
+    """Yield the convergence of the method on each of ``scenes``, by default on each scene of the protocol.
 
     ``alter`` changes the step program before the runs. Tests use it to insert errors that the protocol must
     find.

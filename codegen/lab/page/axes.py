@@ -20,7 +20,8 @@ readable.
 """
 
 LINE = 0.175
-"""Height of a line of labels in inches. The figure becomes higher by LINE for each line after the third."""
+"""Height of a line of the legend in inches. If the legend has more than three lines, the figure becomes
+higher by LINE for each further line."""
 
 LONG_LABEL = 27
 """If a label is longer than this number of characters, the legend has one column."""
@@ -112,7 +113,7 @@ def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | 
     if not entries:
         return
     width, height = figure.get_size_inches()
-    # A wide figure has more columns.
+    # The legend of a wide figure has more columns.
     columns = max(1, int(width / SIZE[0] * (1 if max(map(len, entries)) > LONG_LABEL else 2)))
     lines = -(-len(entries) // columns)
     figure.set_size_inches(width, height + LINE * max(0, lines - 3))

@@ -94,7 +94,8 @@ def render_overview(summaries: Sequence[Summary], command: str) -> str:
 
 def _formatted(paragraph: str) -> Markup:
     """Return a paragraph of a docstring as HTML; text between double or single backquotes is code."""
-    # re.split with one group returns the texts between the matches at even indices, the groups at odd ones.
+    # The pattern has one group. Therefore the entries of ``parts`` with even indices are the texts between
+    # the matches, and the entries with odd indices are the texts of the group.
     parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)
     return Markup("").join(
         Markup("<code>{}</code>").format(part) if k % 2 else escape(part) for k, part in enumerate(parts)

@@ -88,10 +88,11 @@ SLOPES = (2, 4, 8)
 
 
 def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
-    """Return a log-log diagram of error against CPU time of the whole run, with the slopes of the orders
+    """Return a log-log diagram of error against CPU time of the whole run, with a line for each order p of
     :data:`SLOPES`.
 
-    With a method of order p and equal steps, the error is proportional to the time to the power -p.
+    The line has the slope -p, because with a method of order p and equal steps, the error is proportional to
+    the time to the power -p.
     """
     drawing = _drawing()
     for curve in curves:
@@ -238,7 +239,7 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
 
 
 def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
-    """Return points on the lines of a contour, at about equal distances."""
+    """Return points at about equal distances on the lines of a contour. :func:`spread` explains ``shift``."""
     points: list[Point] = []
     for segment in segments:
         line = [(float(x), float(y)) for x, y in segment]
@@ -275,7 +276,8 @@ def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
 
 
 def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
-    """Draw the line C h^order over the curve's range of h, slightly below the point with the smallest h."""
+    """Draw the line C h^order over all step sizes h of a curve. C is chosen so that the line passes slightly
+    below the point with the smallest h."""
     x = sorted(p[0] for p in curve.points)
     finest = min(curve.points)
     y = [0.45 * finest[1] * (h / finest[0]) ** order for h in (x[0], x[-1])]
@@ -286,9 +288,9 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a line with the slope of each order of :data:`SLOPES`, in a corner of the figure.
 
-    The corner is the lower left or the upper right corner, whichever contains fewer points. Work-precision
-    curves seldom reach these corners. All lines begin at the upper left corner of a box and end at the lower
-    or right side of the box.
+    The corner is the lower left or the upper right corner of the figure, whichever contains fewer points.
+    Work-precision curves seldom reach these corners. In this corner lies an invisible box: all lines begin at
+    the upper left corner of the box and end at its lower side or its right side.
     """
     if not points:
         return

@@ -2,9 +2,9 @@
 
 A method has the same colour and marker in every section, on every page and in the pictures of the README. The
 line is solid for equal steps, dash-dotted for step-size control, and dotted for a target that is not the
-default target. Peers (other integrators, measured for comparison) have dashed lines in the colours of text,
-and open markers. Colour-blind readers can distinguish the colours. In grey print, markers and dashes
-distinguish the methods.
+default target. Peers (other integrators, measured for comparison) have open markers, and dashed lines in the
+two colours in which the page shows text. Colour-blind readers can distinguish the colours. In grey print,
+markers and dashes distinguish the methods.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ DOTTED: Dash = (1, 1.6)
 DASH_DOTTED: Dash = (6, 2, 1, 2)
 
 Place = tuple[int, int]
-"""A place: the index of a colour and the index of a marker."""
+"""The indices of a colour and a marker that belong together."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,8 @@ def _digest(name: str) -> int:
 def _fixed() -> Mapping[str, Place]:
     """Return the places (colour and marker) of the default methods.
 
-    If possible, any two methods of the same list differ in both colour and marker.
+    If possible, two methods that appear in one picture (one tuple of ``PICTURED``) differ in both colour and
+    marker.
     """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):
@@ -120,10 +121,10 @@ def _fixed() -> Mapping[str, Place]:
 
 
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
-    """Return a place whose colour and marker occur least often in ``used``, if possible not in ``taken``.
+    """Return the indices of a colour and a marker, both of which occur least often in ``used``.
 
-    The search begins at the index ``first``. If several places occur equally often, the first of them is
-    returned.
+    Pairs in ``taken`` are avoided if possible. The search begins at the index ``first``. If several colours
+    or markers occur equally often, the first of them is chosen.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

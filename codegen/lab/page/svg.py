@@ -44,8 +44,8 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The colour for each CSS variable. These colours are used in figures that are not part of a page; they have
-a white background.
+"""The colour for each CSS variable. These colours are used in figures that are not part of a page; such
+figures have a white background.
 """
 
 STYLE: dict[str, object] = {
@@ -162,7 +162,8 @@ def key(style: Style) -> Markup:
 
 @cache
 def _outline(marker: str) -> str:
-    """Return the outline of a Matplotlib marker as SVG path data, centred in the small picture of a key."""
+    """Return the outline of a Matplotlib marker as SVG path data. The outline is centred in the small picture
+    that :func:`key` returns."""
     from matplotlib.markers import MarkerStyle
 
     if marker == "o":

@@ -28,7 +28,8 @@ class PeerFailed(ArithmeticError):
 
 @dataclass(frozen=True)
 class Outcome:
-    """The final state of a run, the number of steps, and the number of field evaluations if it is counted."""
+    """The final state of a run, the number of steps, and the number of field evaluations (None if the peer
+    does not count evaluations)."""
 
     state: tuple[float, ...]
     steps: int

@@ -1,4 +1,4 @@
-"""Projection of a state onto its manifold. Users of general ODE solvers often apply it after each step.
+"""Projection of a state onto its manifold. Users of general ODE solvers often project after each step.
 
 A rotation matrix g is replaced by g (3 - g^T g)/2, one Newton step towards the polar factor of g. If g has
 the small distance e from the orthogonal matrices, the distance after the step is O(e^2). A point on which a

@@ -1,4 +1,4 @@
-"""SciPy's solvers (DOP853, Radau, LSODA) in an explicit loop over steps, so that states can be projected."""
+"""SciPy's solvers (DOP853, Radau, LSODA) in an explicit loop, in which each new state can be projected."""
 
 from __future__ import annotations
 

@@ -155,7 +155,7 @@ def styles(figure: Figure) -> dict[str, Style]:
     chosen = Styles([run.method for run in runs])
     if len({run.method for run in runs}) == len(runs):
         return {run.name: chosen.of(run.method) for run in runs}
-    # If several runs use the same method, the colours depend on the names of the runs.
+    # Several runs use the same method, so the colours depend on the names of the runs.
     chosen = Styles([method_name(run.name) for run in runs])
     return {run.name: chosen.of(run.name) for run in runs}
 

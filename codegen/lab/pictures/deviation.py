@@ -39,7 +39,8 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 
 
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return times and the largest deviations up to these times, or in the windows that end there."""
+    """Return a sequence of times, and for each time the largest deviation so far. If the figure has a window,
+    the largest deviation in the window that ends at this time is returned instead."""
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)
     sizes = numpy.maximum(numpy.abs(values - start), LEAST)[1:]

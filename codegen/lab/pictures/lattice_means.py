@@ -119,7 +119,8 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
 
 def _formula(problem: Problem, quantity: Quantity) -> Any:
-    """Return a formula; a name is an error, because the invariants of a site are constant."""
+    """Return the formula of a quantity; raise SceneError if the quantity is the name of an invariant. A scene
+    with sites declares invariants of one site; they are constant, so their means are not drawn."""
     if isinstance(quantity, str):
         raise SceneError(
             f"the name {quantity!r} in place of a formula", where=problem.name, expected="a sympy formula"
@@ -128,6 +129,7 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 
 
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
-    """Return the coordinates of the neighbour of each site of a periodic lattice, one array each."""
+    """Return the states of the neighbours of all sites of a periodic lattice: one array for each coordinate.
+    ``offset`` is the position of a neighbour minus the position of its site."""
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

@@ -38,9 +38,9 @@ FRAMES = 150
 
 @dataclass(frozen=True)
 class _Sheet:
-    """The map from points in space to points of the picture. ``frame`` is the projection, ``left`` and
-    ``high`` are the projected coordinates of the corner at the left above, and ``unit`` is the length of a
-    unit vector. ``axis`` is the length of the coordinate axes."""
+    """The map from points in space to points of the picture. ``frame`` is the projection. The upper left
+    corner of the drawing has the projected coordinates (``left``, ``high``). ``unit`` is the length of a unit
+    vector in the picture, and ``axis`` is the length of the coordinate axes in space."""
 
     frame: numpy.ndarray
     left: float
@@ -65,7 +65,8 @@ class _Sheet:
         return self.top + MARGIN + self.unit * (self.high - self.low)
 
     def seen(self, points: numpy.ndarray) -> numpy.ndarray:
-        """Return the places of points, which are the columns of an array with three rows."""
+        """Return the positions of points in the picture. ``points`` has three rows and one column for each
+        point."""
         right, up, _ = self.frame @ points
         return numpy.array(
             [MARGIN + self.unit * (right - self.left), self.top + self.unit * (self.high - up)]
@@ -171,15 +172,16 @@ def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> 
 
 
 def _lengths(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
-    """Return the lengths of a bar in the picture."""
+    """Return the length of a projected bar at each time."""
     lengths: numpy.ndarray = numpy.hypot(*(bar[1] - bar[0]))
     return lengths
 
 
 def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, unit: str = "") -> str:
-    """Return the transform that moves a horizontal bar to its place; ``turn`` is its angle.
+    """Return the SVG transform that moves a horizontal line to the position of a bar at one time.
 
-    The horizontal bar begins at the origin and has the greatest length of the bar in the picture.
+    ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The line begins at the
+    origin. Its length is the greatest projected length of the bar at any time.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"
@@ -195,7 +197,7 @@ def _turns(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
 
 
 def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> Iterator[str]:
-    """Yield the bars that move, at their first places."""
+    """Yield the animated bars at their positions at the first time."""
     for number, bar in enumerate(bars):
         at = _transform(bar, 0, _turns(bar)[0])
         yield f'<path class="{name}-{number}" d="M0 0H{_number(_lengths(bar).max())}" transform="{at}"'

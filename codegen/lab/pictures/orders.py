@@ -21,8 +21,8 @@ from codegen.scene.figure import Orders, Run
 
 
 def draw(figure: Orders, source: Source) -> Drawn:
-    """Return the picture. At the largest step size, the dashed line of an order shows half the error of the
-    run whose slope is closest to this order.
+    """Return the picture. Each order has a dashed line below the curve whose slope is closest to this order:
+    at the largest step size, the line shows half the error of the curve.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}

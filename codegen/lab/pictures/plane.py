@@ -82,7 +82,8 @@ def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None
 
 
 def _bounds(curves: list[numpy.ndarray], square: bool) -> tuple[float, float, float, float]:
-    """Return bounds that contain all points, with a margin; a ``square`` has equal sides."""
+    """Return the bounds of a rectangle that contains all points, with a margin. If ``square`` is True, the
+    rectangle is a square."""
     points = numpy.concatenate(curves, axis=1)
     points = points[:, numpy.isfinite(points).all(axis=0)]
     low, high = points.min(axis=1), points.max(axis=1)

@@ -80,7 +80,8 @@ def command(scene: str, figure: Figure) -> str:
 
 
 def every_figure() -> Iterator[tuple[str, Figure]]:
-    """Yield the name of a scene and a figure, for the gallery and all registered scenes."""
+    """Yield (name of a scene, figure) for each figure of the scenes in the gallery and of the registered
+    scenes."""
     for name in scenes.names():
         for figure in scenes.load(name).figures:
             yield name, figure

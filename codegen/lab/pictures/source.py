@@ -124,7 +124,7 @@ class Source:
     def beside(self, run: Run, reference: Run, quantity: Quantity) -> numpy.ndarray:
         """Return a quantity along the reference run at the times of another run.
 
-        Raises :class:`codegen.errors.SceneError` if the reference does not have these times.
+        Raises :class:`codegen.errors.SceneError` if the reference run has no states at these times.
         """
         times, exact = self.path(run).times, self.path(reference).times
         count = len(times)

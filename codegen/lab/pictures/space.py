@@ -1,4 +1,4 @@
-"""Draws curves in space in orthogonal projection, in a box with the ranges of the coordinates."""
+"""Draws curves in space in orthogonal projection, inside the smallest box that contains all curves."""
 
 from __future__ import annotations
 

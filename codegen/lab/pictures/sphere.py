@@ -88,7 +88,8 @@ def _curve(
     looks: Looks,
     dots: bool = False,
 ) -> None:
-    """Draw the visible and the hidden part of a curve; ``seen`` are projected points."""
+    """Draw the visible and the hidden part of a curve. The rows of ``seen`` are the coordinates of the points
+    to the right, upwards, and towards the eye."""
     for hidden in (False, True):
         x = numpy.where((seen[2] < 0) == hidden, seen[0], math.nan)
         if dots:
@@ -113,7 +114,8 @@ def _sphere(axes: Axes, radius: float, frame: numpy.ndarray, names: tuple[str, s
         end = frame @ (radius * numpy.eye(3)[k])
         axes.plot([end[0], 1.12 * end[0]], [end[1], 1.12 * end[1]], color=MUTED, linewidth=0.6, zorder=1)
         at = (1.2 * end[0], 1.2 * end[1])
-        # A label in front of the outline has the colour of the page behind it.
+        # A box in the colour of the page is drawn behind each label, so that the outline of the sphere does
+        # not cross the label.
         behind = {"facecolor": PLACEHOLDERS["var(--paper)"], "edgecolor": "none", "pad": 0.8}
         axes.annotate(name, at, color=MUTED, fontsize=8, ha="center", va="center", bbox=behind, zorder=4)
     axes.set_aspect("equal")

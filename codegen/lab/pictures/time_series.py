@@ -1,4 +1,4 @@
-"""Draws quantities against time, beside a reference."""
+"""Draws quantities against time, together with the same quantities of a reference run."""
 
 from __future__ import annotations
 

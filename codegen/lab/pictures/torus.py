@@ -35,7 +35,7 @@ def draw(figure: TorusCurves, source: Source) -> Drawn:
     numbers: dict[str, list[float]] = {}
     for run in figure.runs:
         x, y = source.values(run, figure.angles)
-        # A curve that crosses an edge of the chart is interrupted.
+        # If a curve crosses an edge of the chart, the line is interrupted there by a NaN.
         jumps = (numpy.abs(numpy.diff(x)) > math.pi) | (numpy.abs(numpy.diff(y)) > math.pi)
         places = numpy.flatnonzero(jumps) + 1
         curve = numpy.insert(x, places, math.nan), numpy.insert(y, places, math.nan)
@@ -65,14 +65,16 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
         middle = numpy.linspace(-math.pi, math.pi, 2 * ARROWS + 1)[1::2]
         (x, y), states = _states(figure, middle)
         u, v = formulas(source.problem, figure.directions)(states, numpy.zeros(states.shape[1]))
-        # The square root makes small arrows visible.
+        # The length of an arrow is the square root of the length of the field vector: short vectors are then
+        # visible, too.
         size = numpy.sqrt(numpy.hypot(u, v))
         scale = numpy.where(size > 0, size, 1.0)
         axes.quiver(x, y, u / scale, v / scale, color=MUTED, width=0.0028, zorder=2)
 
 
 def _states(figure: TorusCurves, values: numpy.ndarray) -> tuple[list[numpy.ndarray], numpy.ndarray]:
-    """Return the two angles of all points of a grid, and the states: one coordinate in each row."""
+    """Return the two angles of all points of a grid, and the states at these points. Each row of the array of
+    states contains the values of one coordinate."""
     import sympy
 
     angles = [a.ravel() for a in numpy.meshgrid(values, values)]

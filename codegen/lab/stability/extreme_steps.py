@@ -93,7 +93,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Answer:
-    """The verdict of a case: ``accurate``, a status message, ``undetermined`` or ``WRONG``.
+    """The verdict on a step from extreme input: ``accurate``, a status message, ``undetermined``, ``WRONG``.
 
     ``error`` is the largest relative error of a block of the state. ``determined`` is the number of digits
     that the input determines. Both are None if the step has no result.
@@ -119,10 +119,10 @@ class Answer:
 
 
 def cases(compiled: Compiled) -> Iterator[Case]:
-    """Yield the extreme cases.
+    """Yield the inputs of the steps to test.
 
-    The first case is a step from the initial state of the scene with the step size span/100. In every other
-    case, the step size or a part of the state has an unusual value, for example zero, a very large number or
+    The first step starts from the initial state of the scene, with the step size span/100. In every other
+    input, the step size or a part of the state has an unusual value, for example zero, a very large number or
     NaN.
     """
     scene = compiled.scene
@@ -225,7 +225,8 @@ def _blocks(compiled: Compiled) -> list[range]:
 
 
 def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
-    """Return the input of a case with a random rounding error of either sign in every number."""
+    """Return the input of a case after each number has been changed by one rounding error, up or down at
+    random. ``number`` is the seed."""
     draw, context = random.Random(number), mpmath_context(DIGITS)
 
     def rounded(x: float) -> Scalar:
@@ -237,7 +238,8 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
     """Return the state after the step in 60 digits, and the states after the steps of the probes.
 
-    The equations of long steps are solved in more digits, because they contain numbers of the size of h^2.
+    The equations of a long step contain numbers of the size of h^2, whose differences have fewer correct
+    digits. Newton's method therefore solves these equations in more than 60 digits.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -282,9 +284,9 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 class Rounding(BallDomain):
     """Arithmetic with many digits in which every result of an operation has one rounding error of a double.
 
-    The right-hand side of every equation has two rounding errors: one relative to its own size, and one
-    relative to the size of the next right-hand side. The signs are random, but they do not change during a
-    probe, so that the equations remain smooth.
+    Two rounding errors are added to the right-hand side of every equation: the first is relative to this
+    right-hand side, the second is relative to the right-hand side of the next equation. The signs of all
+    errors are random, but they do not change during a probe, so that the equations remain smooth.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -314,7 +316,8 @@ class Rounding(BallDomain):
         return [(x + a * x + b * y).mid() for x, y, (a, b) in pairs]
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the offset of a difference quotient; a few correct digits of the quotient are enough."""
+        """Return the offset of a difference quotient. An offset of 2^-40 is small enough, because Newton's
+        method needs only a few correct digits of the quotient."""
         return arb((1, -40)) * max(arb(1), abs(x.mid()))
 
 
@@ -332,9 +335,9 @@ def precise_step(
 ) -> list[Scalar]:
     """Return the state after one step of the program as mpmath numbers with many digits.
 
-    If ``near`` is given, Newton's method starts from it: ``near`` contains a start for each implicit block.
-    The call replaces these starts by the solutions, as mpmath numbers.
-    ``probe`` is the seed of the rounding errors, None for exact operations. ArithmeticError or ValueError is
+    ``near``, if given, contains a start value of Newton's method for each implicit block. The call replaces
+    the start values by the solutions, as mpmath numbers. ``probe`` is the seed of the random rounding errors
+    that are added to each operation; if ``probe`` is None, none are added. ArithmeticError or ValueError is
     raised if a number of the step is not a finite real number.
     """
     domain = BallDomain(h, digits) if probe is None else Rounding(h, digits, probe)
@@ -372,8 +375,9 @@ def solved_step(
 ) -> list[Scalar]:
     """Return the state after one step in many digits.
 
-    Implicit blocks are solved by fixed-point iteration. If it does not converge, Newton's method begins at
-    the solution of emitted code. Raises ArithmeticError if there is no solution.
+    Implicit blocks are solved by fixed-point iteration. If the iteration does not converge, Newton's method
+    starts from the solution that the emitted code computes in floating point. Raises ArithmeticError if no
+    solution is found.
     """
     try:
         return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)

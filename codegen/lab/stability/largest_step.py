@@ -3,8 +3,8 @@ usable.
 
 A number of equal steps over the span is usable if no step fails and the final error is below a tenth of the
 state's size. If the scene conserves an energy, the energy must also change by at most a tenth of its size.
-The reported reason is the failure of the run whose number of steps is smaller by one: a solver failed, a
-number was not finite, the energy changed, or the error was too large.
+If n is the smallest usable number of steps, the reported reason is why n - 1 steps are not usable: a solver
+failed, a number was not finite, the energy changed too much, or the error was too large.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """The smallest usable number of steps, the step size, and the reason why one step fewer is not usable.
+    """The smallest usable number of steps, the step size, and the reason why one step less is not enough.
 
     ``h`` and ``steps`` are None if no number of steps up to :data:`MOST` is usable.
     """

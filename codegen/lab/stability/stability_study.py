@@ -46,7 +46,7 @@ class Stability:
 
     @property
     def wrong(self) -> tuple[Answer, ...]:
-        """The results with errors that rounding does not explain."""
+        """The results of steps with extreme input whose errors cannot be explained by rounding."""
         return tuple(a for a in self.findings.answers if a.verdict.startswith(WRONG))
 
     @property

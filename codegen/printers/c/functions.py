@@ -69,8 +69,8 @@ class FunctionPrinter:
         """Return the name of the variant of a function that a caller uses; ``near`` is true for a caller
         without branches."""
         # In a module with loops over lanes or sites, the loops evaluate sines and cosines by polynomials.
-        # Scalar functions use the same polynomials where these are valid, so that both have the same
-        # roundings.
+        # Scalar functions use the same polynomials where these are valid, so that loops and scalar functions
+        # have the same roundings.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -178,7 +178,8 @@ class _Body:
         self.printer, self.function = printer, function
         self.identifiers = printer.identifiers[function.name]
         self.declared = declarations(function, self.identifiers)
-        # Records among the parameters are pointers, local records are not: their fields need -> or a dot.
+        # Records among the parameters are pointers, so their fields are accessed by ``->``; fields of local
+        # records are accessed by a dot.
         pointers = {p.text for p in function.parameters if p.kind is Kind.RECORD}
         tables = [table.name.text for table in printer.unit.tables]
         forms = partial(printer.forms, near=function.near)
@@ -191,8 +192,8 @@ class _Body:
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         callbacks = (Kind.SIGNAL, Kind.EVENTS)
         parameters = [p for p in self.function.parameters if p.kind not in callbacks]
-        # The interface determines the parameters. The cast to void avoids a warning about parameters that
-        # this kernel does not use.
+        # The interface determines the parameters, so a kernel may not use all of them. An unused parameter is
+        # cast to void, because compilers would warn about it.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
@@ -338,7 +339,8 @@ class _Body:
         if changed and not kind:
             more = self.terms.text(value.args[1])
             if value.op in "+-" and more.line == "1":
-                # ``*x++`` would increment the pointer.
+                # A target ``*x`` gets parentheses, because ``*x++`` would increment the pointer and not the
+                # value.
                 yield f"({name}){value.op * 2};" if name.startswith("*") else f"{name}{value.op * 2};"
                 return
             yield from fill(f"{name} {value.op}=", more.segments, ";")

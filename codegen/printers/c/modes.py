@@ -109,7 +109,8 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         ],
         "result": _terms(write, step.result),
         "time": interface.time,
-        # The spectra are the old and the new state, the point, a scratch spectrum, and the values of N.
+        # The spectra are the old and the new state, the point at which N is evaluated, a scratch spectrum,
+        # and the values of N.
         "spectra": 4 + len(step.evaluations),
         "arrays": len(inner) + len(outer),
     }

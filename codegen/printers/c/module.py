@@ -43,12 +43,12 @@ VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno")
 flags."""
 
 FRAMES = 640
-"""The number of bytes of stack that the bound reserves for return addresses, saved registers and the frames
-of helpers."""
+"""The number of bytes that the bound on the stack of a call reserves for return addresses, saved registers
+and the frames of helpers."""
 
 EACH, EACH_SOLVING = 8, 10
-"""The bytes of stack that the bound reserves for each floating-point number that a step stores: first for
-steps without equations, then for steps with equations.
+"""The bytes that the bound on the stack of a call reserves for each floating-point number that a step stores:
+first for steps without equations, then for steps with equations.
 
 A double has 8 bytes and a float has 4. The bound is the same for both precisions, because an optimiser also
 stores pairs of floats in vector registers of 16 bytes, that is 8 bytes for each float. If a step solves
@@ -209,8 +209,9 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
 
     At -O0 a call uses about as much stack as the bound without the margin, because each name has its own
-    slot. Tests compare the bound with ``-fstack-usage`` and with a painted stack. :class:`SceneError` is
-    raised if the bound exceeds :data:`LARGEST_STACK`.
+    slot. Tests compare the bound with the numbers that ``-fstack-usage`` prints, and with the part of a
+    stack, filled with a known value before a call, that the call changes. :class:`SceneError` is raised if
+    the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # The function ``invert`` has local variables (scalars, a row, a permutation), so the bound of a step that

@@ -79,7 +79,8 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
-        # No test is inverted to its opposite: for a NaN, !(a < b) and a >= b differ.
+        # The test is not replaced by the opposite comparison: if a is a NaN, !(a < b) is true and a >= b is
+        # false.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
@@ -120,8 +121,8 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                # A signal with constant values is the emitted function ``hold``. Its context points to the
-                # values, which ``hold`` copies.
+                # A signal with constant values is printed as two arguments: the emitted function ``hold``,
+                # and a pointer to the values, which ``hold`` copies.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))

@@ -163,7 +163,8 @@ class _Body:
         for statement in body:
             if not isinstance(statement, Assign):
                 break
-            # A group either reads or writes consecutive entries.
+            # Either all statements of a group read consecutive entries, or all of them write consecutive
+            # entries.
             if group and not (self.follow(group, statement, True) or self.follow(group, statement, False)):
                 break
             if not group and _entry(statement.target) is None and _entry(statement.value) is None:

@@ -78,7 +78,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 CALLS = {"exp": "np.exp", PHI: "_phi1", BERNOULLI: "_bernoulli"}
-"""The functions of z in Python."""
+"""The names in Python of the functions of z, which is h times an eigenvalue of L."""
 
 
 def _functions(step: ModeStep) -> set[str]:

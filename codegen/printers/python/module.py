@@ -60,7 +60,7 @@ class _Module:
 
     @cached_property
     def identifiers(self) -> dict[str, Identifiers]:
-        """The identifiers in each function."""
+        """The identifiers in each function, by the name of the function."""
         underscored = {f"_{f.name}" for f in self.unit.functions}
         classes = {class_of(record) for record in self.unit.records}
         own = INTEGRATION if self.interface.integrated else frozenset[str]()

@@ -59,7 +59,8 @@ class Terms(Infix):
         """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
-        # No test is inverted to its opposite: for a NaN, not a < b and a >= b differ.
+        # The test is not replaced by the opposite comparison: if a is a NaN, not a < b is true and a >= b is
+        # false.
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:
