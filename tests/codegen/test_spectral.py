@@ -31,8 +31,8 @@ from orderconds.cli import program
 from orderconds.errors import InputError
 
 u, k, x, t = symbols("u k x t", real=True)
-KS = "examples/spectral/kuramoto_sivashinsky.py"
-ALLEN_CAHN = "examples/spectral/allen_cahn.py"
+KS = "kuramoto_sivashinsky"
+ALLEN_CAHN = "allen_cahn_periodic"
 TARGETS = ("python", "c")
 
 
