@@ -17,7 +17,6 @@ import ctypes
 import statistics
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np

@@ -98,7 +98,7 @@ def names() -> dict[str, frozenset[str]]:
     return {
         "family": frozenset(families.names()) | frozenset(codegen.lower.names()),
         "group": groups(),
-        "scene": frozenset(entry["name"] for entry in codegen.scenes.listing()),
+        "scene": frozenset(codegen.scenes.every_name()),
         "tableau": frozenset(library.available()),
     }
 

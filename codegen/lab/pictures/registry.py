@@ -80,8 +80,8 @@ def command(scene: str, figure: Figure) -> str:
 
 
 def every_figure() -> Iterator[tuple[str, Figure]]:
-    """Yield the name of a scene and a figure, for the gallery and all registered scenes."""
-    for name in scenes.names():
+    """Yield the name of a scene and a figure, for all scenes that `orderconds list scenes` lists."""
+    for name in scenes.every_name():
         for figure in scenes.load(name).figures:
             yield name, figure
 
