@@ -251,6 +251,7 @@ def test_an_unknown_figure_is_an_error_that_lists_the_figures():
         find(load("driven_spin"), "a")
 
 
+@pytest.mark.slow
 def test_the_listing_names_scene_and_figure():
     assert {
         "name": "heavy_top centre",
