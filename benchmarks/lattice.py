@@ -2,7 +2,7 @@
 
     python benchmarks/lattice.py [--side N] [--turns N]
 
-The scene is examples/lattice/spin_lattice.py with N x N spins. One compiler builds the emitted C and the C of
+The scene is `spin_lattice` with N x N spins. One compiler builds the emitted C and the C of
 benchmarks/handwritten with the same flags. Both make the same steps in turns in one process. The ratio of
 their CPU times is printed with the median and the quartiles of all turns, and the largest difference of
 their states. A vectorised step of cf4 in NumPy is timed after them.
@@ -26,7 +26,7 @@ from codegen.ir.site_step import traffic
 from codegen.printers.c.module import VECTOR_FLAGS
 
 HERE = Path(__file__).parent
-SCENE = str(HERE.parent / "examples" / "lattice" / "spin_lattice.py")
+SCENE = "spin_lattice"
 METHODS = {"cf4": "cf:cf4", "strang": "splitting:strang"}
 FLAGS = ("-std=c11", "-ffp-contract=off", *VECTOR_FLAGS)
 H, STEPS = 0.05, 2

@@ -3,7 +3,7 @@
     python benchmarks/low_storage_picture.py [--budget SECONDS] [-o FILE]
 
 Each column of the picture is a problem: a free rigid body whose attitude is in SO(3), the same body with a
-unit quaternion, which is an element of SU(2), and a lattice of spins (examples/lattice/spin_lattice.py). All
+unit quaternion, which is an element of SU(2), and a lattice of spins (the scene `spin_lattice`). All
 methods make equal steps in emitted C on one core. The error is that at the end of the run: for the bodies in
 the norm of the scene, and for the lattice the largest deviation of a coordinate from ``ambient:dop853`` with
 short steps. Measure on a quiet machine.
@@ -42,7 +42,7 @@ Floats = NDArray[np.float64]
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURE = ROOT / "docs" / "pictures" / "two_registers.svg"
-SPINS = str(ROOT / "examples" / "lattice" / "spin_lattice.py")
+SPINS = "spin_lattice"
 FOUND = ("cf5_2n_s10", "cf5_2n_s12", "cf4_2n_s7", "cf5_s7")
 PUBLISHED = ("yan5", "berland4", "carpenter_kennedy4", "cf4")
 FAMILY = "cf"

@@ -2,7 +2,7 @@
 
     python benchmarks/semilinear.py [--points N] [--turns N]
 
-The scene is examples/spectral/kuramoto_sivashinsky.py. Emitted C and emitted Python make steps of cf4, and
+The scene is `kuramoto_sivashinsky`. Emitted C and emitted Python make steps of cf4, and
 ETDRK4 (Kassam and Trefethen 2005, coefficients by means over 32 points of a circle) is written here with
 NumPy. The CPU times of a step are medians of all turns. The share of the transforms is
 the CPU time of as many transforms as a step makes, divided by the time of the step. For emitted C it is one
@@ -17,7 +17,6 @@ import ctypes
 import statistics
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -27,7 +26,7 @@ from codegen.build import build
 from codegen.emitter import compile_method
 from codegen.spectral import Spectral
 
-SCENE = str(Path(__file__).parent.parent / "examples" / "spectral" / "kuramoto_sivashinsky.py")
+SCENE = "kuramoto_sivashinsky"
 METHOD, H, STEPS, END = "cf:cf4", 1 / 16, 200, 10.0
 
 

@@ -44,6 +44,7 @@ EXCEPTIONS = {
     ("codegen/groups/__init__.py", "LISTED"): "the registry of groups and their modules",
     ("codegen/scenes/__init__.py", "GALLERY"): "the registry of scenes",
     ("codegen/scenes/__init__.py", "LATTICES"): "the registry of chains and lattices",
+    ("codegen/scenes/__init__.py", "SEMILINEAR"): "the registry of semilinear equations",
     (
         "codegen/lab/default_methods.py",
         "FIELD_METHODS",
@@ -97,7 +98,7 @@ def names() -> dict[str, frozenset[str]]:
     return {
         "family": frozenset(families.names()) | frozenset(codegen.lower.names()),
         "group": groups(),
-        "scene": frozenset(entry["name"] for entry in codegen.scenes.listing()),
+        "scene": frozenset(codegen.scenes.every_name()),
         "tableau": frozenset(library.available()),
     }
 

@@ -1,4 +1,4 @@
-/* One step of cf4 for the spins of examples/lattice/spin_lattice.py, written by hand. */
+/* One step of cf4 for the scene spin_lattice, written by hand. */
 #include "spin_lattice.h"
 
 /* The effective field at a site from its four neighbours */

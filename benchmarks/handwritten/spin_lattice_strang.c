@@ -1,4 +1,4 @@
-/* One step of Strang's splitting for the spins of examples/lattice/spin_lattice.py, written by hand. */
+/* One step of Strang's splitting for the scene spin_lattice, written by hand. */
 #include "spin_lattice.h"
 
 /* Anisotropy and external field turn each spin about the third axis. */

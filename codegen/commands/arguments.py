@@ -13,10 +13,10 @@ Command = TypeVar("Command", bound=Callable[..., object])
 
 
 def scene_names() -> tuple[str, ...]:
-    """Return the names of all scenes in the gallery and of all registered scenes."""
+    """Return the names of all scenes that `orderconds list scenes` lists."""
     from codegen import scenes
 
-    return scenes.names()
+    return scenes.every_name()
 
 
 def method_names() -> list[str]:

@@ -18,9 +18,9 @@ from orderconds.commands.screen import counting, is_shown, print_json
 def command(scene: str, name: str, parameters: tuple[str, ...], output: str, as_json: bool) -> int:
     """Draw the figure NAME of SCENE as an SVG file.
 
-    The file of the scene declares its figures; `orderconds list figures` prints those of the gallery. Every
-    curve comes from emitted C, which this command emits, compiles and runs. The exit status is 2 if the scene
-    has no figure of this name.
+    The file of the scene declares its figures; `orderconds list figures` prints those of all listed scenes.
+    Every curve comes from emitted C, which this command emits, compiles and runs. The exit status is 2 if the
+    scene has no figure of this name.
 
     \b
     Examples:
@@ -32,8 +32,10 @@ def command(scene: str, name: str, parameters: tuple[str, ...], output: str, as_
     from codegen.lab.pictures.registry import draw, find
     from codegen.lab.pictures.source import Source
 
-    problem = scenes.with_one_system(scenes.load(scenes.with_values(scene, parameters)))
+    problem = scenes.load(scenes.with_values(scene, parameters))
     figure = find(problem, name)
+    if not figure.shows_lattices:
+        scenes.with_one_system(problem)
     with counting(f"{problem.name}: {figure.name}") as progress:
         drawn = draw(figure, Source(problem, progress))
     put(output, standalone(str(drawn.svg)).encode())

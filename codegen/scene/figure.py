@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 from codegen.errors import SceneError
 from orderconds.argument import described
@@ -71,7 +71,10 @@ class Figure:
 
     ``source`` is the name of the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run
     with which the other runs are compared. A figure without comparisons shows the reference as a thin line.
+    ``shows_lattices`` is True if a kind of figure shows chains and lattices in place of single systems.
     """
+
+    shows_lattices: ClassVar[bool] = False
 
     name: str
     title: str
@@ -192,6 +195,7 @@ class LatticeMeans(Figure):
     initial states, an array of shape (n1, ..., nd, size).
     """
 
+    shows_lattices: ClassVar[bool] = True
     quantities: Mapping[str, Quantity] = field(default_factory=dict)
     axis: str = ""
     shape: tuple[int, ...]

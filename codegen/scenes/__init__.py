@@ -64,9 +64,23 @@ GALLERY = (
     "wilson_flow",
 )
 
-LATTICES = ("body_chain", "free_rod", "pipe_laying", "swinging_rod")
-"""The scenes of chains and lattices. Their number of sites is not fixed, so commands that run a scene from
-its initial state do not accept them."""
+LATTICES = (
+    "body_chain",
+    "free_rod",
+    "pipe_laying",
+    "spin_lattice",
+    "swinging_rod",
+    "wilson_lattice",
+)
+"""The scenes of chains and lattices. Their number of sites is not fixed, so commands that run a scene
+from its initial state do not accept them."""
+
+SEMILINEAR = ("allen_cahn_periodic", "kuramoto_sivashinsky")
+"""The semilinear equations that are given by symbols. They have any number of points, so commands that run a
+scene from its initial state do not accept them."""
+
+BUILT_IN = frozenset((*GALLERY, *LATTICES, *SEMILINEAR))
+"""The names of all scenes of the package."""
 
 EXTENDED = "+u"
 """The suffix of a scene name that denotes the scene extended by the time and its conjugate momentum."""
@@ -85,7 +99,7 @@ def register(name: str, scene: Problem, about: str = "") -> Problem:
     """
     if not isinstance(scene, Problem):
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
-    if name in (*GALLERY, *LATTICES) or not name.isidentifier():
+    if name in BUILT_IN or not name.isidentifier():
         raise SceneError(f"the name {name!r}", expected="an identifier that is not a scene of the gallery")
     named = _named(scene, name)
     _REGISTERED[name] = (named, about)
@@ -100,6 +114,15 @@ def unregister(name: str) -> None:
 def names() -> tuple[str, ...]:
     """Return the names of all scenes in the gallery and of all registered scenes."""
     return (*GALLERY, *_REGISTERED)
+
+
+def every_name() -> tuple[str, ...]:
+    """Return the names of :func:`names`, of all chains and lattices, and of all semilinear equations.
+
+    >>> "dipole" in every_name() and "spin_lattice" in every_name()
+    True
+    """
+    return (*names(), *LATTICES, *SEMILINEAR)
 
 
 def load(name: str) -> Problem:
@@ -143,7 +166,9 @@ def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
 
 
 def with_one_system(scene: Problem) -> Problem:
-    """Return the scene; raise :class:`SceneError` for a chain or lattice, whose number of sites is not given.
+    """Return the scene; raise :class:`SceneError` for a scene without a number of sites or points.
+
+    These scenes are chains, lattices, and semilinear equations given by symbols.
 
     >>> with_one_system(load("dipole")).name
     'dipole'
@@ -154,6 +179,13 @@ def with_one_system(scene: Problem) -> Problem:
             where=scene.name,
             expected="a scene with one system",
             hint="emit it, and run it for arrays of states with codegen.load_lattice",
+        )
+    if scene.semilinear is not None:
+        raise SceneError(
+            "a semilinear equation, whose scene does not contain the number of points",
+            where=scene.name,
+            expected="a scene with one system",
+            hint="emit it, and run it for any number of points with codegen.load_spectral",
         )
     return scene
 
@@ -184,14 +216,14 @@ def file_stem(scene: Problem) -> str:
 
 
 def _load(name: str) -> Problem:
-    if name in GALLERY or name in LATTICES:
+    if name in BUILT_IN:
         module = import_module(f"codegen.scenes.{name}")
         scene: Problem = module.scene
         return replace(scene, name=name, figures=read_figures(name, vars(module).get("figures", ())))
     if name in _REGISTERED:
         return _REGISTERED[name][0]
     path = Path(name)
-    known = (*names(), *LATTICES)
+    known = every_name()
     if path.suffix != ".py":
         raise UnknownName(
             f"unknown scene {name!r}",
@@ -266,11 +298,11 @@ def about(name: str) -> str:
     name = name.removesuffix(EXTENDED)
     if name in _REGISTERED:
         return _REGISTERED[name][1]
-    spec = find_spec(f"codegen.scenes.{name}") if name in (*GALLERY, *LATTICES) else None
+    spec = find_spec(f"codegen.scenes.{name}") if name in BUILT_IN else None
     path = Path(spec.origin) if spec is not None and spec.origin else Path(name)
     return ast.get_docstring(ast.parse(read_bytes(path, error=SceneError))) or ""
 
 
 def listing() -> list[dict[str, str]]:
     """Return name and title of every scene, for ``orderconds list scenes``; scenes are sorted by name."""
-    return [{"name": n, "about": load(n).title} for n in sorted([*names(), *LATTICES])]
+    return [{"name": n, "about": load(n).title} for n in sorted(every_name())]

@@ -22,12 +22,15 @@ NAMES = click.Choice(list(FORMATS))
 @click.command(name="convert", short_help="Convert a tableau to or from another file format.")
 @click.argument("source", metavar="FILE|NAME", shell_complete=completing(tableau_names, files=True))
 @click.option(
-    "--from", "of", type=NAMES, help="The format of FILE. Default: the format that the suffix of FILE names."
+    "--from",
+    "of",
+    type=NAMES,
+    help="The format of FILE. Default: the format indicated by the suffix of FILE.",
 )
 @click.option(
     "--to",
     type=NAMES,
-    help="The format to write. Default: the format that the suffix of --output names, or toml on stdout.",
+    help="The format to write. Default: the format indicated by the suffix of --output, or toml on stdout.",
 )
 @click.option("--name", help="The name of the tableau, if FILE contains no name.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")

@@ -28,7 +28,7 @@ UNKNOWN = "no fractions and no numbers p + q sqrt(d) near the coefficients give 
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
 
-    If FILE has a [proof] table, solve the equations that it names. Newton's method starts at the rounded
+    If FILE has a [proof] table, solve the equations of this table. Newton's method starts at the rounded
     decimals ("0.8177~") of the file. Write the file again with more digits, a list of the decimals that were
     kept fixed (pins), and a record of the old digits.
 

@@ -77,7 +77,7 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
     >>> print(two_registers(kutta3.method, kutta3.ring).reason)
-    stage 3: the increment is not B_3 K_3: the coefficient of k_1 is 7/6; expected 1
+    the increment of stage 3 is not B_3 K_3: the coefficient of k_1 is 7/6, but two registers require 1
     >>> [str(x) for x in two_registers(heun.method, heun.ring).scheme.A]
     ['0', '-1']
     """

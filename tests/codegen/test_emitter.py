@@ -188,7 +188,9 @@ def test_families_that_serve_a_scene():
 def test_a_file_whose_name_makes_no_prefix_is_told_what_else_to_type(tmp_path):
     path = tmp_path / "2d.py"
     path.write_text("from codegen.scenes.free_rigid_body import scene\n")
-    with pytest.raises(InputError, match=r"the prefix '2d_cg3'; expected a letter, .* use prefix NAME"):
+    with pytest.raises(
+        InputError, match=r"'2d_cg3' cannot be the prefix .* expected a letter, .* use prefix"
+    ):
         emit(str(path), "cg:cg3")
     assert emit(str(path), "cg:cg3", prefix="flat").files
 
@@ -208,7 +210,13 @@ def test_prefixes_name_scene_and_method():
         ("nowhere", "cf4", "c", UnknownName, "nowhere"),
         ("free_rigid_body", "nothing", "c", UnknownName, "nothing"),
         ("free_rigid_body", "cf4", "fortran", UnknownName, "unknown target fortran; expected c or python"),
-        ("free_rigid_body", "vcg:midpoint", "c", MethodError, "vcg on free_rigid_body; expected a Ham"),
+        (
+            "free_rigid_body",
+            "vcg:midpoint",
+            "c",
+            MethodError,
+            "the family vcg cannot be used on free_rigid_body; expected a Ham",
+        ),
         ("dipole", "vcg:heun_zero.toml", "c", InputError, "heun_zero"),
         ("missing.py", "cf4", "c", SceneError, "missing.py"),
     ],

@@ -324,9 +324,7 @@ def test_other_solvers_are_refused():
 
 
 def test_explain_shows_the_sweeps_that_are_repeated():
-    answer = CliRunner().invoke(
-        program, ["emit", "examples/lattice/spin_lattice.py", "-m", "rkmk:gauss1", "--explain"]
-    )
+    answer = CliRunner().invoke(program, ["emit", "spin_lattice", "-m", "rkmk:gauss1", "--explain"])
     assert answer.exit_code == 0
     assert "loop 1: k0 = field(y); v1 = k0" in answer.output
     assert "loops 2 to 3 are repeated until the unknowns v1 converge at all sites" in answer.output

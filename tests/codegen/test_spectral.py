@@ -31,8 +31,8 @@ from orderconds.cli import program
 from orderconds.errors import InputError
 
 u, k, x, t = symbols("u k x t", real=True)
-KS = "examples/spectral/kuramoto_sivashinsky.py"
-ALLEN_CAHN = "examples/spectral/allen_cahn.py"
+KS = "kuramoto_sivashinsky"
+ALLEN_CAHN = "allen_cahn_periodic"
 TARGETS = ("python", "c")
 
 
@@ -417,10 +417,14 @@ def test_single_precision_is_refused():
         emit(KS, "cf:cf4", precision="single")
 
 
-def test_a_command_that_needs_coordinates_says_so():
-    result = CliRunner().invoke(program, ["converge", ALLEN_CAHN, "--method", "cf:cf4"])
+@pytest.mark.parametrize("command", ["bench", "converge", "localerror", "longrun", "report", "stability"])
+def test_a_command_that_runs_one_system_refuses_a_semilinear_equation(command, tmp_path):
+    output = ["-o", str(tmp_path)] if command == "report" else []
+    result = CliRunner().invoke(program, [command, ALLEN_CAHN, "--method", "cf:cf4", *output])
     assert result.exit_code == 2
-    assert "a semilinear equation" in result.output
+    assert "a semilinear equation, whose scene does not contain the number of points" in result.output
+    assert "codegen.load_spectral" in result.output
+    assert not list(tmp_path.iterdir())
 
 
 def test_modules_are_loaded_by_their_own_function():

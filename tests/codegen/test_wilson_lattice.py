@@ -17,7 +17,7 @@ from codegen.ir.expr import evaluate
 from codegen.scene.site_scene import with_frozen_neighbours
 from codegen.scene.sites import offset_text
 
-FILE = Path(__file__).parents[2] / "examples" / "lattice" / "wilson_flow.py"
+FILE = Path(__file__).parents[2] / "codegen" / "scenes" / "wilson_lattice.py"
 TWO_REGISTERS = ("cf:luescher3", "cf:williamson3", "cf:carpenter_kennedy4", "cf:yan5", "cf:cf5_2n_s10")
 
 
@@ -25,7 +25,7 @@ TWO_REGISTERS = ("cf:luescher3", "cf:williamson3", "cf:carpenter_kennedy4", "cf:
 def example(dimension):
     """Return the variables of the example, in another dimension if it is not four."""
     text = FILE.read_text().replace("DIMENSION = 4", f"DIMENSION = {dimension}")
-    variables = {"__name__": "wilson_flow"}
+    variables = {"__name__": "wilson_lattice"}
     exec(compile(text, str(FILE), "exec"), variables)
     assert len(variables["links"]) == 18 * dimension
     return variables

@@ -89,7 +89,10 @@ WRONG: dict[str, tuple[Call, str]] = {
         "method: an object of type NoneType; expected a Tableau",
     ),  # type: ignore[arg-type]
     "emit no scene": (lambda: codegen.emit(None, "cf4"), "scene: an object of type NoneType"),  # type: ignore[arg-type]
-    "emit a prefix": (lambda: codegen.emit(RIGID, "cf4", prefix="1a"), "prefix: the prefix '1a'"),
+    "emit a prefix": (
+        lambda: codegen.emit(RIGID, "cf4", prefix="1a"),
+        "prefix: '1a' cannot be the prefix of names",
+    ),
     "emit one parameter": (
         lambda: codegen.emit(RIGID, "cf4", parameters="alpha"),
         "parameters: 'alpha' of type str",
@@ -129,7 +132,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     ),
     "recommend backwards": (
         lambda: codegen.recommend(RIGID, 1e-3, span=(1, 0)),
-        "span: 1, 0; expected an end later than the beginning of the span",
+        "span: (1, 0); expected two times, the first less than the second",
     ),
     "recommend one tableau": (
         lambda: codegen.recommend(RIGID, 1e-3, tableaux="rk4"),

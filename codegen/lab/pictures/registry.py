@@ -80,9 +80,8 @@ def command(scene: str, figure: Figure) -> str:
 
 
 def every_figure() -> Iterator[tuple[str, Figure]]:
-    """Yield (name of a scene, figure) for each figure of the scenes in the gallery and of the registered
-    scenes."""
-    for name in scenes.names():
+    """Yield (name of a scene, figure) for each figure of the scenes that `orderconds list scenes` shows."""
+    for name in scenes.every_name():
         for figure in scenes.load(name).figures:
             yield name, figure
 

@@ -50,7 +50,7 @@ def test_too_few_runs_are_undecided_and_exit_1() -> None:
     [
         (("nowhere", "-m", "cg3"), "unknown scene"),
         (("free_rigid_body", "-m", "cg33"), "cg33"),
-        (("free_rigid_body", "-m", "vcg:gauss1"), "vcg on free_rigid_body"),
+        (("free_rigid_body", "-m", "vcg:gauss1"), "the family vcg cannot be used on free_rigid_body"),
         (("free_rigid_body", "-m", "cg3", "--target", "fortran"), "unknown target"),
         (("free_rigid_body", "-m", "cg3", "--digits", "40"), "--target interpreter"),
         (("free_rigid_body", "-m", "cg3", "--steps", "20,x"), "--steps"),

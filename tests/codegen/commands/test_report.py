@@ -75,7 +75,7 @@ def test_a_user_scene_is_reported_by_its_own_words(tmp_path: Path) -> None:
     ("words", "said"),
     [
         (("nowhere",), "unknown scene"),
-        (("free_rigid_body", "-m", "vcg:gauss1"), "vcg on free_rigid_body"),
+        (("free_rigid_body", "-m", "vcg:gauss1"), "the family vcg cannot be used on free_rigid_body"),
         (("free_rigid_body", "-m", "cg33"), "cg33"),
         (("free_rigid_body", "--only", "horoscope"), "unknown measurement 'horoscope'"),
         (("free_rigid_body", "--quick", "--full"), "--quick and --full contradict each other"),

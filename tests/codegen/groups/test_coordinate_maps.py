@@ -290,7 +290,7 @@ def test_emitted_code_takes_the_step_of_the_interpreter(group, action, y0, coord
 def test_the_header_says_that_the_cut_off_is_not_read():
     scene = spinning(SO3(), Rotation(), [1, 2, 2], "cayley")
     text = emit(scene, "rkmk(1):rk4", "python")
-    assert "the cut-off 1 is not read" in " ".join(" ".join(text.files.values()).split())
+    assert "the cut-off 1 has no effect" in " ".join(" ".join(text.files.values()).split())
 
 
 def test_other_families_use_the_exponential_map():

@@ -161,7 +161,7 @@ def test_every_family_emits_or_names_the_families_that_do(name, kind, families, 
         with pytest.raises(MethodError) as refusal:
             compiled(kind, name, method)
         found, _, expected = str(refusal.value).partition("; expected ")
-        assert found.startswith(f"{family} on ")
+        assert found.startswith(f"the family {family} cannot be used on ")
         named = set(re.findall(r"\w+", expected)) & set(FAMILIES)
         assert named <= families
         assert named or "write parts=" in expected

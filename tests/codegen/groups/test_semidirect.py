@@ -128,7 +128,7 @@ def test_linear_maps_with_columns_are_the_affine_maps(sample):
 
 
 def test_no_copies_are_refused():
-    with pytest.raises(SceneError, match="0 copies"):
+    with pytest.raises(SceneError, match="number of copies of a space is 0"):
         AlgebraVectors(0)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
@@ -76,8 +75,7 @@ def test_a_pair_has_the_updates_of_the_general_program() -> None:
 @pytest.mark.parametrize("name", ["williamson3", "carpenter_kennedy4"])
 def test_a_lattice_stores_as_many_numbers_for_any_number_of_stages(name: str) -> None:
     """A step stores one element K of so(3) for each site, and the states before and after a stage."""
-    path = Path(__file__).parents[3] / "examples" / "lattice" / "spin_lattice.py"
-    scene = load(str(path))
+    scene = load("spin_lattice")
     step = site_method(scene, parse(f"cf:{name}", names())).kernel.sites
     assert step is not None
     rows = {load.row for sweep in step.sweeps for load in sweep.loads} | {

@@ -130,10 +130,9 @@ def test_every_way_to_solve_takes_the_same_sweeps_everywhere(case):
 @pytest.mark.parametrize(
     "scene",
     [
-        pytest.param(entry["name"], marks=pytest.mark.slow if entry["name"] in ALIKE else ())
-        for entry in scenes.listing()
-        if entry["name"] not in scenes.LATTICES
-        if scenes.load(entry["name"]).matrices is None  # whole matrices have no implicit methods
+        pytest.param(name, marks=pytest.mark.slow if name in ALIKE else ())
+        for name in sorted(scenes.names())
+        if scenes.load(name).matrices is None  # whole matrices have no implicit methods
     ],
 )
 def test_every_scene_takes_the_same_sweeps_everywhere(scene):

@@ -119,9 +119,32 @@ def test_an_unknown_scene_lists_the_known_ones():
 
 
 @pytest.mark.parametrize("name", scenes.GALLERY)
-def test_the_gallery_is_listed_with_titles(name):
-    assert scenes.load(name).name == name
-    assert name in [row["name"] for row in scenes.listing()]
+def test_the_gallery_has_names_and_titles(name):
+    scene = scenes.load(name)
+    assert scene.name == name
+    assert len(scene.title.split()) > 1
+    assert scene.sites is None
+    assert scene.semilinear is None
+
+
+@pytest.mark.slow
+def test_every_scene_is_listed_with_its_title():
+    listed = {row["name"]: row["about"] for row in scenes.listing()}
+    assert list(listed) == sorted(scenes.every_name())
+    for name in (*scenes.LATTICES, *scenes.SEMILINEAR):
+        scene = scenes.load(name)
+        assert scene.name == name
+        assert listed[name] == scene.title
+        assert len(scene.title.split()) > 1
+        assert (scene.sites is not None) == (name in scenes.LATTICES)
+        assert (scene.semilinear is not None) == (name in scenes.SEMILINEAR)
+
+
+def test_every_file_of_a_scene_is_in_one_registry():
+    """The file of a scene defines ``scene`` at the beginning of a line."""
+    folder = Path(scenes.__file__).parent
+    files = sorted(p.stem for p in folder.glob("*.py") if "\nscene = " in p.read_text(encoding="utf-8"))
+    assert sorted((*scenes.GALLERY, *scenes.LATTICES, *scenes.SEMILINEAR)) == files
 
 
 def test_a_scene_of_a_user_has_its_title_or_the_first_line_of_its_docstring_or_the_name_of_its_file(tmp_path):

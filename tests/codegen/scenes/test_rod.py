@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from codegen import emit, load_lattice
-from codegen.scenes import LATTICES, listing, load
 from codegen.scenes.free_rod import straight
 
 EA, GJ, EI, GA = 400.0, 0.8, 1.0, 27 / 28 * 160
@@ -124,14 +123,3 @@ def test_a_thousand_sections_run():
     lattice = load_lattice(emit("swinging_rod", "splitting:strang", target="c", parameters=["ds"]))
     result = lattice.run(np.array(straight(n, 1 / n)), 2e-5, 100, ds=1 / n)
     assert result.ok
-
-
-@pytest.mark.slow
-def test_lattices_are_listed_and_loaded():
-    listed = {row["name"]: row["about"] for row in listing()}
-    for name in LATTICES:
-        assert "SE(3)" in listed[name]
-        scene = load(name)
-        assert scene.name == name
-        assert scene.sites is not None
-    assert list(listed) == sorted(listed)

@@ -114,7 +114,7 @@ def test_an_update_with_its_factors_exchanged_is_another() -> None:
 
 
 MALFORMED = {
-    "a stage that is not there": ("from = 5", "embedded: from = 5"),
+    "a stage that is not there": ("from = 6", "embedded: from = 6"),
     "a row too long": ('exp = [["1", "0", "0", "0", "0"]]', r"embedded.exp\[1\]: 5 entries"),
     "an unknown key": ("b = []", "embedded: unknown key 'b'; expected one of exp, from, order"),
 }

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from sympy import Symbol, symbols
 
 from codegen.errors import SceneError
@@ -39,6 +40,7 @@ from codegen.scene.figure import (
 )
 from codegen.scene.sites import neighbour
 from codegen.scenes import GALLERY, load
+from orderconds.cli import program
 from orderconds.errors import UnknownName
 from tests.codegen.chains import S, chain, open_chain
 
@@ -249,6 +251,7 @@ def test_an_unknown_figure_is_an_error_that_lists_the_figures():
         find(load("driven_spin"), "a")
 
 
+@pytest.mark.slow
 def test_the_listing_names_scene_and_figure():
     assert {
         "name": "heavy_top centre",
@@ -316,6 +319,43 @@ def test_the_figure_of_a_lattice_shows_runs_of_emitted_code():
     assert most >= max(first, end)
     with pytest.raises(SceneError, match="fails after t = 0"):
         draw(lattice_figure(1e308), source)
+
+
+LATTICE_FILE = """
+from sympy import Matrix, symbols
+from codegen.groups import SO3, Rotation
+from codegen.scene import SiteScene, right
+from codegen.scene.figure import LatticeMeans, Run, TimeSeries
+
+S = Matrix(symbols("S0:3", real=True))
+runs = (Run("rkmk(0):euler", 0.1, 4),)
+scene = SiteScene(group=SO3(), action=Rotation(), y=S, f=right(S), y0=[1, 0, 0], span=(0, 1))
+figures = [
+    LatticeMeans(
+        name="mean", title="Mean", quantities={"third": S[2]}, runs=runs, shape=(3,),
+        start=lambda shape: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ),
+    TimeSeries(name="time", title="Time", quantities={"third": S[2]}, runs=runs),
+]
+"""
+
+
+@pytest.mark.slow
+def test_the_command_draws_the_means_of_a_lattice(tmp_path):
+    file, output = tmp_path / "spins.py", tmp_path / "mean.svg"
+    file.write_text(LATTICE_FILE, encoding="utf-8")
+    result = CliRunner().invoke(program, ["figure", str(file), "mean", "-o", str(output)])
+    assert result.exit_code == 0, result.output
+    assert "<svg" in output.read_text(encoding="utf-8")
+
+
+def test_the_command_refuses_a_figure_of_one_system_on_a_lattice(tmp_path):
+    file, output = tmp_path / "spins.py", tmp_path / "time.svg"
+    file.write_text(LATTICE_FILE, encoding="utf-8")
+    result = CliRunner().invoke(program, ["figure", str(file), "time", "-o", str(output)])
+    assert result.exit_code == 2
+    assert "a chain or lattice" in result.output
+    assert not output.exists()
 
 
 BODY = (M[0], M[1], M[2])

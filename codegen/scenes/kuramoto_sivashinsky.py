@@ -14,7 +14,7 @@ u, k, x = symbols("u k x", real=True)
 wave = Rational(1, 16)
 
 scene = SemilinearScene(
-    title="Kuramoto-Sivashinsky equation",
+    title="Kuramoto-Sivashinsky equation on a periodic interval, with any number of points",
     u=u,
     k=k,
     x=x,

@@ -1,5 +1,6 @@
 """The Allen-Cahn equation u_t = eps u_xx + u - u^3 on a periodic interval of length 2 pi.
 
+The equation is that of S. M. Allen and J. W. Cahn (Acta Metallurgica 27 (1979) 1085-1095) in one dimension.
 The solution forms plateaus near 1 and -1, whose boundaries move slowly. The operator is L = eps d^2/dx^2, so
 that the nonlinear term contains u - u^3. Affine maps on u -> exp(t L) u + c act as in section 2.2.2 of
 H. Marthinsen's thesis; here L is given by its symbol.
@@ -13,7 +14,7 @@ u, k, x = symbols("u k x", real=True)
 eps = param("eps", Rational(1, 100))
 
 scene = SemilinearScene(
-    title="Allen-Cahn equation",
+    title="Allen-Cahn equation on a periodic interval, with any number of points",
     u=u,
     k=k,
     x=x,

@@ -38,11 +38,11 @@ def link(axis: int, *steps: tuple[int, int]) -> Matrix:
 
 
 def staples(a: int) -> Matrix:
-    """Return the sum of the staples of link a."""
-    total = zeros(6, 6)
+    """Return the sum of the staples of link a, as a 6 x 3 matrix."""
+    total = zeros(6, 3)
     for b in [b for b in axes if b != a]:
-        total += link(b, (a, 1)) * (link(a, (b, 1)).T * link(b).T)
-        total += link(b, (a, 1), (b, -1)).T * (link(a, (b, -1)).T * link(b, (b, -1)))
+        total += link(b, (a, 1)) * (link(a, (b, 1)).T * link(b).T[:, :3])
+        total += link(b, (a, 1), (b, -1)).T * (link(a, (b, -1)).T * link(b, (b, -1))[:, :3])
     return total
 
 
@@ -58,15 +58,17 @@ def start(shape: Sequence[int]) -> np.ndarray:
     return np.concatenate([columns.real, columns.imag], axis=1).reshape(*shape, -1)
 
 
-# The trace of the real matrix of a plaquette P is 2 Re tr P.
-plaquettes = [link(a) * link(b, (a, 1)) * (link(b) * link(a, (b, 1))).T for a, b in combinations(axes, 2)]
-energy = sum(6 - plaquette.trace() for plaquette in plaquettes)
+# The upper half of the 6 x 3 matrix of a plaquette P is Re P.
+plaquettes = [
+    link(a) * (link(b, (a, 1)) * (link(a, (b, 1)).T * link(b).T[:, :3])) for a, b in combinations(axes, 2)
+]
+energy = sum(6 - 2 * plaquette[:3, :].trace() for plaquette in plaquettes)
 scene = SiteScene(
     title=f"Wilson flow of a lattice gauge field in SU(3), dimension {DIMENSION}",
     group=Product(*(SU(3) for _ in axes)),
     action=FactorwiseAction(*(Columns(3) for _ in axes)),
     y=links,
-    f=[x for a in axes for x in generator(link(a) * staples(a)[:, :3])],
+    f=[x for a in axes for x in generator(link(a) * staples(a))],
     y0=[*Matrix.vstack(eye(3), zeros(3, 3))] * DIMENSION,
     span=(0, 1),
 )

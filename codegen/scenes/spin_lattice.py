@@ -1,9 +1,11 @@
 """Heisenberg spins on a plane lattice: the Landau-Lifshitz equation with exchange, anisotropy and a field.
 
 Each site has a spin S of length one. It turns about the effective field H, the sum of J S over the four
-neighbours, an anisotropy about the third axis, and an external field: S' = H x S. The lattice is periodic.
-The energy is constant. Its parts have exact flows: two spins turn about their sum, and the anisotropy and the
-external field turn a spin about the third axis.
+neighbours, an anisotropy about the third axis, and an external field: S' = H x S. This is the equation of
+L. D. Landau and E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) without damping. The lattice is
+periodic, and the energy is constant. The energy is split as in J. Frank, W. Huang and B. Leimkuhler
+(J. Comput. Phys. 133 (1997) 160-172). The parts have exact flows: two spins turn about their sum, and the
+anisotropy and the external field turn a spin about the third axis.
 """
 
 from sympy import Matrix, Rational, symbols, zeros
@@ -20,6 +22,7 @@ single = Matrix([0, 0, K * S[2] + B])
 sums = [J * (S + neighbour(S, offset)) for offset in offsets]
 
 scene = SiteScene(
+    title="Heisenberg spins on a plane lattice: the Landau-Lifshitz equation",
     group=SO3(),
     action=Rotation(),
     y=S,
