@@ -340,7 +340,7 @@ def test_headers_are_read_by_c_plus_plus_whatever_parameters_are_called(tmp_path
 
 @pytest.mark.parametrize("prefix", ["1a", "class", "lambda_", "math", "string_", "a-b", ""])
 def test_a_prefix_that_no_file_or_name_can_take_is_refused(prefix):
-    with pytest.raises(InputError, match="--prefix: (the prefix .* is|.* cannot be the prefix of)"):
+    with pytest.raises(InputError, match=r"--prefix: (the prefix .* is|.* cannot be the prefix of)"):
         prefix_of(prefix)
 
 
