@@ -1,5 +1,5 @@
-"""Compile emitted C to a shared object. A cache stores the shared object, which is used again for equal
-sources and the same compiler.
+"""Compile emitted C to a shared object. The shared object is stored in a cache. It is used again if the
+sources, the compiler and its flags are the same.
 
 The compiler writes into a temporary folder inside the cache, and the finished file is renamed
 (:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes may build the same

@@ -29,8 +29,8 @@ WORKING = "building-"
 """The prefix of the names of working folders."""
 
 SETTLED = 60.0
-"""The age in seconds below which temporary files and working folders are never removed. An older working
-folder is removed unless a process has locked it."""
+"""The age in seconds below which temporary files and working folders are never removed. Older temporary files
+are removed. Older working folders are removed unless a process has locked them."""
 
 
 def cache_directory() -> Path:

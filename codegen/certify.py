@@ -25,12 +25,12 @@ DOUBLE_BITS = 53
 
 @dataclass(frozen=True)
 class CertifiedOrder:
-    """An order, its certificate, and the conditions of the next order that fail.
+    """An order, its certificate, and those conditions of the next order that the method does not satisfy.
 
     If ``bound`` is true, no condition failed up to the largest order that was examined, so the order may be
     higher. If the order was computed for an abelian group, ``classical`` is the classical family to which the
-    method reduces there. ``radius`` is the uncertainty of the coefficients if it exceeds the rounding error
-    of a double; in this case there is no certificate.
+    method reduces on this group. ``radius`` is the uncertainty of the coefficients if it exceeds the rounding
+    error of a double; in this case there is no certificate.
     """
 
     order: int

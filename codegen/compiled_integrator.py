@@ -29,8 +29,9 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # The library has no such function and is closed. If it stayed open, loading a rebuilt library of
-            # the same name would return the old library.
+            # The library does not contain this function. It is closed before the error is raised, because
+            # otherwise a later ``dlopen`` of a rebuilt library with the same path would return the old
+            # library.
             self._ffi.dlclose(self._library)
             raise
 

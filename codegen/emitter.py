@@ -59,7 +59,8 @@ Additions and products cost 1, and functions that are not listed cost 12."""
 
 @dataclass(frozen=True)
 class Optimised:
-    """A method on a scene, ready to be interpreted: the program before and after each pass.
+    """A method on a scene, ready to be interpreted: its step program before the first pass, and after each
+    pass.
 
     ``problem`` is the scene in the form that the method's family requires.
     """
@@ -114,17 +115,19 @@ def compile_method(
 ) -> Compiled:
     """Return a method on a scene, lowered, optimised and translated to a kernel.
 
-    ``scene`` and ``method`` may be given by their names. ``parameters`` stay run-time arguments, or become
-    constants with a given value (``alpha=1/2``). All other parameters become constants with the scene's
-    values. ``inputs`` are signals that become run-time inputs. ``frame`` is the frame of momenta
+    ``scene`` and ``method`` may be given by their names. ``parameters`` contains names of parameters that
+    stay run-time arguments (``alpha``), and parameters that become constants with a given value
+    (``alpha=1/2``). All other parameters become constants with the scene's values. ``inputs`` are signals
+    that become run-time inputs. ``frame`` is the frame of momenta
     (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the solver of implicit blocks
     (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an embedded method,
     ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the scene
     (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
-    times, ``events`` is the number of its event functions, and ``dense`` uses the continuous extension of the
-    tableau at output times. ``compensate`` extends the state by the carries of compensated summation
-    (:mod:`codegen.kernel.compensation`). Errors: SceneError, MethodError, UnknownName, TableauError.
+    times, ``events`` is the number of event functions of this run, and ``dense`` uses the continuous
+    extension of the tableau at output times. ``compensate`` extends the state by the carries of compensated
+    summation (:mod:`codegen.kernel.compensation`). Errors: SceneError, MethodError, UnknownName,
+    TableauError.
     """
     request = RunRequest(**run)
     scene = _with_arguments(scenes.problem_of(scene), parameters, inputs)
@@ -160,7 +163,8 @@ def compile_method(
 
 
 def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[str]) -> Problem:
-    """Return a scene in which the listed parameters and signals are arguments at run time."""
+    """Return a scene in which the listed signals, and the listed parameters without a value, are arguments at
+    run time. A parameter with a value (``alpha=1/2``) becomes a constant."""
     parameters = texts(parameters, "parameters", "alpha=1/2")
     inputs = texts(inputs, "inputs", "u")
     scene = with_runtime(scene, tuple(parameters)) if parameters else scene

@@ -120,8 +120,8 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 
 
 def _hint(method: Method, scene: Problem) -> str:
-    """Return a hint for the user: the method with the smallest larger cut-off for which the estimate has the
-    order of the local error, or, if there is none, the advice to use another tableau."""
+    """Return a hint for the user: a method with a larger cut-off, whose estimate has the order of the local
+    error. The smallest such cut-off is chosen. If there is none, the hint is to use another tableau."""
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):
             longer = replace(method, cutoff=cutoff)

@@ -30,8 +30,8 @@ class Event:
 
     @property
     def stops(self) -> int:
-        """The number by which emitted code knows at which zeros the run ends: zeros with rising values (1),
-        with falling values (2), all zeros (3), or none (0)."""
+        """The number that tells emitted code which zeros end the run: zeros with rising values (1), with
+        falling values (2), all zeros (3), or none (0)."""
         return {RISING: 1, FALLING: 2, 0: 3}[self.direction] if self.terminal else 0
 
 

@@ -17,8 +17,8 @@ def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator
     """Lock an existing folder. Several readers may hold a ``shared`` lock at the same time; such a lock
     excludes only writers.
 
-    Yields whether the lock was acquired. It is not acquired if the file system has no locks, or if ``wait``
-    is false and another process holds the lock.
+    Yields True if the lock was acquired, otherwise False. The lock is not acquired if the file system has no
+    locks, or if ``wait`` is false and another process holds the lock.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:

@@ -80,7 +80,8 @@ def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
 
 
 def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the line of the header about the storage of a step, if the family states it."""
+    """Return the line of the header about the memory that a step needs, if the family of the method describes
+    it."""
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:
         text = f"{text}; for each site, and two more copies of the state, because sites read their neighbours"

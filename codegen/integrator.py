@@ -129,8 +129,8 @@ class Integrator(RunToEnd):
         """Return a list of states: the initial state and every stride-th state after it.
 
         ``t_eval`` is a monotone sequence of times; if it is given, the result is a list of the states at
-        these times. ``t`` is the time of the initial state. Between two times the steps are equal, and at
-        most as long as h.
+        these times. ``t`` is the time of the initial state. Between two successive times all steps have the
+        same size, whose absolute value is at most that of h.
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             rows = [

@@ -41,7 +41,7 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     module (``double`` or ``float``).
 
     ``states`` must be an array of N states of ``size`` real numbers, N >= 1, or a tuple of arrays, one for
-    each part of the states. For any other argument, ValueError is raised.
+    each part of the states, such as q and mu. For any other argument, ValueError is raised.
 
     >>> columns([[1, 2, 3], [4, 5, 6]], 3, "double").tolist()
     [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]

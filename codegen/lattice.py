@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class LatticeRun:
-    """The result of a run: the last good states, of shape (n1, ..., nd, size), the status, and the number of
-    completed steps."""
+    """The result of a run: the states after the last completed step, of shape (n1, ..., nd, size), the
+    status, and the number of completed steps."""
 
     states: Floats
     status: Status
@@ -51,9 +51,10 @@ class Lattice(ABC):
         """Return the states of all sites after ``steps`` steps of size h from time t.
 
         ``states`` has the shape (n1, ..., nd, size): one state for each site of the lattice. If a step fails,
-        no error is raised: the result contains the status and the last good states. ValueError is raised for
-        an array of another shape or type, for states that are not finite, and for a lattice that is too
-        small. TypeError is raised for unknown parameters, and InputError if there is not enough memory.
+        no error is raised: the result contains the status and the states before this step. ValueError is
+        raised for an array of another shape or type, for states that are not finite, and for a lattice that
+        is too small. TypeError is raised for unknown parameters, and InputError if there is not enough
+        memory.
         """
         import numpy as np
 

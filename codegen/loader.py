@@ -1,7 +1,7 @@
 """Load emitted modules as Python objects with one interface, :class:`codegen.integrator.Integrator`.
 
-Each target (C, Python) names the function that loads the modules of this target
-(:attr:`codegen.printers.Target.loader`).
+For each target (C, Python), :attr:`codegen.printers.Target.loader` is the name of the function that loads
+modules of this target.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
 
 
 def load_lattice(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Lattice:
-    """Return a module for a chain or lattice, which :class:`codegen.scene.SiteScene` describes.
+    """Return the module of a scene on a chain or lattice (:class:`codegen.scene.SiteScene`) as an object.
 
     The arguments and errors are those of :func:`load`.
     """
@@ -70,7 +70,7 @@ def load_lattice(source: Artifact | str | PathLike[str], module: str = "", targe
 
 
 def load_spectral(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Spectral:
-    """Return a module for a semilinear equation, which :class:`codegen.scene.SemilinearScene` describes.
+    """Return the module of a semilinear equation (:class:`codegen.scene.SemilinearScene`) as an object.
 
     The arguments and errors are those of :func:`load`.
     """
@@ -119,8 +119,8 @@ def load_compiled(
     try:
         return CompiledIntegrator(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
-        # The cached file has the recorded digest, but it is no library, or it lacks functions of the module.
-        # The module is built again.
+        # The digest of the cached file is correct, but the file is not a library, or it lacks functions of
+        # the module. Therefore the module is compiled again.
         return CompiledIntegrator(interface, defaults, build(files, flags, again=True))
 
 
@@ -134,7 +134,8 @@ def load_interpreted(
 def load_compiled_lattice(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Lattice:
-    """Return the lattice of a C module; the module is compiled unless the cache contains it."""
+    """Return a C module for a lattice as a Python object; the module is compiled unless the cache contains
+    it."""
     flags = (*FLAGS, *VECTOR_FLAGS)
     try:
         return CompiledLattice(interface, defaults, build(files, flags))
@@ -147,7 +148,8 @@ def load_compiled_lattice(
 def load_compiled_spectral(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Spectral:
-    """Return the spectral module of a C module; the module is compiled unless the cache contains it."""
+    """Return a C module for a semilinear equation as a Python object; the module is compiled unless the
+    cache contains it."""
     flags = (*FLAGS, *VECTOR_FLAGS)
     try:
         return CompiledSpectral(interface, defaults, build(files, flags))
@@ -160,5 +162,5 @@ def load_compiled_spectral(
 def load_interpreted_spectral(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Spectral:
-    """Return the spectral module of a Python module."""
+    """Return a Python module for a semilinear equation as a Python object."""
     return InterpretedSpectral(interface, defaults, files[f"{interface.module}.py"])

@@ -315,9 +315,9 @@ def _library() -> Iterator[Tableau]:
 def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
     """Return the method that a user passed to a Python function as a method, a tableau, or a text.
 
-    ``families`` are the families that accept the scene. ``family`` chooses a family for a tableau, as
-    ``"rkmk(2)"``. Without ``family``, the claims of the tableau determine the family, as in :func:`parse`. A
-    tableau without claims is used in the family in which its computed order is highest.
+    ``families`` are the families that accept the scene. ``family``, such as ``"rkmk(2)"``, is the
+    family in which a tableau is used. Without ``family``, the claims of the tableau determine the family, as
+    in :func:`parse`. A tableau without claims is used in the family in which its computed order is highest.
     """
     if isinstance(given, Method):
         return given

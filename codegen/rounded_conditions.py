@@ -50,7 +50,7 @@ def rounded_residual(method: Method, family: Family, order: int, target: Precisi
 
 
 def largest_residual(tableau: Tableau, family: Family, order: int) -> float | None:
-    """Return an upper bound of the residuals of the conditions up to ``order``, by absolute value.
+    """Return an upper bound of the absolute values of the residuals of the conditions up to ``order``.
 
     The result is None if an order has more than :data:`MOST` conditions, or if the conditions of the family
     divide by a coefficient that may be zero.

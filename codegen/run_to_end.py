@@ -41,8 +41,9 @@ class RunToEnd(ABC):
 
         A module that was emitted as adaptive chooses its steps, of sizes between ``least`` and ``greatest``;
         ``h`` is the size of the first step. Other modules make steps of size ``h``; only the last step may be
-        shorter. They ignore the tolerances and bounds. Output times and events do not change the steps,
-        except that a terminal event ends the run. ``end`` is by default the last output time.
+        shorter. Such modules ignore the tolerances and the bounds of step sizes. Output times and events do
+        not change the steps, except that a terminal event ends the run. ``end`` is by default the last output
+        time.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised for
         times that are not in order, or not between t and end. StepFailed is raised if a step fails, or if

@@ -139,7 +139,8 @@ class InterpretedSpectral(Spectral):
 class CompiledSpectral(Spectral):
     """An emitted C module for a semilinear equation, in a shared object.
 
-    The transforms of the module are used if n is a power of two, and those of NumPy for all other n.
+    If the number n of points is a power of two, the Fourier transforms of the module are used, and otherwise
+    those of NumPy.
     """
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:

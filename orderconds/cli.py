@@ -258,8 +258,8 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program on the command line's arguments.
 
-    Garbage collection is restricted: most commands are short and use their objects until the end. With
-    garbage collection a check would take about a tenth longer.
+    Garbage collection runs rarely, because most commands are short and use their objects until the end. With
+    Python's default settings of garbage collection a check would take about a tenth longer.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()

@@ -165,7 +165,8 @@ def _usage_message(error: click.UsageError) -> str:
 
 @contextlib.contextmanager
 def past_click() -> Iterator[None]:
-    """Handle interrupts and closed pipes by :meth:`Run.end` and not by click.
+    """Replace the error of an interrupt or of a closed pipe by :class:`Stopped`. Then :meth:`Run.end` handles
+    the error, and click does not.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt

@@ -20,8 +20,8 @@ class _LazyPackage(ModuleType):
 
     def __setattr__(self, name: str, value: object) -> None:
         # The import system tries to store an imported module as an attribute of its package. The module is
-        # not stored if an object of the interface has the same name, because the attribute must remain this
-        # object. Statements "from package.module import name" do not need the attribute.
+        # not stored if the package exports another object of the same name, because the attribute must remain
+        # this object. Statements "from package.module import name" do not need the attribute.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 

@@ -62,8 +62,8 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
 def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> int:
     """Return an upper bound of the number of terms.
 
-    A tree with n vertices gives one term for each choice of n indices. In an explicit method, the indices of
-    two neighbouring vertices form one of stages * (stages - 1)/2 pairs instead of one of stages^2 pairs.
+    A tree with n vertices gives one term for each choice of n indices. In an explicit method there are only
+    stages * (stages - 1)/2 possible pairs of indices for two neighbouring vertices, instead of stages^2.
     """
     factor = Fraction(stages - 1, 2) if explicit else Fraction(stages)
     sizes = enumerate(derivation.counts)

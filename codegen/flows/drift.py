@@ -15,7 +15,8 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Drift(Flow):
-    """H = T(mu) on an abelian group: mu is constant, and q moves by tau xi(mu), where xi = D_2 T."""
+    """H = T(mu) on an abelian group: mu is constant, and q moves by tau xi(mu), where xi is the derivative of
+    T."""
 
     velocity: tuple[Expr, ...]
 

@@ -19,7 +19,8 @@ from codegen.scene.flow import Flow
 class Linear(Flow):
     """A quadratic H on T*R^n: z' = L z + c for z = (q, mu), where L^2 = -diag(w), w >= 0.
 
-    With the Stumpff functions C_k = c_k(w tau^2): z -> (C_0 + tau C_1 L) z + (tau C_1 + tau^2 C_2 L) c.
+    The flow is z -> (C_0 + tau C_1 L) z + (tau C_1 + tau^2 C_2 L) c, where C_k is the diagonal matrix of the
+    values c_k(w tau^2) of the Stumpff function c_k.
     """
 
     matrix: tuple[tuple[Fraction, ...], ...]

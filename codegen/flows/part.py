@@ -26,7 +26,8 @@ CONSTANTS = SeriesDomain(QQ, 0)
 
 @dataclass(frozen=True)
 class Summand:
-    """Named flows that commute; their composition is the exact flow of a part, or of a summand of a part."""
+    """A part of a Hamiltonian, or a summand of a part, whose exact flow is the composition of the ``flows``.
+    These flows commute, and each has a name."""
 
     flows: tuple[tuple[str, Flow], ...]
 
@@ -40,7 +41,7 @@ class Summand:
 class Part:
     """A part of a Hamiltonian as the sum of summands with exact flows.
 
-    If there are no summands, no closed form is known, and ``reason`` is the reason for this.
+    If no closed form is known, there are no summands, and ``reason`` is a text that says why.
     """
 
     name: str

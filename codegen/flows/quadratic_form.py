@@ -50,8 +50,8 @@ def isotropic_part(B: Matrix) -> Fraction:
     """Return a number a such that B - a I is the sum of few squares with small coefficients.
 
     For a diagonal B, a is an entry that occurs twice, or the middle entry if there is no such entry. For
-    other matrices a is the candidate that needs the fewest squares; for a 3 x 3 matrix with a double
-    eigenvalue, this is the double eigenvalue.
+    other matrices several candidates are compared, and a is the candidate for which B - a I is a sum of the
+    fewest squares. For a 3 x 3 matrix with a double eigenvalue, a is this eigenvalue.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
@@ -65,7 +65,8 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # B - a I is a single square only if it has rank one, so all its 2 x 2 minors vanish. This
-                    # minor is linear in a, and its zero is the candidate.
+                    # B - a I is a single square only if it has rank one, so all its 2 x 2 minors vanish. The
+                    # minor of the rows i and k and the columns i and j is linear in a; the value of a at
+                    # which it vanishes is a candidate.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -19,13 +19,13 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.site_scene import with_frozen_neighbours
 
 COLOURS = ("even", "odd")
-"""The names of the two sets of pairs of neighbours along an axis: the first site of each pair has an even
-index, or an odd index."""
+"""The names of the two sets into which the pairs of neighbours along an axis are divided. The first site of a
+pair has an even index in the first set, and an odd index in the second set."""
 
 
 POTENTIAL = "potential"
-"""The name of the part of a Hamiltonian lattice that contains all energies without momenta: those of the
-bonds, and the parts of the Hamiltonian of a site that depend on q alone."""
+"""The name of one part of the Hamiltonian of a lattice. This part contains all energies that do not depend on
+momenta: the energies of the bonds, and those parts of a site's Hamiltonian that depend on q alone."""
 
 
 @dataclass(frozen=True)

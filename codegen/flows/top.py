@@ -1,10 +1,11 @@
 """Tops: quadratic functions of the momentum in the body frame or in the space frame, split into rotations.
 
-P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. The split is exact: P.BP/2 = a
-P.P/2 + sum_k d_k (e_k.P)^2/2. If Ad preserves the inner product, the flow of the first term is a rotation
-about the momentum, which commutes with the flows of all other terms. The flow of each other term is a turn
-about a fixed axis. With at most one turn, as for a symmetric top, the exact flow of the part is known. With
-more turns, as for an asymmetric top, the part is a sum of summands whose flows do not commute.
+P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. The quadratic function P.BP/2 is
+equal to the sum of a P.P/2 and the terms d_k (e_k.P)^2/2, with numbers a and d_k and fixed vectors e_k. If Ad
+does not preserve the dot product, a is zero. If Ad preserves it, the flow of a P.P/2 is a rotation about the
+momentum, which commutes with the flows of all other terms. The flow of each other term is a turn about its
+fixed axis e_k. With at most one turn, as for a symmetric top, the exact flow of the part is known. With more
+turns, as for an asymmetric top, the part is a sum of summands whose flows do not commute.
 """
 
 from __future__ import annotations
@@ -79,8 +80,8 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
 
 
 def _invariant(group: LieGroup) -> bool:
-    """Return whether Ad preserves the dot product of coordinates. The criterion: <[x, y], z> changes its sign
-    if two of x, y and z are exchanged."""
+    """Return True if Ad preserves the dot product of coordinates, that is, if <[x, y], z> changes its sign
+    whenever two of x, y and z are exchanged."""
     basis: tuple[Vector[Element], ...] = units(CONSTANTS, group.dim)
     brackets = [[group.ad(CONSTANTS, x, y) for y in basis] for x in basis]
     n, is_zero = range(group.dim), CONSTANTS.ring.is_zero

@@ -30,8 +30,8 @@ class Turn(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (q exp(angle e), mu) for an axis in the body, else (g q, Ad*_{g^-1} mu) with g = exp(angle
-        e)."""
+        """Return (q g, mu) for an axis in the body, else (g q, Ad*_{g^-1} mu), where g is the exponential of
+        the angle times e."""
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         angle = tau * self._speed(d, self._axis(d, group, q), mu)
         g = group.exp(d, tuple(angle * x for x in axis))
@@ -42,8 +42,8 @@ class Turn(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the field (xi, n): (speed e, 0) for an axis in space, else (speed Ad_q e, n), where n is
-        such that mu is constant."""
+        """Return the field (xi, n). With s = rate e.P + offset, xi = s e and n = 0 for an axis in space. For
+        an axis in the body xi = s Ad_q e, and n is such that mu is constant."""
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)
         zero: Vector[S] = (d.rational(0),) * group.dim

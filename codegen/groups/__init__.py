@@ -96,7 +96,8 @@ LISTED: dict[str, tuple[str, ...]] = {
     "unitary": ("SU", "Unitary"),
     "unitriangular": ("Heisenberg", "Unitriangular"),
 }
-"""The names of the group classes of each module. A line of this table registers a group."""
+"""The names of the group classes of each module. A group of this package is registered by its entry in this
+table."""
 
 lazy(__name__, base=("LieGroup",), **LISTED)
 
@@ -110,7 +111,7 @@ Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 def register(cls: Registered) -> Registered:
     """Add a group or an action defined elsewhere to the listings, and return the class unchanged.
 
-    Therefore this function may also be used as a decorator.
+    Because it returns the class, this function may also be used as a decorator.
 
     A scene may use a class that is not registered. A second class of the same name replaces the first.
     :class:`SceneError` is raised for a class that is no group or action, for a class with missing methods,
@@ -145,6 +146,6 @@ def listing() -> list[dict[str, str]]:
 
 
 def get(name: str) -> type[LieGroup]:
-    """Return the group class called name; raise :class:`orderconds.errors.UnknownName` for an unknown
-    name."""
+    """Return the group class with this name; raise :class:`orderconds.errors.UnknownName` if there is
+    none."""
     return GROUPS.get(name)

@@ -87,8 +87,8 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
 def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
     """Return b and c of 1/dexp(s t) = 1 - s t/2 + (c_2 - c_3)/(4 c_1) s^2 t^2, with c_k at s^2 z/4.
 
-    There is no cancellation for negative z, while :func:`_inverted` would subtract numbers of the size
-    exp(2 sqrt(-z)).
+    This formula has no cancellation for negative z. For these z :func:`_inverted` would subtract numbers of
+    the size exp(2 sqrt(-z)).
     """
     argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
     c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))
@@ -99,8 +99,9 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
     """Return b and c of the inverse of 1 + b t + c t^2.
 
-    For so(3), t^2 = -z on the plane orthogonal to x, so t acts there as i sqrt(z), and the function as the
-    complex number 1 - c z + i b sqrt(z).
+    On so(3), t = ad_x satisfies t^2 = -z on the plane orthogonal to x. On this plane t is therefore
+    multiplication by i sqrt(z), and 1 + b t + c t^2 is multiplication by the complex number 1 - c z + i b
+    sqrt(z), which is inverted here.
     """
     one: S = d.rational(1)
     p = one - c * z

@@ -64,7 +64,8 @@ class LieGroup(ABC):
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return exp(x) for x in the algebra: exp(0) = e, exp(s x) exp(t x) = exp((s + t) x).
 
-        The function must be smooth at zero in every domain: write sin(t)/t as ``stumpff1(t^2)``.
+        The formula must also be valid at x = 0, in every domain. It may therefore not divide by the length of
+        x: write sin(t)/t as ``stumpff1(t^2)``.
         """
 
     @abstractmethod
@@ -86,7 +87,7 @@ class LieGroup(ABC):
         return ()
 
     def dexpinv(self, d: Domain, x: Vector[S], y: Vector[S], order: int) -> Vector[S]:
-        """Return dexp^{-1}_{(order),x} y = sum over k <= order of B_k/k! ad_x^k y."""
+        """Return the truncated series of dexp^{-1}_x y: the sum over k <= order of B_k/k! ad_x^k y."""
         return bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)
 
     def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:

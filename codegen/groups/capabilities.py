@@ -58,11 +58,13 @@ class Coadjoint(LieGroup):
         """Return dexp*_x mu = sum of (ad*_x)^k mu/(k+1)!: <dexp*_x mu, y> = <mu, dexp_x y>."""
 
     def dexpinvt(self, d: Domain, x: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Return (dexp^{-1}_{(order),x})* mu = sum over k <= order of B_k/k! (ad*_x)^k mu."""
+        """Return the transpose of :meth:`dexpinv`, applied to mu: the sum over k <= order of B_k/k! (ad*_x)^k
+        mu."""
         return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
 
     def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Return P*_(order)(x, y) mu: <P*(x, y) mu, z> = <mu, d/deps dexpinv_{x + eps z} y at eps = 0>.
+        """Return the covector p with <p, z> = <mu, D z> for all z. Here D is the derivative of the map x ->
+        dexpinv(x, y, order) at x.
 
         The result is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq.
         3.16 of H. Marthinsen's thesis). Since ad*_v is linear in v, the elements ad_x^{k-1-i} y with the same
@@ -83,7 +85,8 @@ class Coadjoint(LieGroup):
         return total
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, the momentum after exp(x, n) on T*G."""
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, which is the momentum of the product exp(x, n) (q, mu) in
+        T*G."""
         turned = self.Adtinv(d, self.exp(d, x), mu)
         pushed = self.dexpt(d, tuple(-a for a in x), n)
         return tuple(a + b for a, b in zip(pushed, turned, strict=True))
@@ -108,15 +111,15 @@ class RightTrivialisation(LieGroup):
 
 
 class LeftTranslation(Coadjoint):
-    """Left translations and the equations of the group; velocities and momenta in the body frame need
-    both."""
+    """Left translations, and the equations of the group as rules for replacement. Both are required for
+    velocities and momenta in the body frame."""
 
     provides: ClassVar[str] = "left translation of velocities"
 
     @abstractmethod
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the equations of the group as rules. Each rule replaces the product of two coordinates;
-        ``q`` contains the symbols of all coordinates."""
+        """Return the equations of the group as rules. Each rule replaces a product of two coordinates by a
+        polynomial that has the same value on the group. ``q`` contains the symbols of all coordinates."""
 
     @abstractmethod
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:

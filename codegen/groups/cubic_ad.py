@@ -14,7 +14,7 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The function dexp_x as a word, that is, as a product of functions with one factor. On the dual the word is
+"""The word (a product of functions of ad_x) whose only factor is dexp_x. If ad*_x replaces ad_x, it is
 dexp*_x."""
 
 
@@ -47,7 +47,8 @@ class CubicAd(ClosedFormSeries):
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + ad_x (B + ad_x C)."""
+        """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + ad_x (B + ad_x C), where A,
+        B and C are linear combinations of the vectors v."""
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim
         inner, innermost, plain = none, none, none

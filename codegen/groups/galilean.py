@@ -41,7 +41,8 @@ class _Events(MatrixColumns):
         return (*(a for row in rows for a in row), zero, zero, zero, one)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return (dexp_w u + r psi(w) b, r), where psi(w) = 1/2 + c_3 w + c_4 w^2 and c_4 = c_2' + c_3/2."""
+        """Return (dexp_w u + r psi(w) b, r), where psi(w) = 1/2 + c_3 w + c_4 w^2. Here c_4 = c_2' + c_3/2,
+        and c_2' is the derivative of the Stumpff function c_2."""
         w, b, position, time = x[:3], x[3:], u[:3], u[3]
         z, half = dot(w, w), d.rational(1, 2)
         c3: S = d.call("stumpff3", z)

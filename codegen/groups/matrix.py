@@ -63,8 +63,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return _weighted(d, self.algebra.dual_places, mu)
 
     def dual_vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the element of the dual that a matrix defines: the inverse of :meth:`dual_hat`. Every matrix
-        is allowed."""
+        """Return the element mu of the dual such that <mu, x> is the sum of the products of the entries of
+        ``matrix`` and hat(x). This is the inverse of :meth:`dual_hat`, extended to all n x n matrices."""
         return _weighted(d, self.algebra.basis, matrix)
 
     def identity(self, d: Domain) -> Vector[S]:

@@ -46,8 +46,7 @@ class MatrixAlgebra:
         """The least k such that every product of k matrices with the pattern of the basis is zero; 0 if there
         is no such k.
 
-        A matrix has this pattern if each entry is zero for which the entries of all basis matrices are
-        zero."""
+        A matrix has this pattern if it is zero at every place where all basis matrices are zero."""
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
         paths, k = {(i, i) for i in range(n)}, 0

@@ -28,8 +28,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         """True if the algebra contains x^3 for each of its elements x.
 
         x^3 is a polynomial of degree three in the coordinates of x. The test evaluates this polynomial at one
-        point with large coordinates. If the part of x^3 outside the algebra is not identically zero, it
-        vanishes at no more than a fraction 3/2^61 of such points, so the test is practically certain.
+        point with large coordinates. If not all x^3 are in the algebra, x^3 is in the algebra for at most a
+        fraction 3/2^61 of such points, so a wrong result of the test is practically impossible.
         """
         # The coordinates are powers modulo the prime 2^61 - 1: integers without a pattern, and the same
         # integers in each run.

@@ -51,7 +51,7 @@ class Registry(Generic[T]):
             del self._added[cls.__name__]
 
     def get(self, name: str) -> type[T]:
-        """Return the class called name; raise :class:`orderconds.errors.UnknownName` for an unknown name."""
+        """Return the class with this name; raise :class:`orderconds.errors.UnknownName` if there is none."""
         if name in self._added:
             return self._added[name]
         if name not in self.built_in:

@@ -93,20 +93,20 @@ class Representation(ABC):
         return False
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the product ``word`` of functions of ad_(x, u), applied to (y, v). The vectors u and v have
-        one copy."""
+        """Return the product ``word`` of functions of ad_(x, u), applied to (y, v). Here u and v are vectors
+        of a single copy of the space."""
         raise self._missing("series")
 
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the product ``word`` of functions of ad*_(x, u), applied to (m, p). The vector u and the
-        covector p have one copy."""
+        """Return the product ``word`` of functions of ad*_(x, u), applied to (m, p). Here u is a vector and p
+        a covector of a single copy of the space."""
         raise self._missing("dual_series")
 
     def _missing(self, method: str) -> SceneError:
-        """Return the error for a subclass without the method ``method``, although the result of
-        :meth:`closed` requires this method."""
+        """Return the error for a subclass that does not define ``method``, but has to define it because of
+        the result of :meth:`closed`."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
             expected="the methods series and dual_series if closed returns True, else the method gradient",

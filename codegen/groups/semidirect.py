@@ -231,8 +231,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_(x, u) (m, p).
 
-        With t = phi(x) u, dexp_(x, u) maps (y, 0) to dexp_x y and D phi(x)[y] u - (dexp_x y).t. Without a
-        closed form, the result is therefore dexp*_x (m - J(t, p)) + D_x <p, t> and D_u <p, t>.
+        With t = phi(x) u, dexp_(x, u) maps (y, 0) to the pair of dexp_x y and D phi(x)[y] u - (dexp_x y).t.
+        Without a closed form, the result is therefore the pair of dexp*_x (m - J(t, p)) + D_x <p, t> and D_u
+        <p, t>.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)

@@ -165,7 +165,8 @@ class SO3(
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C).
+        """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C),
+        where A, B and C are linear combinations of the vectors v.
 
         Terms with the same coefficient of ad_x, or of ad_x^2, are added first, and their sum is multiplied
         once. ``total(indices)`` returns the sum of f v over the terms with these indices; a caller that has a

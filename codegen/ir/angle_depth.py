@@ -37,8 +37,8 @@ def chain(kernel: Kernel) -> int:
     for statement in kernel.body:
         if isinstance(statement, Let):
             depths[statement.name] = _depth(statement.value, depths)
-    # Only expressions of outputs count, because other values do not affect the new state. The depth is at
-    # least 1, because the bound of the angle is divided by the depth.
+    # Only the depths of the outputs are used, because other values do not affect the new state. The depth is
+    # at least 1, because the bound of the angle is divided by the depth.
     return max([1, *(_depth(x, depths) for x in kernel.outputs)])
 
 

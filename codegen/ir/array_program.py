@@ -26,7 +26,8 @@ Arrays = MutableMapping[str, list[Scalar]]
 class Matrix:
     """A matrix that is stored row by row in the array ``name``, from the place ``start`` on.
 
-    Neighbouring rows are ``stride`` places apart; 0 means that there is no gap between rows.
+    ``stride`` is the number of places from the start of one row to the start of the next row. The value 0
+    stands for the number of columns: the rows then follow one another without gaps.
     """
 
     name: str
@@ -93,7 +94,8 @@ class ConstantMatrix:
 
     @property
     def filled(self) -> int:
-        """The number of entries on the diagonals, or of all entries of a full matrix."""
+        """The number of entries that may be non-zero: those on the ``diagonals``, or all entries of a full
+        matrix."""
         if self.diagonals:
             return sum(map(self.length, self.diagonals))
         return self.rows * self.columns
@@ -118,9 +120,9 @@ def _valued(
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # The indices are replaced by numbers first. A selection that depends on the indices, such as their
-        # minimum, then becomes one of its two formulas. Without this, a domain of power series could fail at
-        # the point where the two formulas meet.
+        # The indices are replaced by numbers first. A selection between two formulas that depends on the
+        # indices, such as their minimum, is then decided here. Otherwise a domain of power series would have
+        # to decide it, and could fail where the two formulas meet.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -128,7 +130,8 @@ def _valued(
 
 @dataclass(frozen=True)
 class Multiplication:
-    """target = left right, or target + left right with ``added``; transposed factors are read by columns.
+    """target = the product of ``left`` and ``right``. If ``added`` is true, the product is added to the
+    target. Transposed factors are read by columns.
 
     The arrays of the factors differ from the array of the target.
     """

@@ -31,7 +31,8 @@ TERMS = 8
 on the norm of the argument."""
 
 MOST_TERMS = 18
-"""The number of terms of phi at which the remainder is below the rounding errors if the norm is at most 1."""
+"""The number of terms of phi at which the remainder of the series is below the rounding errors, for arguments
+whose norm is at most 1."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """target = the displacement of exp(B S B^T) X, where ``start`` is the displacement of X; None means zero.
+    """target = the displacement of exp(B S B^T) X. ``start`` is the displacement of X, or None if it is zero.
 
     ``core`` is S, ``gram`` the Gram matrix of the whole basis. ``start`` has at most as many rows as target.
     """

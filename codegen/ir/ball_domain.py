@@ -1,9 +1,9 @@
 """Numbers of many digits as Arb balls: a faster replacement for :class:`codegen.ir.domain.PreciseDomain`.
 
 An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers.
-Therefore steps with 60 digits, of which a report needs thousands, are evaluated in this domain. A ball
-has an error radius. In an iteration the radii would grow without bound. Therefore each result of an operation
-of a step program is replaced by the midpoint of its ball, and the radii of the final result are not error
+Therefore steps with 60 digits, of which a report needs thousands, are evaluated in this domain. A ball is a
+midpoint with an error radius. In an iteration the radii would grow without bound. Therefore each result of an
+operation of a step program is replaced by its midpoint, and the radii of the final result are not error
 bounds.
 
 The working precision of balls is a global variable of python-flint. Code that uses this domain therefore runs
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 BITS_PER_DIGIT = math.log2(10)
 
 GUARD = 32
-"""The number of bits of the working precision beyond the requested number of digits."""
+"""The number of bits by which the working precision exceeds the precision of the requested digits."""
 
 
 class BallDomain:
@@ -168,8 +168,8 @@ class BallDomain:
     def _stumpff(self, k: int, z: arb) -> arb:
         """Return c_k(z) = sum_j (-z)^j/(2j + k)!."""
         if z > 1:
-            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3, which
-            # contains sqrt z - sin sqrt z: 1 - sin 1 = 0.16.
+            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3 near z
+            # = 1: it contains sqrt z - sin sqrt z, which is 1 - sin 1 = 0.16 there.
             root = z.sqrt()
             if k == 0:
                 return root.cos()

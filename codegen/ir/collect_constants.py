@@ -36,7 +36,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
-    # The node without its numeric factor is kept, so that the factor can be combined with other numbers.
+    # ``bare`` contains the nodes of ``kept`` without their numeric factors, so that these factors can be
+    # combined with other numbers.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
@@ -69,9 +70,9 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Return the powers (1/sqrt x)^n to rewrite.
 
-    The powers of an inverse root 1/sqrt x are rewritten if all its powers that are read have odd exponents n
-    >= 3. The result maps the node number of a power to the pair (node number of 1/sqrt x, exponent n).
-    Numeric factors are ignored. Subexpressions of ``kept`` are skipped.
+    The powers of an inverse root 1/sqrt x are rewritten only if each power that other expressions read has an
+    odd exponent n >= 3. The result maps the node number of a power to the pair (node number of 1/sqrt x,
+    exponent n). Numeric factors are ignored. Subexpressions of ``kept`` are skipped.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
@@ -126,8 +127,8 @@ class _Gathering:
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return a node's linear combination as an expression. An inverse 1/y gets as numerator the
-        coefficient of the first term in which it occurs."""
+        """Return a node's linear combination as an expression. In place of an inverse 1/y it contains e/y,
+        where e is the absolute value of the coefficient of the first term that reads 1/y."""
         if node.id not in self.written:
             # The expression is built when it is first read and then reused, so it stays shared.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
@@ -135,7 +136,8 @@ class _Gathering:
         return self.written[node.id]
 
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
-        """Return c (1/y) as the pair (d, e/y) with d = c/e; e is |c| of the first term that reads 1/y."""
+        """Return the term c (1/y) as the pair (d, e/y) with d = c/e, where e is the value of |c| in the first
+        term that reads 1/y. Return any other term unchanged."""
         if not _is_inverse(atom):
             return c, atom
         # A division with a numerator other than 1 costs no more than 1/y, and the first term that reads 1/y

@@ -138,7 +138,7 @@ def _selection(node: Expr) -> list[Expr]:
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # A number needs no adjoint, so the adjoint of a branch that is a number is not formed.
+    # A branch that is a constant needs no adjoint, so the derivative with respect to it is set to zero.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

@@ -46,7 +46,7 @@ class Domain(Protocol):
     h: Scalar
 
     def number(self, value: Number) -> Scalar:
-        """Return an exact number in this domain, rounded once."""
+        """Return an exact number as a scalar of this domain, rounded once."""
 
     def rational(self, p: int, q: int = 1) -> Scalar:
         """Return p/q in this domain."""
@@ -58,8 +58,8 @@ class Domain(Protocol):
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether an iteration has converged, and the size of its last change. The caller passes this
-        size as ``previous`` in the next call."""
+        """Return two values: True if an iteration has converged, and the size of its last change. The caller
+        passes this size as ``previous`` in the next call."""
 
 
 class Differenced(Domain, Protocol):
@@ -91,7 +91,8 @@ def stumpff(k: int, z: float) -> float:
         return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
-    # sqrt z - sin sqrt z in c_3 loses digits for angles below about 2: the series is used for these angles.
+    # In c_3 the difference sqrt z - sin sqrt z loses digits if the angle sqrt z is below about 2, so the
+    # series is used for these angles.
     if z < (0.5 if k < 3 else 4.0):
         # Horner's rule begins with the highest power. For z < 4 the first omitted term is below 1e-27.
         total, j = 0.0, 14
@@ -103,7 +104,7 @@ def stumpff(k: int, z: float) -> float:
     if k == 1:
         return math.sin(root) / root
     if k == 2:
-        # 1 - cos s = 2 sin^2(s/2): the left side cancels for small angles.
+        # The formula 2 sin^2(s/2) is used for 1 - cos s, which would lose digits by cancellation for small s.
         half = math.sin(root / 2)
         return 2 * half * half / z
     return (root - math.sin(root)) / (z * root)
@@ -182,7 +183,7 @@ class FloatDomain:
         return named(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return whether the changes are at rounding level, and the size of the last change."""
+        """Return two values: True if the changes are at rounding level, and the size of the last change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         # Comparisons with a NaN are false, so without this test the iteration would continue up to its limit
         # of sweeps.
@@ -341,7 +342,8 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return a function of a series, with exact coefficients; ArithmeticError if they cannot be exact.
+        """Return the value of a function at a series. ArithmeticError is raised if its coefficients cannot be
+        computed exactly.
 
         Sine, cosine, exponential and similar functions require a series without constant term. The function
         ``quotient`` divides two series. If the divisor begins with the power h^v, the last v coefficients of
@@ -399,7 +401,8 @@ class SeriesDomain:
         return -1 if self.base.approximate(start).startswith("-") else 1
 
     def _angle(self, y: Scalar, x: Scalar) -> Scalar:
-        """Return atan2(y, x) near the positive x-axis; all other angles are transcendental."""
+        """Return atan2(y, x) if (x, y) is on the positive x-axis at h = 0; all other angles are
+        transcendental."""
         if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
             raise ArithmeticError("atan2 is exact only at a point of the positive x-axis")
         return self._arc("atan", y / x)

@@ -3,10 +3,10 @@
 In doubles the matrix is halved s times, until its largest row sum is small, and a Taylor polynomial of exp(A
 2^-s) is applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). With degree m
 the polynomial is y + A (p/m!), where p is the sum of (m!/j!) A^(j-1) y over j from 1 to m, by Horner's rule.
-The integers m!/j! are exact in floating-point arithmetic. Rounded coefficients 1/j! would have the same error
-in every step, and if A is skew, the length of y would drift. Without this error all rounding errors depend on
-y, and the length does not drift. Emitted code executes the same operations in the same order
-(:mod:`codegen.run.exponential_action`).
+The integers m!/j! are exact in floating-point arithmetic. Coefficients 1/j! would be rounded, and their error
+would be the same in every step. If A is skew, the length of y would therefore drift. With the integers all
+rounding errors depend on y, and the length does not drift. Emitted code executes the same operations in the
+same order (:mod:`codegen.run.exponential_action`).
 """
 
 from __future__ import annotations
@@ -28,14 +28,15 @@ HALVINGS = 13
 take too long."""
 
 SPARSE = 12
-"""The largest number of rows for which a call contains only the entries of A that are not zero. Emitted code
-then has one sum for each row, without a loop."""
+"""The largest number of rows for which the arguments of a call are y and only those entries of A that are not
+zero. Emitted code then has one sum for each row, without a loop."""
 
 
 @cache
 def degrees(bits: int) -> tuple[int, ...]:
     """Return the degrees of the Taylor polynomials. The largest degree is the largest m for which all
-    integers m!/j!, 0 <= j <= m, are floating-point numbers with ``bits`` binary digits.
+    integers m!/j!, 0 <= j <= m, are floating-point numbers with ``bits`` binary digits. The other degrees are
+    smaller by 4, 8, and so on.
 
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
@@ -55,8 +56,8 @@ def largest_norms(bits: int) -> tuple[float, ...]:
     """Return, for each degree m, the largest row sum of a matrix for which the degree is used: ((m + 1)!
     2^-(bits + 10))^(1/(m + 1)), rounded to three digits.
 
-    The remainder of the Taylor polynomial is then below 2^-10 times the unit roundoff. It must be this small,
-    because it changes the length of y by the same amount in every step.
+    The remainder of the Taylor polynomial is then below 2^-10 times the unit roundoff. The remainder must be
+    this small, because it changes the length of y by the same amount in every step.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)

@@ -147,7 +147,7 @@ class Space:
         return self._make("const", (), value)
 
     def sym(self, name: str) -> Expr:
-        """Return the symbol called name."""
+        """Return the symbol with this name."""
         return self._make("sym", (), name)
 
     def neg(self, a: Expr) -> Expr:
@@ -396,7 +396,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
 
 
 def power(x: Scalar, n: int) -> Scalar:
-    """Return x**n, n >= 1, by squaring from the leading bit; printers write the same products."""
+    """Return x**n, n >= 1, by repeated squaring, from the leading bit of n to the last bit. Printers write
+    the same products."""
     result = x
     # The prefix 0b and the leading bit are skipped: the leading bit gives x itself.
     for bit in bin(n)[3:]:

@@ -49,10 +49,10 @@ def interpret(
     :class:`NotConverged` is raised with the label of the block.
 
     If ``solutions`` is given, iterations start at its values, and the new solutions are stored in it. If
-    ``near`` is given, Newton's method is used from the first sweep. ``near`` contains one list of numbers for
-    each block, the first values of its unknowns, in the order in which the blocks are solved. Each list is
-    replaced by the solution of its block. If the domain has a method ``computed``, it receives the name and
-    the value of each result and returns a new value.
+    ``near`` is given, Newton's method is used from the first sweep. ``near`` contains a list of numbers for
+    each block, in the order in which the blocks are solved: the first values of the unknowns of the block.
+    Each list is replaced by the solution of its block. If the domain has a method ``computed``, it receives
+    the name and the value of each result and returns a new value.
     """
     if program.frame == BODY:
         # In the body frame and in the space frame the statements are executed in the same way; only the
@@ -166,8 +166,8 @@ def _iterate(
     expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
-        # An unknown begins at the solution of an earlier step, if ``expected`` contains one, and otherwise at
-        # its start.
+        # The first value of an unknown is its solution in an earlier step, if ``expected`` contains this
+        # solution, and otherwise the value of its start.
         env[unknown] = expected.get(unknown, env[start])
     size: Scalar = None
     for _ in range(limit):
@@ -175,8 +175,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The test comes before the update. At convergence the values in ``env`` therefore belong to the
-        # unknowns that are returned.
+        # The test comes before the update. At convergence all values in ``env`` are therefore computed from
+        # the unknowns that are returned.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -202,8 +202,8 @@ def _correct(
 ) -> list[Scalar]:
     """Solve a block by Newton's method with difference quotients: no formula is differentiated.
 
-    The iteration begins at ``near``, by default at the block's starts. The result is the list of unknowns. If
-    the domain has a method ``rounded``, this method rounds the right-hand sides g(u), called images.
+    The iteration for u = g(u) begins at ``near``, by default at the block's starts. The result is the list of
+    the values of the unknowns u. If the domain has a method ``rounded``, this method rounds the values g(u).
     """
     kinds = [u.kind for u in block.unknowns]
     # All unknowns of a block form one vector, because their equations depend on one another.

@@ -1,13 +1,14 @@
 """Jacobians of expressions by elimination of vertices. The method is exact, and it is cheaper than computing
 one column after the other.
 
-The expressions form a graph whose edges are labelled with partial derivatives. The elimination of a vertex
-multiplies the label of each incoming edge by the label of each outgoing edge. When only the variables and the
-results are left, the labels of the edges between them are the Jacobian. The order of elimination determines
-the number of products. The vertex with the lowest cost is eliminated next. The cost of a vertex is the number
-of products, that is, the number of its incoming edges times the number of its outgoing edges (Markowitz's
-rule; Griewank and Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two
-special orders, which are seldom the cheapest.
+The expressions form a graph whose edges are labelled with partial derivatives. When a vertex is eliminated,
+each incoming edge is joined to each outgoing edge: the product of the two labels is added to the label of the
+edge that connects the two other ends. When only the variables and the results are left, the labels of the
+edges between them are the Jacobian. The order of elimination determines the number of products. The vertex
+with the lowest cost is eliminated next. The cost of a vertex is the number of products, that is, the number
+of its incoming edges times the number of its outgoing edges (Markowitz's rule; Griewank and Walther,
+Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two special orders, which are seldom
+the cheapest.
 """
 
 from __future__ import annotations
@@ -98,7 +99,8 @@ class _Graph:
         # first: it is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
-        # A vertex may have several entries in the queue; only the first valid entry is used.
+        # A vertex may have several entries in the queue. Only one entry is used: the first one whose cost is
+        # not too low.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)

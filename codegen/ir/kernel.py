@@ -22,9 +22,9 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The symbol for the duration of the flow that ends a step. In all steps of a run except the last, this flow
-includes the first flow of the next step. The symbol contains a dot, so it differs from every name in a
-scene."""
+"""The symbol for the duration of the last flow of a step. In all steps of a run except the last step, this
+flow and the first flow of the next step are joined to one flow. The symbol contains a dot, so it differs from
+every name in a scene."""
 
 ELAPSED = "elapsed.h"
 """The symbol for the total duration of the steps for which a deferred flow is applied: all steps of a run,
@@ -93,8 +93,9 @@ class Newton:
         """The number of steps for which an inverse is used; 0 means that it is used as long as the loop
         contracts.
 
-        Computing the inverse of an n x n matrix costs a multiple of n^3. With a long period this cost occurs
-        in fewer steps, but an old inverse is less accurate, so a step takes more sweeps.
+        The cost of computing the inverse of an n x n matrix is proportional to n^3. If the period is longer,
+        the inverse is computed in fewer steps. But it is then older and less accurate, so a step takes more
+        sweeps.
         """
         # With n = len(matrix), an inverse is used in about n/2 steps, so its cost of order n^3 adds a cost of
         # order n^2 to each step.
@@ -103,7 +104,8 @@ class Newton:
 
 @dataclass(frozen=True)
 class Loop:
-    """Solve unknowns = images, where ``body`` computes the images, until changes are at rounding level.
+    """Solve the equations unknowns = images by iteration. ``body`` computes the images. The loop ends when
+    the changes of the unknowns are at rounding level.
 
     ``label`` is the name of the block in messages and statistics, for example "stage 2". ``starts`` are
     evaluated before the loop, and are empty if a :class:`Start` computes the first values. Without ``newton``
@@ -113,9 +115,9 @@ class Loop:
 
     The stopping rule (:mod:`codegen.run.stopping`) uses three numbers. ``tolerance`` is the largest change,
     in units of the largest unknown, at which the loop may end because the change no longer decreases.
-    ``close`` is the largest change at which the measured rate of convergence may end the loop. ``limit`` is
-    the largest number of sweeps. ``only_unknowns_read`` is true if no values of the body are read after the
-    loop. The last change may then be larger.
+    ``close`` is the largest change at which the loop may end because the measured rate of convergence
+    predicts a small error. ``limit`` is the largest number of sweeps. ``only_unknowns_read`` is true if no
+    values of the body are read after the loop. The last change may then be larger.
     """
 
     label: str
@@ -169,8 +171,8 @@ class Start:
     If the loops do not converge, earlier solutions are dropped. Then the step size is halved until the loops
     converge. The solution for a small step size provides the first values of the unknowns for a larger step
     size, until the whole step is solved (continuation in h). The search fails after ``TRIES`` step sizes. It
-    also fails if the next step size does not converge although it is larger only by the fraction
-    ``SHORTEST``.
+    also fails if the loops do not converge for the next step size, although this step size is larger only by
+    the fraction ``SHORTEST``.
     """
 
     unknowns: tuple[str, ...]
@@ -185,8 +187,8 @@ class Start:
     # 2^-100 h. After that, each failure replaces the factor between step sizes by its square root, and nine
     # consecutive failures end the search.
     TRIES: ClassVar[int] = 100
-    # The largest factor is 4. After nine consecutive failures it is at most 4^(1/2^9) < 1 + 2^-8, and the
-    # search ends.
+    # The factor from one step size to the next is at most 4. After nine consecutive failures it is at most
+    # 4^(1/2^9) < 1 + 2^-8, and the search ends.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -301,8 +303,8 @@ class Continuous:
 @dataclass(frozen=True)
 class Observed:
     """The request for a run to a given end time. The run writes the states at given times, and finds the
-    zeros of event functions of the caller, whose number is ``events``. States at output times are computed by
-    the ``extension``; without an extension, by shorter steps."""
+    zeros of event functions. ``events`` is the number of these functions, which the caller supplies. States
+    at output times are computed by the ``extension``; without an extension, by shorter steps."""
 
     events: int = 0
     extension: Continuous | None = None
@@ -331,13 +333,13 @@ class Kernel:
     ``inputs`` are the names of the functions of time that the caller supplies, ``samples`` are the times at
     which they are read. ``vary`` is the kernel of the variational equation: its state is the state of this
     kernel followed by a variation, and its outputs are the variation of the new state. With ``substeps`` a
-    step repeats this kernel for each of its parts, and h and t are the length and the start of the part.
-    ``outlined`` are functions that the expressions of the kernel call. With ``carried`` the kernel reads and
-    returns the momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate``, emitted
-    code can have a run with step control. A kernel without ``outputs`` evaluates the polynomial of its
-    ``expansion``, or makes the step ``arrays``, the step ``sites`` of a lattice, or the step ``modes`` on
-    Fourier modes. With ``batch``, emitted code also has a function that steps many independent systems, and
-    with ``observed`` a run to a given end time.
+    step consists of several parts. The kernel is then called once for each part, and h and t are the length
+    and the start of this part. ``outlined`` are functions that the expressions of the kernel call. With
+    ``carried`` the kernel reads and returns the momentum m of :class:`Carried` in place of mu. With
+    ``expansion`` or ``estimate``, emitted code can have a run with step control. A kernel without ``outputs``
+    evaluates the polynomial of its ``expansion``, or executes the step ``arrays``, the step ``sites`` of a
+    lattice, or the step ``modes`` on Fourier modes. With ``batch``, emitted code also has a function that
+    steps many independent systems, and with ``observed`` a run to a given end time.
     """
 
     name: str

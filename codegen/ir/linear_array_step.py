@@ -94,7 +94,7 @@ class LinearArrayStep:
         yield from self.matrix.expressions()
 
     def products(self, element: Element) -> int:
-        """Return the number of products of a letter and a vector in one product of ``element`` and a
+        """Return how many times a letter is multiplied by a vector when ``element`` is multiplied by one
         vector."""
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:

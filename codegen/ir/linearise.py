@@ -60,7 +60,8 @@ class FirstOrder:
 
         :class:`NotLinearised` is raised for a root that the rules of this module cannot expand at h = 0.
         """
-        # The symbol h is taken from the space of the roots, so without roots the result is empty.
+        # The symbol h is taken from the space of the roots. This line returns early without roots, because
+        # there is then no space.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals

@@ -99,7 +99,8 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # For each inner index, the terms of all pairs of factors are added one after the other.
+                # An entry is a sum over the inner index of the matrix products and over the pairs of factors.
+                # For each inner index, the terms of all pairs are added, then those of the next index.
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
@@ -156,8 +157,9 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
     """Return the jet total^(2^squarings); all entries are NaN if its first matrix has fewer than three
     correct digits.
 
-    Let u be the unit roundoff. The computed square E^2 has the error 2 |E| error(E) + n^2 u |E|^2 in the
-    Frobenius norm. The spectral norm |E| is bounded by ``growth`` and by the Frobenius norm.
+    Let u be the unit roundoff. If the computed E has the error e, the computed square E^2 has an error of at
+    most about 2 |E| e + n^2 u |E|^2, in the Frobenius norm. The spectral norm |E| is bounded by ``growth``
+    and by the Frobenius norm.
     """
     size, unit = n * n, 2.0**-53
     error = (n + 8) * unit * n

@@ -91,9 +91,9 @@ class MatrixExponential(VectorFunction):
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the exponential of a jet of power series; the constant terms of the first matrix must be
         nilpotent."""
-        # A product of more than ``longest`` factors is zero, because each factor contains a power of h or is
-        # nilpotent.
-        longest = (self.n + self.level) * (ring.order + 2)
+        # A product of more than ``longest`` factors is zero: it contains too high a power of h, one symbol
+        # d_k of the jet twice, or n nilpotent factors one after the other.
+        longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
 

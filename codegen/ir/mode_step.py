@@ -26,7 +26,7 @@ WIDTH = 100
 """A formula with more characters than this number is printed on several lines, one line for each term."""
 
 STATE = -1
-"""The source of a term that multiplies the old state."""
+"""The ``source`` of a :class:`Term` that contains the old state and not a value of N."""
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,8 @@ class Multiplier:
 
 
 def _product(a: Monomial, b: Monomial) -> Monomial:
-    """Return the product of two monomials, with one exponential at most."""
+    """Return the product of two monomials. All exponentials are joined to one, because exp(a z) exp(b z) =
+    exp((a + b) z)."""
     powers: dict[Factor, int] = {}
     exponent = Number.rational(0)
     for factor, n in (*a, *b):
@@ -160,7 +161,7 @@ class Table:
 @dataclass(frozen=True)
 class Term:
     """One term of a linear combination: the values of a table times the old state (:data:`STATE`) or times
-    the value ``source`` of N. Without a ``table`` the factor is 1."""
+    value number ``source`` of N. If there is no ``table``, the factor is 1."""
 
     source: int
     table: int | None
@@ -180,9 +181,10 @@ class Nonlinearity:
     """N(u) as a sum of derivatives of pointwise formulas.
 
     ``inner`` are the orders of the derivatives of u that the formulas read, with their symbols. Output j of
-    ``formulas`` is a function of these derivatives, of x, t and parameters. N is the sum of the derivatives
-    of the outputs with the orders ``outer``. If the fraction ``kept`` is less than one, only this fraction
-    of the n/2 + 1 modes is kept in the values of N, and all others are set to zero (against aliasing).
+    ``formulas`` is a function of these derivatives, of x, t and parameters. N is the sum of derivatives of
+    the outputs: output j is differentiated ``outer[j]`` times with respect to x. If the fraction ``kept`` is
+    less than one, only this fraction of the n/2 + 1 modes is kept in the values of N, and all others are set
+    to zero (against aliasing).
     """
 
     inner: tuple[tuple[int, str], ...]
@@ -195,9 +197,10 @@ class Nonlinearity:
 class ModeStep:
     """One step: tables, evaluations of N, and the new state.
 
-    The outputs of ``symbol`` are the real part of lambda as a function of the wave number, whose symbol is
-    ``wave``, and the imaginary part if L has one. ``length`` has one output, the period of the domain, and
-    ``initial`` one output, the initial state as a function of x, whose symbol is ``space``.
+    The kernel ``symbol`` computes the eigenvalue lambda from the wave number. Its outputs are the real part
+    of lambda and, unless all eigenvalues are real, the imaginary part. ``length`` computes the period of the
+    domain, and ``initial`` the initial state at the point x. ``wave`` is the name of the wave number in
+    expressions, and ``space`` is the name of x.
     """
 
     tables: tuple[Table, ...]
@@ -269,7 +272,7 @@ class ModeStep:
         return lines
 
     def bound(self) -> str:
-        """Describe the size of the tables for stiff operators."""
+        """Return a text that says how fast the tables grow for large negative z."""
         if self.backwards:
             return "some contain exp(-c z) with c > 0 and grow exponentially, so short steps are required"
         if self.growth > 0:

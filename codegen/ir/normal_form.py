@@ -1,10 +1,11 @@
 """Normal forms: expressions as polynomials in their symbols and irrational parts, reduced by relations.
 
-Two formulas may have equal values only where the coordinates satisfy the laws of a group, such as g^T g = 1.
-As expressions they differ. First the arguments of roots and the divisors of an expression are brought to
-normal form. Then the expression is expanded as a polynomial, and the leading product of each law is replaced
-by the other terms of the law. Many such formulas then become equal expressions: |g y|^2 becomes |y|^2. The
-result equals the given expression wherever the laws hold. It is not canonical, and need not be shorter.
+Two different expressions may have equal values wherever the coordinates satisfy the laws of a group, such as
+g^T g = 1. Here an expression is rewritten with these laws. First the arguments of functions and the divisors
+in the expression are brought to normal form. Then the expression is expanded as a polynomial, and the leading
+product of each law is replaced by the other terms of the law. Many such formulas then become equal
+expressions: |g y|^2 becomes |y|^2. The result equals the given expression wherever the laws hold. It is not
+canonical, and need not be shorter.
 """
 
 from __future__ import annotations
@@ -70,8 +71,8 @@ class NormalForms:
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # The result must only equal root wherever the relations hold, and root itself satisfies this
-            # condition.
+            # The only condition on the result is that it equals ``root`` wherever the relations hold, so
+            # ``root`` itself is a valid result.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:

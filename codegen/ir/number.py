@@ -109,8 +109,8 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # A rational number is converted to the ring of the other number. Two numbers of different rings other
-        # than QQ have no known common ring, which is an error.
+        # A rational number is converted to the ring of the other number. If the rings differ and neither is
+        # QQ, no common ring is known, and an error is raised.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:

@@ -376,7 +376,8 @@ class InverseDexp(Operation):
 
 @dataclass(frozen=True)
 class InverseDexpSlope(Operation):
-    """P*_(order)(x, y) mu, defined by <P* mu, z> = <mu, d/deps dexpinv_{x + eps z} y at eps = 0>.
+    """The element P* mu of the dual, for the arguments x, y and mu. It is defined by <P* mu, z> = <mu, d/deps
+    dexpinv_{x + eps z} y at eps = 0> for all z.
 
     dexpinv is the truncated dexp^{-1} of :class:`InverseDexp` with the same order.
     """

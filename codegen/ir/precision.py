@@ -117,7 +117,7 @@ PRECISIONS = {p.name: p for p in (DOUBLE, SINGLE)}
 
 
 def precision(name: str) -> Precision:
-    """Return the format called name; raise UnknownName for an unknown name."""
+    """Return the format called ``name``; raise UnknownName for an unknown name."""
     if name not in PRECISIONS:
         raise UnknownName(f"unknown precision {name}", expected=" or ".join(PRECISIONS))
     return PRECISIONS[name]

@@ -62,14 +62,15 @@ class Assign:
         return cls((target,), Linear(tuple(c for c, _ in pairs)), tuple(v for _, v in pairs))
 
     def text(self) -> str:
-        """Return the text ``x = operation(a, b)``."""
+        """Return the assignment as text, for example ``x = operation(a, b)``."""
         left = ", ".join(t.name for t in self.targets)
         return f"{left} = {self.operation.applied([a.name for a in self.args])}"
 
 
 @dataclass(frozen=True)
 class Solve:
-    """Find unknowns = images, where the body computes the images from the unknowns.
+    """The equations unknowns = images, which are solved for the unknowns. The body computes the images from
+    the unknowns.
 
     Statements after the block may read values of the body, which are then evaluated at the solution.
     ``starts`` are the first values of the unknowns: they have the kinds of the unknowns and are known before
@@ -178,7 +179,7 @@ class Builder:
     body: list[Assign] = field(default_factory=list)
 
     def fresh(self, name: str, kind: Kind) -> Var:
-        """Return a variable called name; a number is appended if the name is taken."""
+        """Return a variable called ``name``; a number is appended if this name is taken."""
         # A number is appended to the given name, so that people who read printed programs still recognise the
         # name.
         candidate, n = name, 1
@@ -220,7 +221,8 @@ class Builder:
         return self.add(Bracket(v.kind is Kind.DUAL), target, x, v)
 
     def dexpinv(self, target: str, x: Var, v: Var, order: int) -> Var:
-        """Append target = dexp^{-1}_{(order),x} v; for v in the dual, the dual operator is applied."""
+        """Append target = dexp^{-1}_x v, truncated after ``order`` brackets; for v in the dual, ad*_x
+        replaces ad_x."""
         return self.add(InverseDexp(order, v.kind is Kind.DUAL), target, x, v)
 
     def dual_dexp(self, target: str, x: Var, mu: Var) -> Var:

@@ -20,8 +20,7 @@ class OfScene(OfGroup):
     @property
     def function(self) -> str:
         """The name of the function of the scene that evaluates this operation."""
-        # The function has one more argument if it depends on time, so emitted code needs a second name for
-        # it.
+        # A function that depends on time has one more argument, so it has another name in emitted code.
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:

@@ -53,10 +53,10 @@ class Sweep:
     output k of ``outside`` replaces the number that load k of ``read_outside`` would read there. ``outside``
     is None if nothing has to be replaced, as in a periodic lattice. A sweep over pairs of neighbours has an
     ``axis``. For such a sweep, neighbour 0 is the other site of the pair, and the second half of ``stores``
-    belongs to this other site. A sweep that ends an iteration for the equations u = g(u) has the symbols
-    ``unknowns``. The first outputs of its kernel are the images g(u), which replace the unknowns. Such a
-    sweep also stores two numbers for each site, in the rows ``measured``: the largest change of an unknown,
-    and the largest absolute value of an unknown.
+    belongs to this other site. For a sweep that ends an iteration for the equations u = g(u), ``unknowns``
+    are the symbols of the unknowns u. The first outputs of its kernel are the images g(u), which replace the
+    unknowns. Such a sweep also stores two numbers for each site, in the rows ``measured``: the largest change
+    of an unknown, and the largest absolute value of an unknown.
     """
 
     about: str
@@ -94,11 +94,11 @@ class SiteNewton:
     """The matrix of Newton's method for the equations of a chain, to first order in h.
 
     The matrix is block-tridiagonal. For each site, ``kernel`` computes three blocks of ``size`` rows and
-    columns: the derivatives by the unknowns of the left neighbour, of the site, and of the right neighbour.
-    ``loads`` are the numbers that the kernel reads. In an open chain the symbol exists[k] is 1 if neighbour k
-    exists, and 0 otherwise. The blocks of one site are adjacent in the workspace, from the row ``matrix`` on.
-    The residuals are in ``size`` rows, from the row ``residual`` on. A periodic chain needs ``size`` columns
-    for the last site, from the row ``border`` on.
+    columns: the derivatives with respect to the unknowns of the left neighbour, of the site, and of the right
+    neighbour. ``loads`` are the numbers that the kernel reads. In an open chain the symbol exists[k] is 1 if
+    neighbour k exists, and 0 otherwise. The blocks of one site are adjacent in the workspace, from the row
+    ``matrix`` on. The residuals are in ``size`` rows, from the row ``residual`` on. A periodic chain needs
+    ``size`` columns for the last site, from the row ``border`` on.
     """
 
     kernel: Kernel

@@ -1,9 +1,9 @@
 """The selections in formulas: where a field is not smooth, and the smooth field on one side.
 
-A selection is a node of :mod:`codegen.ir.selection`. A *side* of a selection is one of the formulas that it
-can select. For ``choose`` and ``fabs`` the side is 1 if the argument is positive, else 0. For a table the
-side is the index of an interval. If the sides of all selections are fixed, the formulas are smooth, and can
-be evaluated beyond the region in which the selections have these sides.
+A selection is a node of :mod:`codegen.ir.selection`. A *side* of a selection is the number of one of the
+formulas that it can select. For ``choose`` and ``fabs`` the side is 1 if the argument is positive, else 0.
+For a table the side is the index of an interval. If the sides of all selections are fixed, the formulas are
+smooth, and can be evaluated beyond the region in which the selections have these sides.
 """
 
 from __future__ import annotations

@@ -1,4 +1,5 @@
-"""The operation of step programs for a stated step: the scene gives the step as a formula of matrices."""
+"""The operation of step programs for a stated step, that is, a step for which the scene contains a formula of
+matrices."""
 
 from __future__ import annotations
 

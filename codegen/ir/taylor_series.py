@@ -283,7 +283,8 @@ class Angle(Series):
 
 
 class Chosen(Series):
-    """The series of a or of b: the sign of another series at the beginning of the step decides which."""
+    """The series a or the series b: the sign of the series ``test`` at the beginning of the step decides
+    which of the two."""
 
     def __init__(self, domain: Domain, test: Series, a: Series, b: Series) -> None:
         super().__init__(domain)
@@ -311,7 +312,8 @@ class Start(Series):
 
 
 def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
-    """Return the series of a table at a: the polynomial of the interval that contains a_0."""
+    """Return the series of f(a) for the piecewise polynomial f of a table: the polynomial of the interval
+    that contains a_0 is used."""
     # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum. Horner's rule takes one product of series for
     # each power.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)

@@ -36,7 +36,8 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # "Provably" is important for balls: the number in a ball that contains 0 or 1 need not be 0 or 1.
+    # A ball that contains 0 or 1 may represent another number. Therefore the two properties are true only if
+    # the value is proved to be 0 or 1.
     @property
     def is_zero(self) -> bool:
         """True if the number is provably zero."""
@@ -48,7 +49,7 @@ class Coefficient:
         return self.power == 0 and self.value.is_one
 
     def text(self) -> str:
-        """Return the text ``1/2 h``."""
+        """Return the coefficient as text, for example ``1/2 h``."""
         h = "" if self.power == 0 else " h" if self.power == 1 else f" h^{self.power}"
         return f"{self.value.text()}{h}"
 

@@ -34,7 +34,7 @@ _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 @cache
 def vector_function(name: str) -> VectorFunction | None:
-    """Return the vector function called name; None for any other name.
+    """Return the vector function called ``name``; None if there is no such function.
 
     >>> vector_function("expm3_d1"), vector_function("sin")
     (MatrixExponential(n=3, level=1), None)
@@ -50,7 +50,7 @@ def vector_function(name: str) -> VectorFunction | None:
 
 
 def named(name: str) -> VectorFunction:
-    """Return the vector function called name; ValueError for any other name."""
+    """Return the vector function called ``name``; raise ValueError if there is no such function."""
     function = vector_function(name)
     if function is None:
         raise ValueError(f"unknown vector function {name}")

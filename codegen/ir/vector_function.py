@@ -51,7 +51,7 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return expressions for the results that replace a call with these arguments; None if the call is
+        """Return expressions that replace the results of a call with these arguments; None if the call is
         kept."""
 
     @abstractmethod

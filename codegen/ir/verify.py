@@ -8,8 +8,8 @@ from codegen.ir.values import Kind, Var
 
 
 class IllFormed(AssertionError):
-    """A program that breaks a rule of :mod:`codegen.ir.program`: an error of the compiler, not of the
-    user."""
+    """The error for a program that breaks a rule of :mod:`codegen.ir.program`. It is an error of the
+    compiler, not of the user."""
 
 
 def verify(program: Program) -> Program:

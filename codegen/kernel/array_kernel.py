@@ -42,7 +42,7 @@ STATE, NEW, BASIS, GRAM, ERROR = "state", "new state", "basis", "gram", "error"
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error for a method that has no step by loops over arrays."""
+    """Return the error for a method whose step cannot be computed by loops over arrays."""
     hint = "use an explicit method of the family rkmk, cf or cg, for example rkmk:rk4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
@@ -87,7 +87,8 @@ def compiled(
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a field on the sphere without symmetries, on which the passes of a program are verified."""
+    """Return a scene on the sphere, on which the passes of a program are verified. Its field has no
+    symmetries."""
     from sympy import Matrix as Column
     from sympy import Rational, Symbol, symbols
 

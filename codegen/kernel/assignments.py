@@ -104,7 +104,7 @@ class Assignments:
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
             # The level of a node is the latest block on which it depends, because a value cannot be computed
-            # before all of its unknowns are known.
+            # before all unknowns that occur in it are known.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:

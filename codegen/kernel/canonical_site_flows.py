@@ -70,7 +70,8 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
 
 
 def _over_sites(sweep: Sweep) -> bool:
-    """Return whether a sweep reads the old state and writes all numbers of each site."""
+    """Return True if a sweep visits every site and reads no neighbours; only such a sweep may be first or
+    last in a step."""
     return sweep.axis == OWN and not sweep.neighbours
 
 

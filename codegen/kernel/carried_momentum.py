@@ -65,8 +65,9 @@ class Frames:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
         if not self.whole:
             return new
-        # Only the increment of the momentum is transformed back. Rounding makes q not quite orthogonal;
-        # transforming the whole momentum by this q would scale it in each step.
+        # Only the increment of the momentum is transformed back. Because of rounding errors q is not exactly
+        # orthogonal, so a transformation of the whole momentum by q would change the length of the momentum
+        # in each step.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 

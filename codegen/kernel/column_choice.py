@@ -1,5 +1,5 @@
-"""The choice among variants of a group: all variants are compiled, and the kernel with the shortest step is
-used.
+"""The choice among variants of a group: all variants are compiled, and the kernel with the shortest estimated
+time of a step is used.
 
 The variants differ in how they update a rotation matrix: they rotate all three columns, or rotate two columns
 and compute the third column as the cross product of these two. Which variant is fastest depends on the

@@ -37,9 +37,9 @@ repeat this comparison, edit the value and run ``orderconds regenerate --check``
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products, each with at most one late value: the result of a slow operation. The dictionary
-contains, for each late value, a sign, the product of the factors that are constant in a run, and the product
-of the other factors.
+"""A sum of products. Each product has at most one factor that is a late value, which is the result of a slow
+operation. The dictionary contains, for each late value, a sign, the product of the factors that are constant
+in a run, and the product of the other factors.
 
 The key None belongs to the product without a late value."""
 
@@ -151,7 +151,8 @@ class _Chains:
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the nodes whose late values enter a long chain nonlinearly."""
+        """Return the nodes on a long chain at which sums over late values end: the next operation on the
+        chain is not linear in the late values of such a node."""
         ends = set()
         for node in self.nodes:
             for arg in node.args:

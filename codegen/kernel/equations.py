@@ -35,8 +35,8 @@ LONGEST_MATRIX = 1500
 """The largest number of operations of an exact matrix of Newton's method; a longer matrix is replaced by the
 matrix to first order in h.
 
-Ordinary matrices are far below this safeguard: the matrix of vcg:triple_jump on heavy_top has 555 operations,
-as its emitted header states. A limit of 6000 gives the same kernels."""
+Ordinary matrices are far below this limit: the matrix of vcg:triple_jump on heavy_top has 555 operations, as
+its emitted header states. A limit of 6000 gives the same kernels."""
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
 """Costs of operations in additions or products; other operations cost one.
@@ -47,7 +47,8 @@ not matter."""
 
 @dataclass(frozen=True)
 class Block:
-    """A loop before scheduling: names of the unknowns, expressions of starts, images and Newton's matrix."""
+    """A block of equations that is not yet a loop with assignments: the names of its unknowns, and the
+    expressions of the starting values, of the images, and of Newton's matrix."""
 
     label: str
     unknowns: tuple[str, ...]
@@ -126,8 +127,8 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return those values of variables that are sums. The variables ``inside``, which a block assigns, are
-    left out."""
+    """Return the expressions of variables outside a block, if these expressions are sums. ``inside`` are the
+    variables that the block assigns."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 
@@ -159,8 +160,8 @@ def with_matrix(block: Block, solver: str) -> Block:
     """Return the block with the matrix of Newton's method, exact or to first order."""
     leading = solver == SIMPLIFIED_NEWTON
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
-    # With the first-order matrix each sweep reduces the error by a factor O(h^2). More sweeps are necessary,
-    # but each sweep is far shorter.
+    # An exact matrix that is too long is replaced by the first-order matrix. The iteration then needs more
+    # sweeps, because each sweep reduces the error only by a factor O(h^2), but each sweep is far shorter.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
     inverted = len(rows) <= newton.SMALL

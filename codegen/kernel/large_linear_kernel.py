@@ -43,7 +43,7 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 
 def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
     """Return the compiled method. The passes depend neither on the entries nor on the size of A, so they are
-    verified on a scene with three rows.
+    verified on a scene in which A has three rows.
 
     MethodError is raised for a method with step control, for implicit stages, and for a method with an
     operation that is not a product of A and a vector.
@@ -79,7 +79,8 @@ def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass(frozen=True)
 class _Value:
-    """A value of the algebra: h^-power times (a combination of the nodes plus a sum of commutators)."""
+    """A value of the algebra: h^-``power`` times the sum of a combination of the matrices h A(t_i) at the
+    nodes t_i and a combination of commutators."""
 
     power: int
     nodes: dict[int, Number] = field(default_factory=dict)
@@ -223,7 +224,7 @@ class _Builder:
         return self.sum(terms)
 
     def element(self, value: _Value) -> Element:
-        """Return a value as an element; its combination of nodes becomes a letter."""
+        """Return a value as an element; the combination of matrices at the nodes becomes a letter."""
         letter = None
         if value.nodes:
             key = tuple(sorted(value.nodes.items(), key=lambda item: item[0]))

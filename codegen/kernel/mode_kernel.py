@@ -63,7 +63,8 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.semilinear import Semilinear, model_of
 
 Sum: TypeAlias = dict[int, Multiplier]
-"""A linear combination of the old state and of values of N, by source."""
+"""A linear combination of the old state and of values of N. The dictionary maps each source
+(:class:`codegen.ir.mode_step.Term`) to its coefficient."""
 
 ZERO = Number.rational(0)
 
@@ -286,7 +287,7 @@ class _Execution:
             return y
         assert x.power == 1
         if x.a.is_zero:
-            # In the limit a -> 0 the result is d - [(0, b), (c, d)]/2.
+            # In the limit a -> 0 the result is (c, d) - [h (0, b), (c, d)]/2 = (c, d + z c b/2).
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)
@@ -294,7 +295,7 @@ class _Execution:
         return _Element(y.a, _sum([(beta, y.b), (rest, x.b)]), y.power)
 
     def _terms(self, point: Sum) -> tuple[Term, ...]:
-        """Return a linear combination whose coefficients are tables."""
+        """Return a linear combination as terms in which each multiplier is replaced by its table."""
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 
     def _table(self, multiplier: Multiplier, power: int) -> int | None:

@@ -119,7 +119,7 @@ def _words(kinds: Sequence[Kind]) -> list[str]:
 
 
 def calls(kernel: Kernel) -> dict[str, int]:
-    """For each function of a kernel, return the number of its calls, in the order of the functions."""
+    """Return the number of calls of each outlined function of a kernel, in the order of the functions."""
     places = {function.name: dict[tuple[int, ...], None]() for function in kernel.outlined}
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
@@ -157,7 +157,8 @@ class WithFunctions:
 def _sum(
     coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
 ) -> Values:
-    """Return a sum with symbols for its coefficients; terms with equal coefficients are added first."""
+    """Return a linear combination whose coefficients are symbols. Vectors with equal coefficients are added
+    before they are multiplied by this coefficient."""
     # c x + c y = c (x + y), so terms with equal coefficients take one product together for each component.
     groups: dict[Coefficient, Values] = {}
     for c, x in zip(coefficients, args, strict=True):
@@ -172,7 +173,8 @@ def _sum(
 def rewritten(
     roots: Sequence[Expr], calls: Mapping[int, tuple[str, int, list[Expr]]], space: Space
 ) -> list[Expr]:
-    """Return the roots with nodes replaced by calls; the arguments of the calls are rewritten, too."""
+    """Return the roots, in which each node with an entry in ``calls`` is replaced by a call. The arguments of
+    the calls are rewritten in the same way."""
     new: dict[int, Expr] = {}
     for root in roots:
         # Arguments of replaced nodes are rewritten as well. The traversal uses an explicit stack, because

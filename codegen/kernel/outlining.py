@@ -52,8 +52,8 @@ Outlining hardly changes the operations, so the difference is at most 1.4e-17 fo
 sizes is suitable."""
 
 ATTEMPTS, DIGITS = 8, 60
-"""The number of points that the verification tries in doubles, and then, if doubles overflow, in numbers of
-DIGITS digits."""
+"""The verification needs one point at which all values are finite. It tries ATTEMPTS points in doubles, then
+as many points in numbers with DIGITS digits, which do not overflow."""
 
 Shape = tuple[Key, tuple[int, ...]]
 """A function is identified by the key of its trees and by the indices of the results that are read."""
@@ -72,7 +72,8 @@ class Outline:
         self.trees = Trees(self.program, self.domain)
 
     def run(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> list[Expr] | None:
-        """Return the roots with calls of the functions in ``outlined``; None if nothing is repeated.
+        """Return the roots, with repeated parts replaced by calls of the functions in ``outlined``. Return
+        None if nothing is repeated.
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
@@ -158,7 +159,7 @@ class Outline:
             trees = [trees[t] for t in sorted(left)]
 
     def _read(self, roots: Sequence[Expr], trees: Sequence[Tree]) -> dict[int, set[int]]:
-        """For each tree, return the indices of the results that are still read after all trees are replaced
+        """Return, for each tree, the indices of the results that are still read after all trees are replaced
         by calls."""
         ends: dict[int, tuple[int, int]] = {}
         for t, tree in enumerate(trees):

@@ -3,8 +3,8 @@ function.
 
 If only one operation reads a value, a single function can compute the value and the result of the operation
 that reads the value. The two operations then form a tree. Pairs of trees that occur often are joined to
-larger trees; pairs that save the most lines are joined first. Trees with equal keys have the same operations,
-but may have different operands and different coefficients in their sums.
+larger trees. The first pairs to be joined are those for which this saves the most lines. Trees with equal
+keys have the same operations, but may have different operands and different coefficients in their sums.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ dipole, cg:cg5 has 6611, 6155 and 6467 operations and 471, 454 and 394 assignmen
 Values = tuple[Expr, ...]
 
 Key = Hashable
-"""A description of a tree: trees that can be calls of one function have equal keys."""
+"""A description of a tree: two trees have equal keys if one function can compute both of them."""
 
 PairKey = tuple[Key, Key, Key]
 """The keys of two trees, and the key of the tree that results from joining them."""
@@ -288,8 +288,8 @@ class Trees:
 
 
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
-    """For each coefficient of a sum, return a number and the power of h: equal coefficients have equal
-    numbers, and the coefficient one has the number 0."""
+    """Return, for each coefficient of a sum, a pair: a number and the power of h. Equal coefficients have
+    equal numbers; the coefficient 1 has the number 0."""
     seen: dict[Coefficient, int] = {}
     # A coefficient of one changes the shape, because it needs no product. Terms with equal coefficients are
     # added and then multiplied once, so equality is part of the shape.

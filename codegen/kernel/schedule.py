@@ -130,7 +130,8 @@ class Arrangement:
     outlined: tuple[tuple[Function, Arrangement], ...] = ()
 
     def functions(self) -> tuple[str, ...]:
-        """Return the functions called, sorted: scalar functions and sets of Stumpff functions."""
+        """Return the sorted names of all library functions that the step calls, for example ``sqrt`` and
+        ``stumpff_12``."""
         called = {s.function for s in self._simple() if isinstance(s, SharedCall)}
         outlined = {function.name for function, _ in self.outlined}
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}

@@ -33,7 +33,8 @@ class SharedArguments(ExprDomain):
         self.shared: dict[int, Expr] = {}
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return a call node."""
+        """Return the node of a function call. If the arguments of two calls of one Stumpff function are equal
+        as polynomials, both calls have the same node."""
         # Only Stumpff functions are compared, because a step spends most of its time in them.
         if function.startswith("stumpff"):
             args = (self._first(args[0]),)

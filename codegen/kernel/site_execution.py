@@ -31,8 +31,9 @@ EVALUATED = (Field, HamiltonianDerivatives)
 
 @dataclass(frozen=True)
 class Content:
-    """The content of a sweep: the description ``about``, and pairs ``stored`` of rows and the variable whose
-    value is stored in these rows. ``unknowns`` are the unknowns that the sweep replaces by their images."""
+    """The content of a sweep: the description ``about``, and the pairs ``stored``. Each pair contains rows,
+    and the variable whose value is stored in these rows. ``unknowns`` are the unknowns that the sweep
+    replaces by their images."""
 
     about: str
     stored: tuple[tuple[tuple[Row, ...], Var], ...]

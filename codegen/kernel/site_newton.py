@@ -33,7 +33,7 @@ LEFT, RIGHT = (-1,), (1,)
 
 @dataclass
 class Linearisation:
-    """The derivatives of the images of one block by the unknowns of three sites.
+    """The derivatives of the images of one block with respect to the unknowns of three sites.
 
     ``rows`` are the rows of stored variables, ``given`` the variables of the old state, and ``makers`` maps
     each computed variable to its assignment.
@@ -52,11 +52,11 @@ class Linearisation:
     inside: set[Var] = field(default_factory=set)
 
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
-        """Return the matrix for a block. ``places`` are the number of unknowns, and the first rows of the
-        residuals, of the border and of the matrix.
+        """Return the matrix for a block. ``places`` contains four numbers: the number of unknowns, the first
+        row of the residuals, the first row of the border, and the first row of the matrix.
 
-        MethodError is raised if the lattice is no chain of nearest neighbours, and if a stage depends on the
-        field at another stage of the same block.
+        MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
+        the field at another stage of the same block.
         """
         if not set(self.sites.offsets) <= {LEFT, RIGHT}:
             raise MethodError(
@@ -135,7 +135,7 @@ class Linearisation:
         return tuple(map(self.domain.space.sym, names))
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
-        """Return the field at a stage, with the stages of neighbours."""
+        """Return the field at a stage of the site; the field also reads this stage at the neighbours."""
         if site != OWN:
             raise MethodError(
                 "Newton's method for stages that depend on the field at other stages",

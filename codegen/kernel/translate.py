@@ -62,7 +62,8 @@ def to_kernel(
     whole: bool = False,
     outlining: bool = True,
 ) -> Kernel:
-    """Return the kernel of a program in its problem (:func:`codegen.lower.problem`).
+    """Return the kernel of a program; ``scene`` is the problem of the program
+    (:func:`codegen.lower.problem`).
 
     ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON; all other
     blocks are solved by fixed-point iteration. With ``variations`` the kernel also propagates a variation of

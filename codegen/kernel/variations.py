@@ -1,8 +1,8 @@
 """Variations of a state: the coordinates in which the Jacobian of a step is expressed.
 
-A group element q varies by xi in its algebra, dq = xi.q (right-trivialised). Momenta, and points that are not
-group elements, vary component by component. The Jacobian on T*SO(3) is therefore 6 x 6, and the Jacobian on
-the sphere 3 x 3.
+The variation of a group element q is given by an element xi of the Lie algebra: dq = xi.q (right
+trivialisation). Momenta, and points that are not group elements, vary component by component. The Jacobian on
+T*SO(3) is therefore 6 x 6, and the Jacobian on the sphere 3 x 3.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ class Variations:
         return tuple(rates_of_end)
 
     def text(self) -> str:
-        """Return a text on the components of a variation: their indices and meaning."""
+        """Return a text that lists the components of a variation with their indices and their meaning."""
 
         words = []
         first = 0

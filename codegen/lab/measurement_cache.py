@@ -3,8 +3,8 @@
 The file name of an entry is a digest of all inputs of the measurement: the emitted files, the scene, the
 settings, the kind of processor. An entry also contains a digest of its content. Every entry is written under
 a temporary name and then renamed, so that an interrupted write does not create an entry. If an entry is
-truncated, changed, or of another type, it is ignored and the measurement is made again. A folder that another
-user owns is never read or written.
+truncated or changed, or if its result has the wrong type, the entry is ignored and the measurement is made
+again. A folder that another user owns is never read or written.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ FORMAT = 1
 entries of an old version."""
 
 FOLDER = ".measured"
-"""Name of the folder that contains the entries of a report. The folder is in the folder into which the report
-is written, until the report is complete."""
+"""Name of the folder that contains the entries of a report. It is a subfolder of the folder into which the
+report is written, and is removed when the report is complete."""
 
 DIGEST = 32
 """The number of bytes of the SHA-256 digest at the start of an entry."""

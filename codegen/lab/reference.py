@@ -87,9 +87,9 @@ def cached_reference(
 ) -> Reference:
     """Return the reference of a scene from the cache; compute and store it if it is missing.
 
-    The default of ``cache`` is the cache of this user. ``end`` is a time of the clock ``time.monotonic``. The
-    function raises the same errors as :func:`reference`, for example if the computation is not finished at
-    the time ``end``.
+    The default of ``cache`` is the cache of this user. ``end`` is the latest time, on the clock
+    ``time.monotonic``, at which the computation must be finished. The function raises the same errors as
+    :func:`reference`, for example if the computation takes longer.
     """
 
     def compute() -> _Stored:

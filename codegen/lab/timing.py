@@ -50,8 +50,8 @@ AGAIN = 3
 """The largest number of repeated measurements of a run whose time is not resolved."""
 
 LEAST_SHARE = 0.1
-"""The time of a run without the overhead is at least this fraction of the time with the overhead. Therefore
-no run has the time zero.
+"""If the time of a run without the overhead is less than LEAST_SHARE times the time with the overhead, it is
+replaced by this bound. Therefore no run has the time zero.
 """
 
 
@@ -107,7 +107,7 @@ def spans(run: Callable[[int], object], steps: int) -> int:
 
 
 def _least(run: Callable[[int], object], count: int) -> float:
-    # The first call of a module is slow.
+    # The least of three times is returned, because the first call of a module is slow.
     return min(_batch(lambda: run(count), 1) for _ in range(3))
 
 

@@ -61,8 +61,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # If the tableau claims an order in a family that does not accept the scene, the call of _check raises
-        # an error with the reason. This error helps the user more than ``error``.
+        # If the tableau claims an order in a family that does not accept the scene, _check raises an error
+        # that says why the family does not accept the scene. This error helps the user more than ``error``.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))

@@ -1,5 +1,5 @@
-"""Runge-Kutta methods in the coordinates of the state. Their solutions leave the manifold: the distance from
-it is about as large as the error of the solution.
+"""Runge-Kutta methods in the coordinates of the state. Their solutions leave the manifold: the distance of a
+solution from the manifold is about as large as the error of the solution.
 """
 
 from __future__ import annotations

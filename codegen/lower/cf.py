@@ -56,10 +56,11 @@ STORAGE_OF_PAIR = (
 
 
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
-    """Return the scheme with two registers that is equal to the method on every group, and an exponent x.
+    """Return a pair: a scheme with two registers whose steps equal the steps of the method on every group,
+    and an exponent x.
 
-    With step-size control, the update of the embedded method must be exp(x) applied to the update of the
-    method; without step-size control, x is None. The result is None if there is no such scheme or no such x.
+    With step-size control, exp(x) applied to the result of the method must be the result of the embedded
+    method. Without step-size control, x is None. If there is no such scheme or no such x, return None.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None

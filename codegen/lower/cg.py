@@ -22,7 +22,7 @@ class CrouchGrossman(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
         embedded = method.embedded()
-        # The embedded tableau has the same stages as the method, so only its update is used.
+        # The embedded tableau has the same stages as the method, so only the update is read from it.
         lower = None if embedded is None else _exponentials(embedded).update
         # Stage i applies the product exp(h a_is k_s) ... exp(h a_i1 k_1) to y0. This is a commutator-free
         # method in which each exponent has one term.

@@ -1,16 +1,17 @@
 """Discrete gradient methods on groups, section 2.6 of Marthinsen's thesis: they preserve the energy exactly.
 
-x1 = exp(h xi).x0 with xi = i_D omega at the midpoint exp(h xi/2).x0, where omega is the scene's bivector
-(:mod:`codegen.scene.energy`) and D a trivialised discrete differential, <D, eta> = H(x1) - H(x0), eta = h xi.
-The tableau is read as a quadrature rule with nodes c_i and weights b_i for the mean of gamma = R* dH:
+A step is x1 = exp(h xi).x0 with xi = i_D omega. Here omega is the scene's bivector
+(:mod:`codegen.scene.energy`) at the midpoint exp(h xi/2).x0, and D is a trivialised discrete differential of
+the energy H: <D, eta> = H(x1) - H(x0) with eta = h xi. The tableau is read as a quadrature rule with nodes
+c_i and weights b_i for the mean of gamma = R* dH, the trivialised differential of H:
 
     g = sum_i b_i gamma(exp(c_i eta).x0),
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
-With one node 1/2 the discrete differential is (2.31) with the midpoint choice. With Gauss nodes it is the
-mean value of section 2.6, where a multiple of eta corrects the error of the quadrature. Since omega is skew,
-<D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two if sum b_i c_i = 1/2, otherwise one. The
-unknown is xi.
+With one node 1/2, D is the discrete differential (2.31) of the thesis with the midpoint choice. With Gauss
+nodes, D is the mean value of section 2.6, and the multiple of eta corrects the error of the quadrature. Since
+omega is skew, <D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two if sum b_i c_i = 1/2, otherwise
+one. The unknown is xi.
 """
 
 from __future__ import annotations
@@ -104,7 +105,8 @@ def _program(scene: Problem, method: Method) -> Program:
 def _check_bivector(scene: Problem, method: Method) -> None:
     """Raise MethodError if there is a sample point at which the bivector does not map the differential of the
     energy to the field."""
-    # The sample points are on the orbit, because the formulas need not agree at other points.
+    # The sample points are on the orbit, because the image of the differential and the field need not agree
+    # at other points.
     orbit = orbit_of(scene)
     for point in orbit.points:
         y = tuple(point[s] for s in orbit.symbols)

@@ -1,9 +1,9 @@
 """Lie elements in the values of a field at nodes: the exponents of methods for y' = A(t).y.
 
 A tableau of format ``magnus`` defines elements of the Lie algebra as combinations of brackets of h A(t + c_i
-h). A value h^p x is stored as the pair of the variable x and the power p, without the product. For example,
-the bracket of two values at nodes has the power 2. In a combination, only the terms whose power exceeds the
-least power are multiplied by a power of h. Therefore few multiplications by h are needed.
+h). A value h^p x is stored as the pair of the variable x and the power p; the product is not computed. For
+example, the bracket of two values at nodes has the power 2. In a combination, only the terms whose power
+exceeds the least power are multiplied by a power of h. Therefore few multiplications by h are needed.
 """
 
 from __future__ import annotations

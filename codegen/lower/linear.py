@@ -1,4 +1,4 @@
-"""The base class of lowerings for linear problems in time: y' = A(t).y, where A does not depend on y."""
+"""The base class of lowerings for linear differential equations y' = A(t).y: A may depend on t, not on y."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class LinearLowering(FieldLowering):
     """A family of methods y1 = tau(X_m).(... tau(X_1).y0) for y' = A(t).y.
 
     The exponents X are Lie elements in the values h A(t + c_i h), and tau is a map from the algebra to the
-    group. No value depends on y, so a step has no stages.
+    group. The values A(t + c_i h) do not depend on y, so a step has no equations for stages.
     """
 
     def objection(self, scene: Problem) -> Objection | None:
@@ -43,7 +43,7 @@ class LinearLowering(FieldLowering):
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene as a vector field that depends on the time alone, and not on the state."""
+        """Return the scene as an equation y' = A(t).y, where A does not depend on y."""
         if not scene.carries_momentum:
             return super().problem(scene, method)
         if "linear" not in scene.derived:
@@ -81,7 +81,7 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, step)
 
     def _stated(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a step that the user states in the scene, as a function of matrices."""
+        """Return the program of a step that the scene itself defines, as a function of matrices."""
         if problem.carries_momentum and not problem.steps[method.step].canonical:
             raise MethodError(
                 f"{method.label} has no formula for the momentum u, because the matrix of the step need not "
@@ -94,8 +94,8 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of the method. If the scene states the step of the method as a function, the scene
-        also states the order of the step, and this order is returned."""
+        """Return the order of the method. If the scene itself defines the step of the method, the result is
+        the order that the scene states for this step."""
         if not method.step:
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder

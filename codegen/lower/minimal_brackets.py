@@ -83,7 +83,7 @@ def lower(scene: Problem, method: Method) -> Program:
         return build.lin(name, Kind.ALG, terms)
 
     def images() -> list[Var]:
-        # A bracket may read earlier brackets, in the order of the program.
+        # The order of the brackets is kept, because earlier brackets may be arguments of later brackets.
         for r, (left, right) in enumerate(written.brackets):
             # Both arguments are formed as sums before the bracket, because [a + b, c] takes one bracket, but
             # [a, c] + [b, c] takes two.

@@ -119,7 +119,8 @@ def lowering(family: str) -> Lowering:
 
 
 def families_for(scene: Problem) -> tuple[str, ...]:
-    """Return the families that accept a scene, in order of preference for methods that name no family."""
+    """Return the families that accept a scene, the most preferred family first. The preference matters for
+    methods whose name contains no family."""
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
     # The sort is stable: families of the same preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))

@@ -2,7 +2,8 @@
 dexp^{-1}_(r).
 
 Equation (3.14) of Marthinsen's thesis: u_i = h sum_j a_ij v_j, v_i = dexp^{-1}_{(r),u_i} f(exp(u_i).y0),
-y1 = exp(h sum_i b_i v_i).y0. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta method.
+y1 = exp(h sum_i b_i v_i).y0. Here dexp^{-1}_{(r),u} is the series of dexp^{-1}_u up to the terms with r
+brackets. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta method.
 
 On a scene with another coordinate map tau, tau replaces exp, and the exact inverse differential of tau
 replaces the truncated dexp^{-1}. The cut-off r then has no meaning and is not read: the Runge-Kutta method

@@ -1,4 +1,6 @@
-"""Symplectic Lie group integrators on T*G, section 2.5 of Marthinsen's thesis; one stage is the theta-method.
+"""Symplectic Lie group integrators on T*G, section 2.5 of Marthinsen's thesis.
+
+With one stage, the integrator is the theta-method.
 
 With X_i = h sum_j a_ij xi_j, Y = h sum_j b_j xi_j, Q_i = exp(X_i) q0, (xi_i, n_i) = f(Q_i, M_i) and nu_j =
 Ad*_{exp X_j} n_j,
@@ -36,12 +38,13 @@ class SymplecticIntegrator(VariationalLowering):
         return _program(problem, method)
 
 
-# dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)} contains the transport by exp(-Y). The term in dexp*_{-Y} and the vectors
-# dexp*_{X_j} n_j are common to all stages. Stages differ only in the factors b_j a_ji/b_i, so one evaluation
-# of all equations needs s + 1 evaluations of dexp*. In a method with one stage all exponents are multiples of
-# x = h xi and commute. For such a method the identity b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a)
-# dexp*_{-(b - a) x} replaces the two terms that contain n by one term. The initial values of the unknowns are
-# the derivatives at the beginning of the step, which are accurate to O(h) in each stage.
+# Since dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)}, the equations need no separate operation Ad*_{exp(-Y)}. The term
+# in dexp*_{-Y} and the vectors dexp*_{X_j} n_j are common to all stages. Stages differ only in the factors
+# b_j a_ji/b_i, so one evaluation of all equations needs s + 1 evaluations of dexp*. In a method with one
+# stage all exponents are multiples of x = h xi and commute. For such a method the identity b dexp*_{-b x}
+# Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x} replaces the two terms that contain n by one
+# term. The initial values of the unknowns are the derivatives at the beginning of the step, which are
+# accurate to O(h) in each stage.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -74,8 +77,8 @@ def _program(scene: Problem, method: Method) -> Program:
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # ``after`` is stored for the update. There only one adjoint operation acts on n, because Ad*_{exp(-b
-        # x)} Ad*_{exp(a x)} = Ad*_{exp(-(b - a) x)}.
+        # ``after`` is stored, because the update applies Ad*_{exp(after)} to n. This single operation
+        # replaces two: Ad*_{exp(-b x)} Ad*_{exp(a x)} = Ad*_{exp(-(b - a) x)}.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

@@ -49,7 +49,8 @@ class SplittingLowering(FlowLowering):
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
             return _in_order(parts, tableau, steps, chosen)
-        # McLachlan's theorem: any A, B splitting is a composition of Phi and Phi* for more parts.
+        # McLachlan's theorem: the coefficients of any splitting in two parts A, B also define a composition
+        # of Phi and Phi* for more than two parts.
         if len(tableau.parts) == 2 and len(chosen) > 2:
             return pairs(parts.arranged, _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]

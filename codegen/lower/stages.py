@@ -16,8 +16,8 @@ from orderconds.ring.protocol import Element
 
 @dataclass
 class Stages:
-    """Collects a method's stages into a program: the unknowns and their starts, the body of the block, the
-    images (the right-hand sides of the fixed-point equations), and the update.
+    """Collects a method's stages into a program: the unknowns and their starts (initial guesses), the body
+    of the block, the images (the right-hand sides of the fixed-point equations), and the update.
     """
 
     scene: Problem

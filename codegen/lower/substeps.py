@@ -75,8 +75,8 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Divide the stages into as many groups as possible that have the same tableau. Return this tableau and
-    the step lengths of the groups; None if there are no such groups.
+    """Divide the stages into groups that all have the same tableau, into as many groups as possible. Return
+    this tableau and the step lengths of the groups; None if there is no such division.
     """
     # The entries are Numbers and not ring elements. Numbers are compared by keys, and equal keys also show
     # that two balls enclose the same number.

@@ -132,8 +132,8 @@ class ExpandedStep(ABC):
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
         # -Y gets a variable of its own, because it is an argument of the operation dexp*_{-Y}.
         self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
-        # The force n_j is a covector at Q_j = E_j q0. Ad*_{E_j} transports the force to q0, where the forces
-        # of all stages can be added.
+        # The force n_j is a covector at Q_j = exp(X_j) q0. Ad*_{exp X_j} transports the force to q0, where
+        # the forces of all stages can be added.
         self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]
         terms = [(ONE, self.mu)] + [(self.stages.times_h(self.b[j]), self.nu[j]) for j in range(self.s)]
         self.mubar = build.lin("mubar", Kind.DUAL, terms)

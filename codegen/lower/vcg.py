@@ -9,7 +9,8 @@ e^{j-1}, E_i^j = exp(h a_ij xi_j) E_i^{j-1}, e^0 = E_i^0 = 1, E_i = E_i^s, Q_i =
 
 These are (3.19), rewritten by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}: the exponential of xi_i itself is merged
 into dexp*. The program has a separate term for each coefficient. Where a_ji = b_i and E_j^{i-1} = e^{i-1}, as
-in compositions (Lemma 3.5.4), the passes cancel the terms, and the stages become sequential.
+in compositions (Lemma 3.5.4 of Bogfjellmo and Marthinsen), the passes cancel the terms, and the stages can be
+computed one after the other.
 """
 
 from __future__ import annotations

@@ -110,8 +110,8 @@ class _Step(ExpandedStep):
         # other terms of dexp*_(r) M_i, with the opposite sign, are in ``corrections``.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The force and the slope of stage j have the same factor h a_ji, because X_j depends on v_i
-            # through h a_ji v_i.
+            # The force and the slope of stage j have the same factor. It contains a_ji, because X_j depends
+            # on v_i through the term h a_ji v_i.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))

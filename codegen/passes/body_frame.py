@@ -139,9 +139,9 @@ class _Framing:
             # rewritten.
             if left in self.relative:
                 raise NotFramed
-            # The product of ``left`` and the position E q is left (E q) = (left E) q, so the factor of the
-            # new position is left E. Conjugation by q maps this product to the product of the conjugates of
-            # left and E, so the operation remains a multiplication.
+            # Let L be the group element ``left``. The product of L and the position E q is (L E) q, so the
+            # new position has the factor L E. Conjugation by q maps L E to the product of the conjugates of
+            # L and E, so the operation remains a multiplication.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # In the body frame E q is written as q E~, with the factor on the right side.

@@ -1,8 +1,8 @@
 """Unknowns with the same image (right-hand side of the fixed-point map) are merged into one unknown.
 
 The pass is exact. At a solution, unknowns with the same image are equal. The block is solved for the first of
-these unknowns only, with the start of this unknown. After :mod:`codegen.passes.value_numbering` has merged
-equal equations, stages with equal rows of coefficients thus become one stage.
+these unknowns only, from the start value of the first unknown. After :mod:`codegen.passes.value_numbering`
+has merged equal equations, stages with equal rows of coefficients thus become one stage.
 """
 
 from __future__ import annotations

@@ -202,8 +202,8 @@ class Reference:
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
     def _is_short(self, step: _Step, power: int) -> bool:
-        """Return True if a tiny step changes every number x of the state by at most 2^-(power/2) max(1,
-        abs(x)). If a change is larger, h times some coefficient of the scene is not small."""
+        """Return True if a step of size 2^-p, p = ``power``, changes every number x of the state by at most
+        2^(-p/2) max(1, |x|). If a change is larger, h times some coefficient of the scene is not small."""
         return all(
             abs(x - y) <= max(1, abs(x)) * 2.0 ** -(power // 2)
             for name in self.kinds.keys() & step.after.keys()
@@ -234,9 +234,11 @@ class Reference:
         return next(filter(None, accounts), "")
 
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
-        """Compare results after the longest step for which both programs have a finite result.
+        """Return a description of the difference between the results after the longest step for which both
+        programs have a finite result, or ''.
 
-        Returns None if no step from this point is suitable for a comparison.
+        If there is no such step, return a description of the last failure of ``program``. The result is None
+        if no step from this point is suitable for a comparison.
         """
         failure = None
         for step in point.results():
@@ -273,8 +275,8 @@ class Reference:
         """Repeat the step in many digits and return the difference found; return ``account`` if this step
         cannot be computed.
 
-        If a step is ill-conditioned, results in doubles may differ by more than rounding although the
-        programs are equal.
+        If a step is ill-conditioned, results in doubles may differ by more than a few rounding errors
+        although the programs are equivalent.
         """
         if NOT_A_NUMBER in account:
             return account

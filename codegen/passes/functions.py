@@ -99,7 +99,7 @@ def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tup
 
 
 Part = tuple[Var, Word, Var]
-"""The parts of a value f(ad_x) v: x, the function f as a word, and v."""
+"""The parts of a value f(ad_x) v: x, the function f as a word (a product of factors), and v."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
@@ -129,7 +129,8 @@ def _distributed(
 
 
 def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
-    """Return x and the function of ad_x that an assignment applies to its last argument."""
+    """Return x and the function of ad_x that an assignment applies to its last argument; None if the
+    assignment applies no such function."""
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])

@@ -159,8 +159,8 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append and return the residual: a momentum from the equations of the block, minus the same momentum
-    computed from the velocity. This momentum is the base, P, or a value between them; the choice needs the
-    fewest operations.
+    computed from the velocity. The momentum that is compared is either the base, or P, or a value between the
+    two, whichever needs the fewest operations.
     """
     replaced, computed = _values(build, route)
     # The two momenta may be compared at any place of the path: the maps of the path are invertible, so the

@@ -69,8 +69,8 @@ def _rule(
 
 
 def _worthwhile(program: Program) -> set[Share]:
-    """Return the combinations to factor. A linear map is factored if the number of its combinations is
-    smaller than the number of values in these combinations."""
+    """Return the combinations to factor: for each linear map that has fewer combinations than values in these
+    combinations, the combinations of two or more values."""
     worthwhile: set[Share] = set()
     for statement in program.body:
         # Only blocks are searched: a map in a block is evaluated in every sweep, but a map outside blocks is
@@ -92,8 +92,8 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """For each linear map in a sum, return the combination of its values in this sum, and the factor of the
-    combination."""
+    """Return, for each linear map in a sum, the combination of the values of the map in this sum, and the
+    factor of this combination."""
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
         source = definitions.get(arg)

@@ -59,7 +59,7 @@ several lines."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Return one segment if all segments together are short, otherwise the segments."""
+    """Return all segments joined to one if it has at most ``most`` characters, otherwise the segments."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 

@@ -31,8 +31,8 @@ class Interface:
 
     ``prefix`` starts every external C name and ends in an underscore. A state consists of ``size`` numbers.
     ``time`` is true if the step reads t. ``parameters`` are the run-time parameters in order. ``blocks`` are
-    the labels of the implicit blocks, whose sweeps the statistics count. ``precision`` names the format of
-    all numbers (:mod:`codegen.ir.precision`). ``inputs`` are the run-time functions of time, in order.
+    the labels of the implicit blocks, whose sweeps the statistics count. ``precision`` is the name of the
+    number format (:mod:`codegen.ir.precision`). ``inputs`` are the run-time functions of time, in order.
     ``adaptive`` is true if there is a run with step control. ``solvers`` are the methods that solve the
     blocks. ``variations`` is the size of the Jacobian; it is 0 if there is no Jacobian. ``batch`` is true if
     there is a function for many independent systems. ``integrated`` is true if there is a run to a given end
@@ -73,7 +73,8 @@ class Interface:
             prefix=prefix,
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
-            # Parameters that simplification has removed from the kernel would be unused arguments.
+            # Parameters that simplification has removed from the kernel are omitted, because they would be
+            # unused arguments.
             parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
             blocks=tuple(loop.label for loop in kernel.loops),
             precision=precision,

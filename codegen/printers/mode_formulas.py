@@ -50,7 +50,8 @@ class ModeFormulas:
         return Lines(tuple(assignments), outputs)
 
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
-        """Return the text of a function of z; ``call`` writes the call of a function of the module."""
+        """Return the text of a function of z, which is h times an eigenvalue of L. ``call`` returns the text
+        of a call, given a function and the text of its argument."""
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
         return argument if factor.function == POWER else call(factor.function, argument)

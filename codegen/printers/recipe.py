@@ -45,7 +45,8 @@ def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | Non
     """Return the indices and values of the entries of a long initial state that are not zero. The result is
     None for a short state, which the example contains in full.
 
-    If there are more than :data:`MOST_ENTRIES` entries, the result is empty: the manifest contains the state.
+    If more than :data:`MOST_ENTRIES` entries are not zero, the result is empty, and the example refers to the
+    manifest, which contains the state.
 
     >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
     (None, ((99, 1.0),))

@@ -114,14 +114,14 @@ def called_by(body: Iterable[Statement]) -> set[str]:
 
 
 def _statements(plan: Plan) -> list[Statement]:
-    """Return the statements of an explicit kernel, with its outputs."""
+    """Return the statements of an explicit kernel, including those that compute its outputs."""
     ends, _ = outputs(plan.arrangement, plan.symbols)
     inner = [s for s in plan.arrangement.statements if isinstance(s, Simple)]
     return [*(single for s in inner for single in simple(s)), *ends]
 
 
 def near(name: str) -> str:
-    """Return the name of the variant of a function that is computed without branches.
+    """Return the name of a function's variant without branches; functions without variants keep their names.
 
     >>> near("sin"), near("stumpff_12"), near("sqrt")
     ('sin_near', 'stumpff_12_near', 'sqrt')
@@ -188,7 +188,7 @@ def _lane_parameters(plan: Plan, stopped: Term, failed: Term) -> tuple[Term, ...
 
 
 def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
-    """Return the statements of the kernel that depend on t and h only, and then all its other statements."""
+    """Return two lists: the statements of the kernel that depend on t and h only, and all others."""
     shared, before, inside = {TIME.text, STEP.text}, [], []
     for statement in plan.arrangement.statements:
         assert isinstance(statement, Simple)

@@ -40,8 +40,8 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Array(same),
         Assign(same, state),
         *memory,
-        # The step size zero is written as a product, because compilers would compile a second copy of a large
-        # function for a constant argument.
+        # The step size zero is written as the product 0 h. If it were the constant 0, compilers would compile
+        # a second copy of the large function ``core`` for this constant argument.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )

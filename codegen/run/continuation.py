@@ -90,8 +90,9 @@ class _Continuation:
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of length zero is the identity, and there is no shorter step to try.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # If the factor is near 1, there is no progress, probably because the branch of solutions ends before
-        # the full length of the step.
+        # After the first success, each failure reduces the factor. If the factor is near 1, there is no
+        # progress, and the loop ends. Probably the branch of solutions ends before the full length of the
+        # step.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -133,7 +134,8 @@ class _Continuation:
         If the failed step computed a number that is not finite, but a shorter step from the same state
         succeeded, then the failed step was too long, and the status is TOO_FAR.
         """
-        # A shorter step samples other values of run-time inputs, and these values may be the cause.
+        # A shorter step samples other values of run-time inputs. Such a step may succeed because of these
+        # values and not because it is shorter, so the status is not changed to TOO_FAR.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
@@ -144,8 +146,8 @@ class _Continuation:
         step."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # The initial guess is the solution of the shorter step. The stored rate of convergence does not apply
-        # to a longer step. It is replaced by 1, so that the stopping rule requires a second sweep.
+        # The last successful step was shorter, and the rate of convergence of that step does not apply here.
+        # The rate is set to 1, so that the stopping rule requires a second sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),

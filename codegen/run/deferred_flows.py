@@ -216,7 +216,8 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
-            # The state of a run that fails in its first step is the initial state.
+            # ``complete`` is the last complete state that is finite. If the first step fails, this is the
+            # initial state.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),

@@ -42,8 +42,8 @@ INTEGRATE = "integrate"
 """The name of the public function for a run to a given end time."""
 
 NEARLY = 1e-9
-"""If the rest of the interval is longer than a step by at most this fraction, one step covers it. Without
-this tolerance, rounding errors in the times could leave a tiny last step."""
+"""If the rest of the interval is longer than the step size by at most this fraction of the step size, one
+step covers the rest. Without this tolerance, rounding errors in the times could leave a tiny last step."""
 
 LEAST, GREATEST = real("least"), real("greatest")
 
@@ -111,7 +111,7 @@ class _Constant:
         """True if the run calls the function of a step directly and passes it a memory of earlier steps."""
         plan = self.plan
         # In the other cases the function ``run`` is called for one step, because ``run`` contains the
-        # conversions or the kernel itself.
+        # deferred flows, the conversions of the momentum, or the kernel itself.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:

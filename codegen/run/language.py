@@ -13,7 +13,7 @@ term. The rules of the representation suit targets in which a loop is a ``while_
 - Return is at the end of a function, or alone in an If of the outermost block. Such an If is called a guard.
   A target may compute the statements after a guard and then discard their results.
 - Statuses are values; there are no pointers. Arrays that a function receives may be changed in place.
-- Scalars are declared by their first assignment; each is assigned before it is read on every path.
+- Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
 - ``Function.guard`` states the result after an arithmetic error, for targets that raise an exception where C
   computes an infinity or a NaN.
 """

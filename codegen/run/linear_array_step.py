@@ -57,8 +57,9 @@ from codegen.run.terms import (
 )
 
 HALVINGS = 16
-"""The largest number of halvings of an exponent. Longer steps fail with the status TOO_FAR: to apply 2^16
-polynomials of degree 22 takes seconds for a tridiagonal matrix with 1000 rows."""
+"""The largest number of halvings of an exponent. A step that needs more halvings fails with the status
+TOO_FAR, because it would take too long: applying 2^16 polynomials of degree 22 takes seconds for a
+tridiagonal matrix with 1000 rows."""
 
 EXPONENTIAL = "exponential"
 """The name of the function that applies the exponential of a letter, which is a linear combination of the

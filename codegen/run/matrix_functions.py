@@ -250,8 +250,8 @@ class _Exponential:
         ]
 
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
-        """Return the statements that bound the spectral norm of exp(scale a), which is computed first and
-        then squared."""
+        """Return the statements that compute a bound of the spectral norm of exp(scale a). This exponential
+        is computed first, and then squared repeatedly until it is exp(a)."""
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (

@@ -7,7 +7,7 @@ on output times.
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of
 sign between two of these times. Two zeros of one function between two of these times are not found. A value
-that is exactly zero at the beginning of a run is no event; the sign of the first other value is stored. The
+that is exactly zero at the beginning of a run is no event; only changes of sign after that are events. The
 Illinois variant of the secant method, together with bisection, encloses the time of an event in an interval.
 The search ends when the length of this interval is a few times the distance between adjacent floating-point
 numbers. The event state is the state at the end of this interval, where the sign has changed. A run that
@@ -294,6 +294,7 @@ class Observation:
         """Return the statements that choose the next time inside the interval."""
         i, estimate = count("i"), real("estimate")
         # For each function with a change of sign, the secant through its values at both ends gives a time.
+        # The earliest of these times is the guess; every third guess is the middle of the interval instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         candidate = (
             Assign(estimate, self.low + (high - self.low) * (a / (a - b))),

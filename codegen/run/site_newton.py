@@ -6,8 +6,9 @@ Block elimination (the Thomas algorithm) computes D_i = B_i - A_i D_{i-1}^{-1} C
 blocks are replaced by D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i. Rows are exchanged only within a block D_i.
 
 In a periodic chain the first and the last site are neighbours. The last site is eliminated: the equations of
-all other sites are solved for the residuals and for the columns that multiply the unknowns of the last site.
-The work and the memory of a step are proportional to the number of sites.
+all other sites are solved with several right-hand sides, namely the residuals, and the columns of the matrix
+that multiply the unknowns of the last site. The work and the memory of a step are proportional to the number
+of sites.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 """The solution of implicit equations on a lattice, by fixed-point iteration or by Newton's method.
 
-An iteration consists of sweeps over all sites. The last sweep of each iteration replaces the unknowns by
-their images, and stores two numbers for each site: the largest change of an unknown and the largest absolute
-value of an unknown. The maxima over all sites enter the stopping rule of single systems
-(:mod:`codegen.run.stopping`). In contrast to a single system, the last change is always applied, because the
-images are stored in place of the unknowns. Newton's method for chains (:mod:`codegen.run.site_newton`) stores
-residuals and then corrects the unknowns.
+The sweeps over all sites are repeated until the unknowns converge. In fixed-point iteration, the last sweep
+of each repetition replaces the unknowns by their images, and stores two numbers for each site: the largest
+change of an unknown and the largest absolute value of an unknown. The maxima over all sites enter the
+stopping rule of single systems (:mod:`codegen.run.stopping`). In contrast to a single system, the last change
+is always applied, because the images are stored in place of the unknowns. Newton's method for chains
+(:mod:`codegen.run.site_newton`) stores residuals and then corrects the unknowns.
 """
 
 from __future__ import annotations
@@ -71,8 +71,8 @@ def loop_of(block: SiteBlock) -> Loop:
 def iterated(
     plan: Plan, step: SiteStep, block_number: int, block: SiteBlock, iteration: Sequence[Statement]
 ) -> list[Statement]:
-    """Return the statements that repeat an iteration until the unknowns converge. If they do not converge,
-    or if the matrix is singular, the function returns the status."""
+    """Return the statements that repeat ``iteration`` until the unknowns converge. If the unknowns do not
+    converge, or if the matrix is singular, the emitted function returns the status of this failure."""
     rule = _Stopping(plan, loop_of(block), block_number, ())
     chain = None if block.newton is None else ChainSolver(plan, step, block, block_number)
     measured = Call(MEASURE, (SITES, ARRAYS[WORK], MEASURED)) if chain is None else chain.corrected()

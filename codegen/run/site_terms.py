@@ -40,7 +40,7 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 
 
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
-    """Return the test that a neighbour exists (None if it always does), and its index.
+    """Return the test that a neighbour exists (None if it always exists), and the index of the neighbour.
 
     In a periodic lattice, one addition or subtraction of ``size`` brings the index into its range, because
     ``size`` is larger than every offset. If the neighbour does not exist, the index is that of the site

@@ -239,7 +239,7 @@ def counted(trial: Trial, k: int) -> str:
 
 
 def amount(x: float, one: str, several: str) -> str:
-    """Write a number with at most two decimals and its noun.
+    """Return the text of a number with at most two decimals, followed by its noun.
 
     >>> [amount(x, "matrix", "matrices") for x in (1.0, 0.35, 2.0)]
     ['1 matrix', '0.35 matrices', '2 matrices']
@@ -329,7 +329,7 @@ class _Selection:
         """Return a lower bound in nanoseconds for the time of a step with ``solver``. It assumes a single
         sweep over each block.
 
-        A sweep costs as much as a fixed-point sweep and a product with the inverse matrix. Simplified Newton
+        A sweep costs as much as a fixed-point sweep plus a product with the inverse matrix. Simplified Newton
         inverts a matrix in each step; Newton's method inverts at least one matrix during the trial. Small
         matrices are inverted by formulas. The number of operations in these formulas is unknown before the
         kernel is built, so the bound counts them as zero.
@@ -354,8 +354,9 @@ class _Selection:
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate with the best solver of each block.
 
-        If the blocks agree on a solver, its candidate has been tried already. Otherwise the mixed kernel is
-        tried, and the best candidate with a single solver is the alternative.
+        If one solver is the best for all blocks, its candidate has been tried already. Otherwise the kernel
+        with several solvers is tried. If it is less robust than the fastest candidate with one solver for all
+        blocks, the latter is returned.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:

@@ -72,5 +72,5 @@ def count_matrix(plan: Plan) -> Statement:
 
 
 def no_failure(plan: Plan) -> Statement:
-    """Return the statement that deletes the record of a failure, after the continuation has succeeded."""
+    """Return the statement that sets the field ``failed`` to zero, after the continuation has succeeded."""
     return If(given(plan.statistics), (Assign(plan.statistics.field("failed", Kind.COUNT), whole(0)),))

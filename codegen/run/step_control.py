@@ -8,7 +8,7 @@ before^(0.2/p), where ``before`` is the norm of the previous accepted step. This
 norm^(-1/p), limited to [0.2, 0.9]. The limits are taken from Hairer, Norsett and Wanner, Solving Ordinary
 Differential Equations I, section II.4; the controller is Gustafsson's (II, section IV.2). The exponents 0.7/p
 and 0.4/p, in place of 0.8/p and 0.2/p, would damp changes of the step size more strongly, and the step size
-would follow the solution more slowly. With these exponents, DOP853 needs 15 to 20 % more steps on
+would follow the solution more slowly. With 0.7/p and 0.4/p, DOP853 needs 15 to 20 % more steps on
 ``heavy_top``. Since 0.8 = 4 * 0.2, both factors are computed from one power, norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
@@ -79,8 +79,8 @@ def weighted(plan: Plan) -> Function:
     # components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # |y_i| is the larger of its values before and after the step. Otherwise a component that crosses zero
-    # would require a tiny error.
+    # |y_i| is the larger of its values before and after the step. With one of these values alone, the error
+    # of a component that is nearly zero at this time would have to be tiny.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),

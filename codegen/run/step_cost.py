@@ -7,8 +7,9 @@ A prediction is a sum of amounts times :data:`WEIGHTS`:
 - unknowns: each costs time in a step, for the warm start, and in a sweep, for the stopping rule;
 - corrections: a sweep of Newton's method on u = g(u) ends with the product of the inverse and the residuals
   g(u) - u. The next sweep cannot begin before this product is computed, so each sweep adds one correction.
-  For residual equations, this time is part of the time of a sweep, and no correction is added;
-- cubes: inverting an n x n matrix without a formula costs n^3.
+  For blocks in the form r(u) = 0 (not u = g(u)), the time of this product is already counted in the sweep,
+  so no correction is added;
+- cubes: if there is no closed formula for the inverse of an n x n matrix, its numerical inversion counts n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` times emitted C of the implicit methods on every scene of the
 gallery, with each solver, and writes predictions and measurements into ``benchmarks/README.md``.

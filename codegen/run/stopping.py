@@ -7,7 +7,7 @@ three cases:
 - *close*: the change is at rounding level, and the predicted next change, change times rate, is below half a
   unit in the last place. A small change alone does not prove convergence, because a slow iteration makes
   small changes far from the solution.
-- *still*: the change no longer decreases and is near rounding level, so that it consists of rounding errors.
+- *still*: the change no longer decreases and is near rounding level, that is, only rounding errors are left.
 - *lost*: the change no longer decreases, and its effect on the state, h times the change, is below the
   rounding errors of the state. Unknowns that are small differences of large numbers never reach rounding
   level themselves.
@@ -189,10 +189,12 @@ class Stopping:
         """Return the statements that set the flag ``converged`` for a loop over residuals.
 
         The matrix is exact to first order in h, so the rate of the previous step is a good estimate in the
-        first sweep. A loop that contracts ends if the predicted next change is below four roundings of the
-        sum of the unknowns. A loop that contracts slowly ends if the sum of all later changes, a geometric
-        series, is below this bound. A loop whose changes no longer decrease ends after the second sweep or
-        later, if the change is below the tolerance or below the rounding errors of the state.
+        first sweep. The bound in the following rules is four roundings of the sum of the absolute values of
+        the unknowns. If the rate is below 1/2, the loop ends when the predicted next change is below this
+        bound. If the rate is at least 1/2, the loop makes two sweeps or more. It then ends when the sum of
+        all later changes, a geometric series, is below the bound. If the changes no longer decrease, it ends
+        when the change is below the tolerance, or h times the change is below the rounding errors of the
+        state.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))

@@ -1,9 +1,9 @@
 """Large matrices A(t) as arrays of emitted code: their evaluation, sums, products with vectors, and norms.
 
-A banded matrix is stored diagonal by diagonal: entry a_{i, i + d} has the index i in its diagonal, and
-numbers that belong to no entry of the matrix are zero. Of a full matrix, only the values of those
-subexpressions are stored that do not contain the indices i and j. Each product computes the entries of the
-matrix from these values.
+A banded matrix is stored diagonal by diagonal. Each diagonal has n places, and the entry a_{i, i + d} is at
+place i of its diagonal; places for which i + d is not a column of the matrix contain zeros. The entries of a
+full matrix are computed from formulas in the indices i and j. Only the values of those subexpressions are
+stored that contain neither i nor j, and each product computes the entries of the matrix from these values.
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ class StoredMatrix(ABC):
 
 
 class BandedMatrix(StoredMatrix):
-    """A banded matrix; the array of a node contains h A(t_i)."""
+    """A banded matrix; the array for the time t_i contains h A(t_i)."""
 
     @property
     def node_size(self) -> int:
@@ -143,7 +143,7 @@ class BandedMatrix(StoredMatrix):
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the loop that adds the arrays of the nodes."""
+        """Return the loop that forms the linear combination of the arrays ``nodes``."""
         return [For(_ROW, whole(self.letter_size), (Assign(target[_ROW], _combined(nodes, letter)),))]
 
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
@@ -198,14 +198,15 @@ class BandedMatrix(StoredMatrix):
 
 
 class FullMatrix(StoredMatrix):
-    """A full matrix; the array of a node contains the values of the formulas without indices.
+    """A full matrix; the array for the time t_i contains the values of the subexpressions without indices.
 
-    The array of a letter contains h times the coefficient of each node, and the arrays of all nodes.
+    The array of a letter contains h times the coefficient of each A(t_i), and the arrays for all t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
-        # All names are found before the sizes of arrays are known.
+        # The sizes of arrays depend on the number of names in ``hoisted``, so all names are found here,
+        # before any array is declared.
         self.entries: list[tuple[int, Entry, str]] = []
         self.banded: list[tuple[int, int, Entry, str]] = []
         for term, (_, own_matrix) in enumerate(matrix.terms):
@@ -227,7 +228,7 @@ class FullMatrix(StoredMatrix):
         return self.nodes * (1 + self.node_size)
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that set the coefficients and copy the values of the nodes."""
+        """Return the statements that set the coefficients, and copy the arrays for all times t_i."""
         weights = dict(letter)
         body: list[Statement] = [
             Assign(target[k], STEP * _constant(weights[k]) if k in weights else number(0.0))
@@ -262,7 +263,7 @@ class FullMatrix(StoredMatrix):
         return Function(PRODUCT, _PRODUCT, (a, x, y), body)
 
     def _entry(self, a: Term) -> list[Statement]:
-        """Return the statements that compute an entry of a letter: a sum over the nodes."""
+        """Return the statements that compute an entry of a letter: a sum over the times t_i."""
         node = 0 if self.nodes == 1 else _NODE
         values: list[Statement] = []
         for place, name in enumerate(self.hoisted.names.values()):
@@ -277,8 +278,9 @@ class FullMatrix(StoredMatrix):
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
         """Return the statement that adds a term on one diagonal."""
-        # The index of an entry in its diagonal is the smaller one of its row and column. The test below adds
-        # |offset| to it, because counts must not become negative.
+        # The index of an entry in the table of its diagonal is the smaller of its row and column. The test
+        # below adds |offset| to this index and compares the sum with the larger of row and column. It
+        # subtracts nothing, because counts must not become negative.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]

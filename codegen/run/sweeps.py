@@ -139,8 +139,9 @@ class _Loop:
         The loop ends with a failure if the test ``astray`` is true. If the loop has failed and the test
         ``singular`` is true, the status is SINGULAR.
         """
-        # The status ends the loop, because array languages cannot leave a loop from its middle. NOT_CONVERGED
-        # is also the result if the loop reaches its limit of sweeps.
+        # The loop continues as long as the status is NOT_CONVERGED. A change of the status ends it, because
+        # array languages cannot leave a loop from its middle. If the loop reaches its limit of sweeps, the
+        # status is still NOT_CONVERGED.
         sequence: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
         sequence.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
         if singular is not None:
@@ -166,9 +167,9 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # The last sweep does not change the unknowns, so the values of its body that are read later belong to
-        # the accepted unknowns. A branch is used and not a select, because after convergence nothing needs to
-        # be copied.
+        # Statements after the loop read values that the last sweep computed. The last sweep does not change
+        # the unknowns, so these values belong to the accepted unknowns. A branch is used and not a select,
+        # because after convergence nothing needs to be copied.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -221,7 +222,7 @@ class _Newton(_Loop):
 
     @property
     def making(self) -> Term:
-        """The flag for computing a matrix in this sweep."""
+        """The flag that is true if this sweep computes a matrix."""
         return flag(f"make_{self.number}")
 
     @property

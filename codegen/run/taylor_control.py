@@ -1,5 +1,5 @@
-"""Step control by Taylor coefficients: each step size is computed from the coefficients before the step, so
-no step is rejected.
+"""Step control by Taylor coefficients: each step size is computed from the Taylor coefficients before the
+step is made, so no step is rejected.
 
 Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree of the polynomial. Let
 epsilon = atol + rtol |y|, with the maximum norm. The number (epsilon/|c_k|)^(1/k) is computed for k = p - 1
@@ -65,8 +65,8 @@ ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "m
 """The names of the emitted functions that the adaptive run calls."""
 
 LEAST = 1e-30
-"""A lower bound for the size of a coefficient. The formula of the step size divides by the size of a
-coefficient."""
+"""The formula of the step size divides by the norm of a Taylor coefficient. A norm below this number is
+replaced by this number."""
 
 ROWS = 4
 """Each pass through the loop of the Cauchy products adds this number of products of coefficients to each
@@ -78,8 +78,8 @@ ORDER_TERM = own(ORDER)
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the adaptive run and its functions, without the functions that :func:`polynomial_step`
-    returns.
+    """Return the function of the adaptive run and the functions that it calls, except those that
+    :func:`polynomial_step` returns. The result is empty if the method does not choose its steps.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
@@ -89,7 +89,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def polynomial_step(plan: Plan) -> tuple[Function, ...]:
-    """Return the step of a kernel that evaluates the polynomial, and the functions that it calls."""
+    """Return the function that makes one step by evaluating the Taylor polynomial, and the functions that it
+    calls."""
     expansion = plan.kernel.expansion
     assert expansion is not None
     own = _Controlled(plan, expansion)

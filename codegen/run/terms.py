@@ -49,10 +49,10 @@ class Kind(Enum):
 class Term:
     """An operation on terms, a name, or a constant.
 
-    ``text`` is the name of a variable, function or field. ``own`` marks the names of the kernel, which a
-    target may have to change. ``shape`` is the shape of an array and () for a single value; in place of a
-    size that only the caller knows it contains 0. ``optional`` arguments may be absent. A ``cell`` is an
-    array of one entry through which a function returns a value.
+    ``text`` is the name of a variable, function or field. ``own`` is True for a name from the kernel; a
+    target may have to replace such a name. ``shape`` is the shape of an array and () for a single value; an
+    entry 0 is a size that only the caller knows. If ``optional`` is True, callers may omit the argument. A
+    ``cell`` is an array of one entry through which a function returns a value.
     """
 
     op: str
@@ -241,7 +241,7 @@ INFINITY = Term("infinity")
 
 def both(*tests: Term) -> Term:
     """Return the conjunction of tests; evaluation ends at the first test that is false."""
-    # The tests are joined from the left, because all targets print this form without parentheses.
+    # The tests are joined as (a and b) and c, because all targets print this nesting without parentheses.
     return reduce(lambda a, b: Term("and", (a, b), Kind.FLAG), tests)
 
 
@@ -256,8 +256,8 @@ def negated(test: Term) -> Term:
 
 
 def select(test: Term, yes: Operand, no: Operand) -> Term:
-    """Return one of two values. In array languages a select computes both values, and a branch computes only
-    one.
+    """Return the term that has the value ``yes`` if the test is true, otherwise the value ``no``. In array
+    languages this term computes both values, whereas a branch computes only one.
     """
     # A Python number beside a term gets the kind of the term; two Python numbers are reals.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
@@ -321,7 +321,7 @@ def given(argument: Term) -> Term:
 
 
 def absent(parameter: Term) -> Term:
-    """Return the argument that omits an optional parameter."""
+    """Return the argument that a call passes for an optional parameter without a value."""
     # The kind and shape of the parameter are kept: they decide how printers pass an argument.
     return replace(parameter, op="none", args=())
 

@@ -1,7 +1,7 @@
 """A run of steps of constant size, which can store a trajectory, and the public function for a single step.
 
 A run ends after the last step or after a failure. After a failure, the state is the state before the failed
-step. Rows are written at the beginning and after every stride-th step.
+step. The rows of the trajectory are the state at the beginning and the state after every stride-th step.
 
 A small explicit kernel is inlined in the loop of the run, so that its state stays in registers.
 """
@@ -63,7 +63,8 @@ def is_looped(plan: Plan) -> bool:
     """Return True if the kernel is inlined in a run: its state is small, and no other function needs to
     contain the kernel."""
     kernel = plan.kernel
-    # If each step were a function call, the state would have to be stored in memory.
+    # An inlined kernel keeps a small state in registers. If each step were a function call, the state would
+    # have to be stored in memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
     plain = bool(kernel.outputs) and kernel.estimate is None
     return alone and plain and not (plan.counting or plan.time or _may_raise(kernel))
@@ -237,8 +238,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # These entries are tested separately: they do not affect the new values, so the test of the new values
-    # would miss a NaN in them.
+    # Entries of the state that the kernel does not read are tested separately: they do not affect the new
+    # values, so the test of the new values would miss a NaN in such an entry.
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
     row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]

@@ -41,8 +41,9 @@ class Trial:
 class Trials:
     """The trials of one kernel.
 
-    A step whose equations do not converge is repeated once, without the solutions of earlier steps. With
-    ``continuation`` it is computed by continuation in h from shorter steps, as in the emitted program.
+    If the iterations of a step do not converge, the step is repeated once, with an initial guess that does
+    not use earlier steps. If the repeated step fails and ``continuation`` is True, the solution is computed
+    by continuation in h from shorter steps, as in the emitted program.
     """
 
     def __init__(

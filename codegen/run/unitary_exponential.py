@@ -82,7 +82,8 @@ def _polynomial(
     zero, coordinates = number(0.0), _coordinates(y)
     steps: list[Statement] = []
     for k in (3, 2, 1, 0):
-        # The number i^k/k! is real for even k and imaginary for odd k, so it is added to one part only.
+        # The number i^k/k! is real for even k and imaginary for odd k, so it is added either to the real
+        # parts or to the imaginary parts.
         for parity, part in enumerate(parts):
             steps += _horner(part, trace, det, (coefficient[4 * group + k], k) if k % 2 == parity else None)
     square = [real(f"square_{k}") for k in range(SIZE)]

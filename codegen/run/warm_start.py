@@ -1,4 +1,4 @@
-"""Warm start: the initial guess of a step is the extrapolation of the solutions of previous steps.
+"""Warm start: polynomial extrapolation of the solutions of previous steps gives the initial guess of a step.
 
 The degree of the polynomial grows while the backward differences of the solutions decrease. Once the memory
 is full, the degree is adapted in every eighth step only. If the error of the guess exceeds ``Start.ROUGH``
@@ -64,8 +64,8 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # This is a branch and not a select, because the start without stored solutions evaluates parts of the
-    # kernel and is needed only once in a run.
+    # This is a branch and not a select: the initial guess without stored solutions evaluates parts of the
+    # kernel, and it is needed only once in a run.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -266,8 +266,8 @@ class WarmStart:
             Assign(moved, number(0.0)),
             *each(self.n, added),
             # The test uses a ratio of two changes, so it does not depend on units. If the error of a guess is
-            # half of the motion, the guess is hardly better than the last solution. A polynomial of high
-            # degree would keep errors of this size for many steps.
+            # half of the change over the step, the guess is hardly better than the last solution. A
+            # polynomial of high degree would keep errors of this size for many steps.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 

@@ -1,5 +1,5 @@
-"""Scenes and problems: a scene is the differential equation that a user writes, a problem is the form that
-the compiler evaluates.
+"""Scenes and problems: a scene is the differential equation that a user writes, a problem is the form of a
+scene that the compiler evaluates.
 
 A scene file imports its names from this package:
 ``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``. Scenes with

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
 
 def check_group(name: str, group: object) -> None:
-    """Raise :class:`SceneError` if the argument is not a group, for example a class or a name."""
+    """Raise :class:`SceneError` if the argument is not a group, for example if it is the name of a group or
+    its class ``SO3`` in place of ``SO3()``."""
     if not isinstance(group, LieGroup):
         _refuse(name, "group", group, "SO3()")
 

@@ -61,7 +61,8 @@ class BodyField:
 
 
 def body_field(group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonian: Expr) -> BodyField:
-    """Return the field of a Hamiltonian in the body frame; ``q`` and ``mu`` are the names of its symbols."""
+    """Return the field of a Hamiltonian in the body frame; ``q`` and ``mu`` are the names of the symbols in
+    the Hamiltonian."""
     space = hamiltonian.space
     domain = ExprDomain(space)
     element, P = tuple(space.sym(s) for s in q), tuple(space.sym(s) for s in mu)

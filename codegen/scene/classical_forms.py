@@ -1,11 +1,12 @@
 """Classical forms of a scene: its equations in the coordinates that are usual for a general ODE solver.
 
-A form is a problem on R^n with a map to the state of the scene. The first form contains the equations as
-printed, in the coordinates of the scene. If the group has left translations, one of the forms uses velocities
-and momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu (:mod:`codegen.scene.body_frame`). If a
-factor of the group has a covering group with fewer coordinates, one of the forms uses an element of this
-cover. For example, a heavy top has seven equations for a unit quaternion and the momentum in the body, in
-place of twelve. The classes of the groups implement these changes of coordinates.
+A form is a problem on R^n with a map to the state of the scene. The first form contains the equations as the
+scene states them, in the coordinates of the scene. If the group has left translations, one of the forms uses
+velocities and momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu
+(:mod:`codegen.scene.body_frame`). If a factor of the group has a covering group with fewer coordinates, one
+of the forms uses an element of this cover. For example, a heavy top has twelve equations for a rotation
+matrix and the momentum, but only seven for a unit quaternion and the momentum in the body. The classes of the
+groups implement these changes of coordinates.
 """
 
 from __future__ import annotations
@@ -116,7 +117,8 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # In the frame and the coordinates of the scene, the form would repeat the equations as printed.
+        # A change that keeps both the frame and the coordinates of the scene is not yielded: its form would
+        # only repeat the equations that the scene states.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -159,7 +161,8 @@ class _Leaf:
         return group.require(LeftTranslation).left_velocity(d, own, x) if body else group.velocity(d, x, own)
 
     def start(self, d: ExprDomain, initial: Vector[float]) -> Vector[Expr]:
-        """Return formulas for the coordinates that the form uses, in the symbols of the scene."""
+        """Return formulas in the symbols of the scene; they compute the coordinates of the factor in the
+        form."""
         g = tuple(d.space.sym(s) for s in self.symbols)
         if self.cover is None:
             return g

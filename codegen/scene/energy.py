@@ -66,7 +66,8 @@ def energy_of(problem: Conservative) -> Expr | None:
 
 
 def apply(problem: Conservative, d: Domain, name: str, args: Values) -> Value:
-    """Return the value of one of :data:`OPERATIONS`; KeyError if the problem has no energy."""
+    """Return the value of one of :data:`OPERATIONS`; raise KeyError if the operation needs an energy and the
+    problem has none."""
     match name:
         case "energy":
             return evaluate([_root(problem)], d, problem.values(d, *args))[0]

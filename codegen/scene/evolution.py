@@ -36,8 +36,8 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 @dataclass(frozen=True)
 class Evolution:
-    """Coordinates of a scene and their equations: ``inner`` is the problem on R^m, ``outer`` the scene as a
-    field.
+    """Coordinates of a scene and their equations: ``inner`` is the problem on R^m in m such coordinates, and
+    ``outer`` is the scene as a field.
 
     ``body`` is the group if the coordinates contain the momentum in the body frame; it is None if they
     contain the momentum in space. ``missing`` are the indices of the coordinates that are omitted.
@@ -92,9 +92,9 @@ class Evolution:
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
-            # First the coefficients after the old state are added, in the order in which they become known.
-            # The old state is added last: the sum of all other terms is small, and so are the rounding errors
-            # of this sum.
+            # The coefficient of degree 0 is the old state. The other coefficients are added first, in the
+            # order in which they become known. Their sum is small, and so are its rounding errors. The old
+            # state is added last.
             change = None
             for x in further:
                 change = x if change is None else change if x is None else change + x

@@ -71,7 +71,8 @@ class Figure:
 
     ``source`` is the name of the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run
     with which the other runs are compared. A figure without comparisons shows the reference as a thin line.
-    ``shows_lattices`` is True if a kind of figure shows chains and lattices in place of single systems.
+    ``shows_lattices`` is True for the kinds of figures that show chains and lattices, and False for those
+    that show single systems.
     """
 
     shows_lattices: ClassVar[bool] = False
@@ -137,10 +138,11 @@ Place: TypeAlias = tuple[Quantity, Quantity, Quantity]
 class Motion(Figure):
     """The motion of a body that consists of bars, as an animation, in orthogonal projection.
 
-    ``bars`` maps labels to the two ends of a bar. The curve of the point ``trace`` is drawn, too, and the
-    bars at ``stills`` equally spaced times. The motion takes ``seconds`` and is repeated; it stops while the
-    pointer is on the figure. ``fixed`` maps labels to points that do not move. ``direction`` is the direction
-    from the origin to the viewer: azimuth and elevation in degrees. There is one run.
+    ``bars`` maps labels to the two ends of a bar. The figure also shows the curve that the point ``trace``
+    describes, and the bars at ``stills`` equally spaced times. The motion takes ``seconds`` and is repeated;
+    it stops while the pointer is on the figure. ``fixed`` maps labels to points that do not move.
+    ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees. There is
+    one run.
     """
 
     bars: Mapping[str, tuple[Place, Place]]
@@ -220,8 +222,8 @@ class Deviation(Figure):
 class Scan(Figure):
     """The distance of the final state from the end of the reference run, against the values of a sweep.
 
-    Every run has a sweep. The least distance is marked. It is found by a minimisation, so it may lie between
-    two values of the sweep.
+    Every run has a sweep. The least distance is marked. A minimisation finds the value of the parameter with
+    the least distance, so this value may lie between two values of the sweep.
     """
 
     axis: str = ""

@@ -48,10 +48,10 @@ def LargeLinearScene(
 ) -> Problem:
     """Return the scene y' = A(t) y for vectors y, or for n x k matrices y with k = ``columns``.
 
-    ``A`` is a matrix :func:`codegen.scene.banded` or :func:`codegen.scene.full`, or a sum of multiples of
-    such matrices. Its entries and factors are formulas in the indices, in ``t`` and in parameters. ``y0`` is
-    the initial state row by row, or a function of the indices, counted from 0; by default its columns are the
-    first unit vectors. ``span`` is the rational time interval.
+    ``A`` is the result of :func:`codegen.scene.banded` or :func:`codegen.scene.full`, or a sum of multiples
+    of such matrices. The entries of these matrices and their factors are formulas in the indices, in ``t``
+    and in parameters. ``y0`` is the initial state row by row, or a function of the indices, counted from 0;
+    by default its columns are the first unit vectors. ``span`` is the rational time interval.
 
     Emitted steps of the families magnus, cf_magnus and fer, and of rkmk, cf and cg, apply exponentials to y
     by products of A and vectors (:mod:`codegen.ir.linear_array_step`). Their text does not depend on n.

@@ -1,4 +1,4 @@
-"""Linear problems in time: y' = A(t).y, where A contains the time and parameters, but not the state."""
+"""Linear scenes: y' = A(t).y, where A may contain the time and parameters, but not the state."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ def LinearScene(
     ``A`` is a column of ``group.dim`` formulas in the symbol ``t`` and in parameters. For a group of n x n
     matrices it may also be a square matrix of formulas, which must be in the Lie algebra. ``y`` are the
     coordinate symbols for ``velocity`` and ``invariants``, by default ``y0``, ``y1`` and so on. All other
-    arguments are those of :func:`codegen.scene.FieldScene`: every field scene whose field does not depend on
-    the state is a linear problem in time. For y' = y A(t) the action is ``RightMultiplication()``, and -A is
+    arguments are those of :func:`codegen.scene.FieldScene`; a field scene whose field does not depend on the
+    state is a scene of this kind, too. For y' = y A(t) the action is ``RightMultiplication()``, and -A is
     given in place of A. ``steps`` maps names to pairs: a formula for M (:mod:`codegen.scene.matrix_step`),
     and the order of the step y1 = M y0. The method ``step:NAME`` makes such steps. :class:`SceneError` is
     raised for a matrix outside of the algebra, for an A that depends on the state, and in the same cases as

@@ -1,8 +1,8 @@
 """Formulas of matrices (:mod:`codegen.scene.matrix_formula`) as array programs.
 
-Transposes are moved to the factors of products. Each product is computed in its cheapest order, which forms
-no matrix with n^2 entries. Equal products are computed once. Matrices with more columns than rows are stored
-as their transposes, so each stored matrix has n rows or is small.
+Transposes are moved to the factors of products. Let n be the number of rows of X. Each product is computed in
+its cheapest order, which forms no matrix with n^2 entries. Equal products are computed once. Matrices with
+more columns than rows are stored as their transposes, so each stored matrix has n rows or is small.
 """
 
 from __future__ import annotations
@@ -288,8 +288,9 @@ class _Compiler:
 
 
 def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
-    """Return the statements. If the last statement only copies the matrix that the statement before it
-    computes, the copy is omitted, and that statement computes the result directly."""
+    """Return the statements without a copy at the end: if the last statement only copies the matrix that the
+    second-to-last statement computes, this copy is omitted, and the second-to-last statement computes the
+    result directly."""
     *before, last = body
     assert isinstance(last, Combination)
     (term,) = last.terms

@@ -96,8 +96,8 @@ class MatrixFormula(ABC):
         return ()
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield those exponentials and logarithms in the formula that can only be computed for matrices with
-        two rows, by closed forms."""
+        """Yield those exponentials and logarithms in the formula that are computed by closed forms; the
+        closed forms exist only for 2 x 2 matrices."""
         for part in self.parts():
             yield from part.closed_forms()
 
@@ -300,7 +300,8 @@ class Exponential(Unary):
         return Place.GROUP if self.of.place is Place.ALGEBRA else Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this formula unless its argument is in the algebra, then the closed forms in its argument."""
+        """Yield this formula if its argument is not in the algebra, and then the closed forms in its
+        argument."""
         if self.of.place is not Place.ALGEBRA:
             yield self
         yield from super().closed_forms()
@@ -422,8 +423,8 @@ def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     s, traceless, z = _split(d, m)
     one, half = d.rational(1), d.rational(1, 2)
     r = d.call("sqrt", d.call("fabs", z))
-    # ``choose`` evaluates both alternatives. For z > 0 the logarithms are not used; their argument is then 1,
-    # because s + r or s - r may be negative.
+    # ``choose`` evaluates both alternatives. For z > 0 the logarithms are not used, and s + r or s - r may be
+    # negative. The argument of the logarithms is then replaced by 1.
     above, below = (d.call("log", d.call("choose", z, one, x)) for x in (s + r, s - r))
     angle = d.call("choose", z, d.call("atan2", r, s), half * (above - below))
     g = d.call("choose", r, d.call("quotient", angle, r), d.call("quotient", one, s))

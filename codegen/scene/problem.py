@@ -138,7 +138,7 @@ class Problem:
 
     @property
     def linear(self) -> bool:
-        """True if the field does not depend on the state: y' = A(t).y, a linear problem in time."""
+        """True if the field does not depend on the state: y' = A(t).y, where A may depend on time."""
         # If the field is given by formulas of whole matrices, ``roots`` may be empty.
         if self.matrices is not None:
             return self.matrices.linear

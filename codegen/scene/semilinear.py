@@ -22,9 +22,9 @@ and the eigenvalue of the model is below 1/4, so the omitted terms are below (1/
 class Semilinear:
     """The operator and the nonlinear term of a semilinear problem, as formulas.
 
-    ``symbol`` contains the real part of the eigenvalue of L as a formula in the wave number, and its
-    imaginary part if L has one. ``wave`` and ``space`` are the symbols of the wave number and of x.
-    ``length`` is the period and ``initial`` the initial state as a formula in x.
+    ``symbol`` contains the real part of the eigenvalue of L as a formula in the wave number and, unless it is
+    zero, the imaginary part. ``wave`` and ``space`` are the symbols of the wave number and of x. ``length``
+    is the period and ``initial`` the initial state as a formula in x.
 
     N is a sum of derivatives of pointwise formulas. ``inner`` are the orders of the derivatives of u that
     these formulas read, with their symbols. N is the sum of the derivatives of ``formulas`` with the orders

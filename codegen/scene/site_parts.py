@@ -129,8 +129,8 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
 
 
 def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols at a sample point. The symbols ``partner`` of a neighbour have the
-    state of the next sample point."""
+    """Return the values of all symbols at a sample point. The symbols in ``partner`` are the coordinates of a
+    neighbour; their values are the state at the next sample point."""
     point = dict(orbit.points[number])
     other = orbit.points[(number + 1) % len(orbit.points)]
     return point | {s: other[own] for s, own in zip(partner, scene.symbols, strict=bool(partner))}

@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of SO(n).
 
-These formulas are needed by measurements, and by methods in coordinates; their length grows as n^3."""
+Measurements need these formulas, and so do methods that compute with these coordinates. The length of the
+formulas grows as n^3."""
 
 TOLERANCE = 1e-10
 """The largest permitted entry of y0^T y0 - 1.

@@ -74,7 +74,7 @@ def table(
     The numbers in ``xs`` must increase. ``smoothness`` is ``cubic``, the natural cubic spline (its second
     derivative is continuous, and zero at both ends), or ``linear``. The coefficients are computed exactly
     from the given numbers. A float denotes the decimal number that Python prints for it. ``outside`` is the
-    rule before the first and after the last point: ``hold`` continues with the value at this point,
+    rule before the first and after the last point: ``hold`` continues with the value at the nearest point,
     ``extrapolate`` with the polynomial of the nearest interval. :class:`SceneError` is raised if the numbers
     do not define a function.
 

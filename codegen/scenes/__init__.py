@@ -76,8 +76,8 @@ LATTICES = (
 from its initial state do not accept them."""
 
 SEMILINEAR = ("allen_cahn_periodic", "kuramoto_sivashinsky")
-"""The semilinear equations that are given by symbols. They have any number of points, so commands that run a
-scene from its initial state do not accept them."""
+"""The semilinear equations whose linear operator is given by its symbol. Their number of points is not fixed,
+so commands that run a scene from its initial state do not accept them."""
 
 BUILT_IN = frozenset((*GALLERY, *LATTICES, *SEMILINEAR))
 """The names of all scenes of the package."""
@@ -166,9 +166,10 @@ def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
 
 
 def with_one_system(scene: Problem) -> Problem:
-    """Return the scene; raise :class:`SceneError` for a scene without a number of sites or points.
+    """Return the scene; raise :class:`SceneError` if its number of sites or points is not fixed.
 
-    These scenes are chains, lattices, and semilinear equations given by symbols.
+    The number is not fixed for chains, for lattices, and for semilinear equations whose linear operator is
+    given by its symbol.
 
     >>> with_one_system(load("dipole")).name
     'dipole'

@@ -3,9 +3,9 @@
 Each body has joints at x + R b and x - R b, where x is its centre of mass and R its frame. A stiff spring
 joins the point x - R b of a body to the point x' + R' b of the next body. It replaces the constraint of a
 ball joint (R. Grossman, P. S. Krishnaprasad and J. E. Marsden 1988, see ``coupled_rigid_bodies``). The first
-body hangs at the origin: the body outside the chain is at b, so its point x - R b is the origin. At the free
-end, the body outside the chain has its joint where the last body has one, so the spring exerts no force. The
-inertia of the bodies is not symmetric.
+body hangs at the origin: a fixed body in front of it is at b, so the point x - R b of this fixed body is the
+origin. At the free end, a body behind the last body has its joint at the joint of the last body, so the
+spring between them exerts no force. The inertia of the bodies is not symmetric.
 """
 
 from sympy import Matrix, Rational, eye

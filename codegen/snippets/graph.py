@@ -35,8 +35,8 @@ class Snippet:
 
 
 def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippet, ...]:
-    """Return every snippet; the names are the same for all targets. ``batch`` adds the variants of functions
-    that contain no branches, and removes the polynomials that these variants do not use.
+    """Return every snippet; the names are the same for all targets. If ``batch`` is True, variants without
+    branches are added for some functions, and the polynomials that these variants do not use are removed.
 
     Only double precision has shorter polynomials near zero. In single precision the full polynomial is
     already short.

@@ -41,13 +41,13 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     the rotated vector would be correct.
 
     Let ``a`` denote the angle. A relative rounding error of 2^-bits in the angle gives an error of a*2^-bits
-    in the point, and an error about eight times as large in the field at this point. Along a ``chain`` of
-    angles (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain * 8^(chain-1) * 2^-bits; the
-    bound on this error is 2^-LEFT. The stages of a long chain rotate by fractions of the step's angle and
-    lose no more digits than the stages of a short chain. Hence an angle of 2^(bits/6) is always allowed. No
-    angle may exceed 2^(2 bits/5), because the sums that give the rotated momentum, and therefore their
-    rounding errors, grow with the square of the angle. A step with a larger angle reports a state that is not
-    finite.
+    in the rotated vector, and an error about eight times as large in the field at this vector. Along a
+    ``chain`` of angles (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain * 8^(chain-1) *
+    2^-bits; the bound on this error is 2^-LEFT. The stages of a long chain rotate by fractions of the step's
+    angle and lose no more digits than the stages of a short chain. Hence an angle of 2^(bits/6) is always
+    allowed. No angle may exceed 2^(2 bits/5), because the sums that give the rotated momentum, and therefore
+    their rounding errors, grow with the square of the angle. A step with a larger angle reports a state that
+    is not finite.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

@@ -1,5 +1,5 @@
-"""The order of a continuous extension: for each tree, a polynomial in theta is compared with
-theta^|t| / gamma(t), coefficient by coefficient."""
+"""The order of a continuous extension: for each tree t, a polynomial in theta is compared with theta^|t| /
+gamma(t), coefficient by coefficient."""
 
 from __future__ import annotations
 

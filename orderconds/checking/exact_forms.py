@@ -77,8 +77,8 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
-    """Return a text for each number, where all numbers belong to one field Q or Q(sqrt(d)). Return None if
-    the numbers are not recognised."""
+    """Return the exact text of each number. All numbers must belong to one field Q or Q(sqrt(d)); return None
+    if a number is not recognised."""
     fractions = {constant: _fraction(constant) for constant in constants}
     texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
     others = [constant for constant, x in fractions.items() if x is None]

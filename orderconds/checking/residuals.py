@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""A ball supports a condition of order n only if its radius is at most this fraction of 1/n!, the least of
-the integrals of order n in the series of the exact flow."""
+"""A ball around zero supports a condition of order n only if its radius is at most this fraction of 1/n!. The
+number 1/n! is the least of the integrals of order n in the series of the exact flow."""
 
 BITS = 256
 """The precision of the balls in bits. With this precision, twenty digits of a non-zero residual are

@@ -1,4 +1,4 @@
-"""The order to which a method is symmetric, from a step of size h followed by a step of size -h.
+"""The order to which a method is symmetric, computed from a step of size h followed by a step of size -h.
 
 Let Phi_h be a step. The composition of Phi_h and Phi_{-h} is the identity for symmetric methods. A method
 that is not symmetric has a largest number q such that this composition differs from the identity by O(h^(q +

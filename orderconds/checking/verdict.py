@@ -178,8 +178,8 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
-    """Return the proof that there is a solution near the decimals of the file, or the reasons why there is
-    none."""
+    """Return the proof that the equations of the file have a solution near its decimals, and messages. A
+    message states why there is no proof, or that a decimal has wrong digits."""
     if tableau.proof is None:
         return None, []
     from orderconds.proof.certificate import certify
@@ -302,7 +302,8 @@ def _settled(
     ``family``.
 
     The failing conditions in the result belong to the family that bounds the order from above. If orders with
-    the certificate ``decimal`` are needed, the result has this certificate, too, unless theorems prove it.
+    the certificate ``decimal`` are needed, the result has this certificate, too, unless theorems prove the
+    order.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)

@@ -2,10 +2,10 @@
 
 The proof of rounded decimals is left out, because it refers to names in the file. The arrays of a family are:
 for ``rk`` A, b and embedded_b with embedded_order; for ``prk`` A, b, A_hat, b_hat; for ``composition`` gamma,
-or alpha and beta. For ``cf`` they are the exponentials of all stages and of the update as rows of
-``exponentials``. ``count`` contains the number of exponentials of each stage and, as its last entry, of the
-update. ``start`` contains the index of the stage from which each product starts, or 0 if the product starts
-from y0. With embedded_order the last product is the embedded update.
+or alpha and beta. For ``cf`` they are ``exponentials``, ``count`` and ``start``. The rows of ``exponentials``
+are the exponentials of all stages and of the update. ``count`` contains the number of exponentials of each
+stage and, as its last entry, of the update. ``start`` contains the index of the stage from which each product
+starts, or 0 if the product starts from y0. With embedded_order the last product is the embedded update.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 def data_without_names(tableau: Tableau) -> Data:
     """Return the keys and values of a tableau file in which coefficients do not refer to named numbers. Only
-    roots of polynomials that have no formula keep their names.
+    a root of a polynomial for which there is no formula keeps its name.
 
     Exact coefficients are in lowest terms; rounded coefficients keep the digits of the file.
 

@@ -133,8 +133,8 @@ def _is_matrix(value: object) -> bool:
 
 
 def _of_csv(content: bytes) -> Reason | None:
-    """Return the reason to skip a table of text that has neither a named array nor rows of weights. Return
-    None for other tables."""
+    """Return the reason to skip a CSV file that contains neither a named array nor rows of weights. Return
+    None for other CSV files."""
     try:
         table = rows.read(content.decode(), csv_table.NAMES)
     except (csv.Error, UnicodeDecodeError):

@@ -50,8 +50,8 @@ def _refused(name: str) -> object:
 
 
 def _unique(pairs: list[tuple[str, object]]) -> Data:
-    """Return the pairs as a dictionary. Raise an error for a repeated name, because ``dict(pairs)`` would
-    keep only the last of its values."""
+    """Return the pairs (name, value) as a dictionary. Raise an error if a name occurs twice, because
+    ``dict(pairs)`` would keep only the last value of this name."""
     members: Data = {}
     for name, value in pairs:
         if name in members:

@@ -114,8 +114,8 @@ def nearest(text: str, roots: str = "{}") -> float:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the keys of a tableau file. Raise an error if the floats of an array differ from their exact
-    texts.
+    """Return the keys of a tableau file. If an array ``A`` has exact texts ``A_exact``, raise an error unless
+    each float in ``A`` is the double nearest to the exact value.
 
     >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
     [['1/3']]

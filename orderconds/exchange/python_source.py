@@ -138,7 +138,8 @@ def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
 
 
 def _follow(statement: ast.stmt, values: Values) -> None:
-    """Update the known values by one statement at the top level of the module."""
+    """Update the known values of all names by one statement at the top level of the module. If the statement
+    is not understood, the values of all names in it become unknown."""
     if isinstance(statement, ast.Import) or (isinstance(statement, ast.Expr) and _is_harmless(statement)):
         return
     if isinstance(statement, ast.ImportFrom):
@@ -164,7 +165,7 @@ def _follow(statement: ast.stmt, values: Values) -> None:
 def _import(statement: ast.ImportFrom, values: Values) -> None:
     """Update the known names by an import such as ``from fractions import Fraction as F``.
 
-    Names of modules that are not in :data:`MODULES` get an unknown value.
+    A name that is imported from a module outside :data:`MODULES` gets an unknown value.
     """
     names = [alias.asname or alias.name for alias in statement.names]
     values.forget(list(values.known) if "*" in names else names, statement.lineno)

@@ -239,7 +239,7 @@ def _class(operator: ast.operator) -> str:
 
 
 def _require_doubles(node: ast.Call) -> None:
-    """Raise an error for an array of another type than float64."""
+    """Raise an error if the argument ``dtype`` of a call is a type in :data:`NARROW`."""
     for keyword in node.keywords:
         if keyword.arg == "dtype" and any(x in ast.dump(keyword.value) for x in NARROW):
             raise _NotLiteral(node, "an array of another type than float64")

@@ -1,4 +1,5 @@
-"""The rows of a text table: separated by commas, semicolons or tabs; comments and a header are left out."""
+"""Reading of text tables. In each row, commas, semicolons or tabs separate the cells. Comments and the header
+do not count as rows."""
 
 from __future__ import annotations
 
@@ -32,8 +33,9 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     """Return the rows of a table.
 
     The delimiter is the one that occurs in the most lines. If all cells of the first row are words, this row
-    is a header, unless it begins with one of ``names``. A first row that consists of ``c`` and of names of
-    columns of A is always a header. Raises :class:`csv.Error` for wrong quotation marks.
+    is a header, unless its first cell is one of ``names``. A first row that begins with ``c`` follows another
+    rule: it is a header iff all its other cells are names of columns of A. Raises :class:`csv.Error` for
+    wrong quotation marks.
 
     >>> read("# Heun\\nc;a1;a2\\n0;0;0\\n1;1;0\\n;1/2;1/2\\n", ("c",)).rows
     (('0', '0', '0'), ('1', '1', '0'), ('', '1/2', '1/2'))

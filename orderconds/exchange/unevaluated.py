@@ -1,7 +1,8 @@
-"""Unevaluated coefficients: the expressions of a file, with every name replaced by its definition.
+"""Unevaluated coefficients: the expressions of a file, with names replaced by their definitions.
 
-Tables and arrays cannot contain named numbers. Rounded decimals must keep their digits, which a computed ball
-would lose. The coefficients of the method are therefore expressions. They are the expressions in the file;
+Names of formulas are replaced, because tables and arrays cannot contain them. Only the names of roots of
+polynomials remain. The expressions are not evaluated, because rounded decimals must keep their digits, and a
+computed ball would not contain these digits. The coefficients of the method are the expressions in the file;
 for low-storage schemes they are sums and products of these expressions. Only operations with the numbers 0
 and 1 are simplified.
 """

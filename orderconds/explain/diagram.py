@@ -4,9 +4,9 @@ diagrams and then drawn.
 A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the letter L of the action
 trees: a coadjoint action, not a derivative of the Hamiltonian). In the diagram of a word over an alphabet, a
 vertex is a *letter* or the *bracket* of two vertices. An edge is *plain*, or it points from a derivative in q
-to a derivative in p or mu, as in :mod:`orderconds.trees.directed`. It points *outward* (from the root to the
-branch) if the branch is a velocity (a_ij), and *inward* (from the branch to the root) if the branch is a
-force (ahat_ij).
+to a derivative in p or mu, as in :mod:`orderconds.trees.directed`. If the branch at the end of an edge is a
+velocity (a_ij), the edge points *outward*, from the root to the branch. If the branch is a force (ahat_ij),
+the edge points *inward*, from the branch to the root.
 """
 
 from __future__ import annotations

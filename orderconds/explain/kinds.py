@@ -61,7 +61,7 @@ class Kind:
         )
 
     def conditions(self, order: int) -> dict[Member, OrderCondition]:
-        """Return the family's condition of each member."""
+        """Return a map from each member of this order to its condition in the family."""
         family = self.family()
         conditions = family.conditions(order) if self.independent else family.all_conditions(order)
         return {condition.key: condition for condition in conditions}
@@ -282,9 +282,9 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # The elementary differential is that of a tree with coloured vertices: an edge of the second kind
-        # leads to a white vertex, any other edge to a black vertex. The conditions do not depend on the
-        # colour of the root, so black is chosen.
+        # To write the elementary differential, the tree is converted to a tree with coloured vertices. An
+        # edge of the second kind then leads to a white vertex, any other edge to a black vertex. The
+        # conditions do not depend on the colour of the root, so black is chosen.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

@@ -4,9 +4,9 @@ numbers.
 A word's coefficient in a product of exponentials is a sum over indices ``j_1 <= ... <= j_k`` with a factor
 1/r! for each run of r equal indices. This module writes the coefficient as several sums with strict
 inequalities, one sum for each division of the word into runs. A word that repeats one letter k times does not
-need such sums: its coefficient is a power of one sum, divided by k!. Both sides of a condition are multiplied
-by k! (:func:`multiplier`). For example, the printed condition is then ``sum_i b_i c_i^2 = 1/3`` and not ``1/2
-sum_i b_i c_i^2 = 1/6``.
+need such sums: its coefficient is a power of one sum, divided by k!. If a condition contains such a word,
+both sides are multiplied by k! (:func:`multiplier`). For example, the printed condition is ``sum_i b_i c_i^2
+= 1/3`` and not ``1/2 sum_i b_i c_i^2 = 1/6``.
 """
 
 from __future__ import annotations
@@ -196,8 +196,9 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v. It is ``a_ji`` (or ``b_i`` for the update) times the
-        coefficient of the words before and after the letter x, which comes from exponential i."""
+        """Return the coefficient of the word u x v. The letter x comes from the exponential with index j =
+        ``stage`` and has the factor ``a_ij`` with i = ``row``, or ``b_j`` for the update. The other factor,
+        for u and v, is computed by :meth:`around`."""
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
 
@@ -235,8 +236,9 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
 
 class MuntheKaasFormula(ActionFormula):
-    """Index sums for methods with the single exponential exp(X_i), where ``X_i = sum_j a_ij dexpinv_{(r),X_j}
-    xi_j``.
+    """Index sums for methods with the single exponential exp(X_i), where ``X_i = sum_j a_ij dexpinv^(r)(X_j)
+    xi_j``, and dexpinv^(r) is dexpinv truncated after the r-th power. The update is exp(Y); in Y, the weights
+    b_j replace a_ij.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -310,8 +312,8 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return the terms of dexpinv, applied to a velocity, that contain at most ``letters`` other
-        letters."""
+        """Return (q, m, n) for each term q X^n xi X^m of dexpinv_X xi with m + n <= ``letters``. Terms that
+        the truncation of dexpinv omits are not returned."""
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
@@ -328,8 +330,8 @@ class MuntheKaasFormula(ActionFormula):
 
 
 class PadeFormula(MuntheKaasFormula):
-    """Index sums for methods with the single exponential exp(X_i), where ``X_i = sum_j a_ij v_j`` and v_j
-    solves dexp_{(r),X_j} v_j = xi_j.
+    """Index sums for methods with the single exponential exp(X_i), where ``X_i = sum_j a_ij v_j``. Here v_j
+    solves dexp^(r)(X_j) v_j = xi_j, and dexp^(r) is dexp truncated after the r-th power.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity

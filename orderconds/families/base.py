@@ -96,8 +96,8 @@ class Family(ABC):
     """The family to which this family reduces on an abelian group, where all brackets are zero; None if no
     such family accepts all tableaux of this family."""
     low_order: ClassVar[str | None] = None
-    """The name of a family that has the same conditions up to order 2. These conditions contain no bracket
-    and no momentum."""
+    """The name of another family with the same conditions up to order 2. The conditions are the same because,
+    up to order 2, they contain no bracket and no momentum."""
     bounds_others: ClassVar[bool] = False
     """True if ``check`` computes the order in this family to obtain bounds of the orders in other
     families."""
@@ -122,13 +122,13 @@ class Family(ABC):
     """True if the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
     truncated."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order for which the compiler can reduce the number of brackets to the minimum. The number
-    is reduced for methods without ``cutoff``."""
+    """The highest order for which the compiler can reduce the number of brackets to the minimum. The
+    compiler reduces the number only for methods without ``cutoff``."""
     cutoff: int | None = None
     """The number of brackets after which dexpinv is truncated; None: dexpinv is not truncated."""
 
     default_series: ClassVar[bool] = False
-    """True if ``orderconds modified`` may choose this family when the user names no family."""
+    """True if ``orderconds modified`` may choose this family when the user specifies no family."""
 
     # Search
     unknowns: ClassVar[str | None] = None

@@ -3,8 +3,9 @@ k_j.
 
 The update is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts
 first. In stage i, the coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003)
-341). If a stage starts from the value of an earlier stage, the exponentials of the earlier stage act first in
-its product. In printed conditions b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
+341). If a stage starts from the value of an earlier stage, the product of the later stage also contains the
+exponentials of the earlier stage, which act first. In printed conditions b_j = sum_J beta_Jj, a_ij = sum_J
+alpha_iJj and c_i = sum_j a_ij.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
 """Compositions of a method Phi and its adjoint, or of symmetric methods. Words index the conditions.
 
 The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k
-of the alphabet denotes X_k and has weight k. The value of letter k is alpha^k in Phi_{alpha h} and -(-beta)^k
-in the adjoint Phi*_{beta h}. The exact flow has the value 1/n! on the word of n letters 1, and zero on all
-other words (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+of the alphabet denotes X_k and has weight k. On letter k, the logarithm of Phi_{alpha h} has the value
+alpha^k, and the logarithm of the adjoint Phi*_{beta h} has the value -(-beta)^k. The exact flow has the value
+1/n! on the word of n letters 1, and zero on all other words (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans.
+R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -148,7 +149,7 @@ formula, and an integer by which the formula is divided. The index denotes the s
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
-    """Return n! times the value on a word of n letters, as an index sum.
+    """Return n! times the value of one step on a word of n letters, as an index sum.
 
     The function ``block`` returns the value of one stage on a part of the word. ``kind`` is the letter of the
     summation indices: a lower-case letter for stages, an upper-case letter for exponentials.

@@ -5,10 +5,11 @@ kind. VRKMK applies the symplectic partitioned Runge-Kutta method of the tableau
 Therefore RKMK and VRKMK have the orders of these two classical methods (HLW IV.8, Theorem 8.4; Bogfjellmo and
 Marthinsen, Section 3.4.1).
 
-The truncation error is of order h^(r+3). For even r >= 2, B_(r+1) = 0, and therefore truncation after the
-powers r and R = r + 1 gives the same method. For all other r let R = r. The order is min(p, R + 2), where p
-is the order without truncation (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). The truncation
-changes only the values of trees with long words.
+For even r >= 2 the Bernoulli number B_(r+1) is zero. Hence truncation after the powers r and r + 1 gives the
+same method. Let R = r + 1 for these r, and R = r for all other r. The truncation changes one step by
+O(h^(R+3)). The order is min(p, R + 2), where p is the order without truncation (HLW Theorem
+IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). The truncation changes only the values of trees with long
+words.
 """
 
 from __future__ import annotations
@@ -27,8 +28,8 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a complete tableau file claims orders. If a larger ``cutoff`` does not
-increase the order, the file contains no claim for it."""
+"""The values of ``cutoff`` for which a tableau file may claim orders. The claims of a complete file end
+before the first value that does not increase the order."""
 
 
 class DexpinvCut(Family):
@@ -78,8 +79,8 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return the order of the method without truncation, and a length. The truncation does not change
-        values on words up to this length."""
+        """Return a description of the conditions that the truncation does not change. Return None for
+        methods without a Runge-Kutta tableau, and for families without :attr:`abelian`."""
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
         return UnseenCut(orders.get(self.abelian, 0), longest_unseen(self.cutoff), self.longest_word)

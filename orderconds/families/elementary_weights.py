@@ -112,8 +112,9 @@ def _summed(
     """Return the sum over ``indices`` of the product of ``factors`` and tau_tree(i), where i is the last
     index.
 
-    tau_tree(i) is the product of sum_j a_ij tau_branch(j) over the branches at the root of the tree. Equal
-    branches are collected in powers. Therefore the formula needs no simplification.
+    Here tau_tree(i) is a product over the branches at the root of the tree. The factor of a branch is
+    sum_j a_ij tau_branch(j). Equal branches are collected in powers. Therefore the formula needs no
+    simplification.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

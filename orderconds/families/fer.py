@@ -3,9 +3,9 @@
 Conditions on single letters are the conditions of a quadrature rule for F_1. Conditions on longer Lyndon
 words compare F_2 = sum_{ij} phi_ij A_j A_i + ... with the logarithm of exp(-F_1) Y; here F_2 is the logarithm
 of all factors except exp(F_1) (Fer 1958; Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000)
-215, Section 4.3; Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259). F_2 contains only brackets. Up to
-order six it is equal to the F_2 of Fer's expansion, because the F_3 of that expansion begins with weight
-seven.
+215, Section 4.3; Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259). This F_2 contains only brackets.
+Up to order six it is equal to the F_2 of Fer's expansion, because the F_3 of Fer's expansion contains only
+terms of weight seven or more.
 """
 
 from __future__ import annotations

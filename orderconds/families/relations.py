@@ -1,8 +1,9 @@
 """Relations of dependent conditions: each left-hand side is a polynomial in left-hand sides of independent
 conditions.
 
-Two laws make conditions dependent. First, for a symplectic method, phi(u o v) = phi(u) phi(v) - phi(v o u);
-this equation relates two trees that differ in the position of the root (HLW VI.7.1). Second, the values a(w)
+Two laws make conditions dependent. First, let phi(t) be the weight of a tree t, and let u o v be the tree u
+with v as an additional branch of the root. For a symplectic method, phi(u o v) = phi(u) phi(v) - phi(v o u).
+The trees u o v and v o u differ only in the position of the root (HLW VI.7.1). Second, the values a(w)
 of a group-like series on words w satisfy the shuffle relations a(u) a(v) = a(u sh v), where u sh v is the
 shuffle product. Therefore the values on Lyndon words determine all other values (Reutenauer, Free Lie
 Algebras, Thm 6.1).

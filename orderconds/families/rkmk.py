@@ -91,8 +91,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. At order R + 3, the
-        truncation of dexpinv changes this condition; it changes no condition of lower order."""
+        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. For the order R + 3, the
+        truncation of dexpinv changes this condition. It changes no condition of lower order. Return None if
+        dexpinv is not truncated, or if ``order`` < 3."""
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]

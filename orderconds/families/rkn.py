@@ -175,7 +175,9 @@ def formula(functional: Functional) -> Formula:
 
 
 def _scale(functional: Functional) -> int:
-    """Return the least common denominator of the formulas of the words in a linear combination."""
+    """Return the least positive integer k for which k x / f is an integer for each word of a linear
+    combination. Here x is the coefficient of the word, and f is the factor that the formula of the word
+    contains (:meth:`SplittingFamily.scale`)."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 
@@ -194,7 +196,8 @@ def functionals(order: int) -> tuple[Functional, ...]:
 @lru_cache(maxsize=32)
 def independent(order: int) -> tuple[Functional, ...]:
     """Return as many members of :func:`functionals` as possible whose restrictions to Lie elements are
-    linearly independent. On Lie elements, products of functionals of lower order are zero.
+    linearly independent. These restrictions are used because a product of functionals of lower order, which
+    gives no new condition, is zero on Lie elements.
 
     >>> [text(functional) for functional in independent(4)]
     ['TTTV', 'TTVV']
@@ -273,8 +276,8 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return all products of two or more independent combinations of words; the lengths of the words in the
-    factors add up to ``order``."""
+    """Return all products of members of :func:`independent`. Each factor is a combination of words of one
+    length, at most ``heaviest``. The lengths of all factors add up to ``order``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

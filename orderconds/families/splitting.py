@@ -166,8 +166,8 @@ class SplittingFamily(WordFamily):
 
 
 def splitting_formula(word: Word) -> Formula:
-    """Return the value on a word as an index sum, multiplied by the factorials of the run lengths of the
-    word.
+    """Return the value of one step on a word as an index sum, multiplied by the factorials of the run lengths
+    of the word.
 
     >>> from orderconds.formula import named
     >>> named(splitting_formula((0, 1, 0))).text()

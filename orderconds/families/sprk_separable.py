@@ -93,8 +93,8 @@ class SeparableFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of single tableaux (A, b), as unknowns of a search. The formula of the
-        conjugate tableau divides by the weights."""
+        """Return the coefficients of single tableaux (A, b), as unknowns of a search. The attribute
+        ``divides`` of the result is true, because the formula of the conjugate tableau divides by b_i."""
         return tableau_form(stages, explicit, divides=True)
 
 

@@ -138,8 +138,8 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return (((word,), Fraction(1)),)
     # On words of even weight, the logarithm of the step has the value zero. The value of the logarithm on a
     # word is a sum over all divisions of the word into m = 1, 2, ... parts. The term of a division is
-    # (-1)^(m+1)/m times the product of the values of the step on the parts. The equation is solved for the
-    # term with m = 1, the value of the step on the word.
+    # (-1)^(m+1)/m times the product of the values of the step on the parts. The equation "sum = 0" is solved
+    # for the term with m = 1, the value of the step on the word.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

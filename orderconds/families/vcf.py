@@ -1,9 +1,10 @@
 """Variational commutator-free methods: each exponential may combine the velocities of several stages.
 
-The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0`` and ``X_iJ =
-h sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj replace alpha_iJj, and ``b_i = sum_J
-beta_Ji``. These methods generalise the variational Crouch-Grossman methods (VCG), as Section 3.5 of
-Bogfjellmo and Marthinsen suggests. The family contains methods of order 3 whose weights are all positive.
+For a Lagrangian l, the discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ...
+exp(X_i1) q0`` and ``X_iJ = h sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj replace
+alpha_iJj, and ``b_i = sum_J beta_Ji``. These methods generalise the variational Crouch-Grossman methods
+(VCG), as Section 3.5 of Bogfjellmo and Marthinsen suggests. The family contains methods of order 3 whose
+weights are all positive.
 """
 
 from __future__ import annotations

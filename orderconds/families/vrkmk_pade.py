@@ -1,6 +1,7 @@
 """VRKMK methods ``vrkmk_pade(r)``, which invert a truncated series of dexp and do not truncate dexpinv.
 
-The stage velocities solve dexp_(r),X_i v_i = xi_i (Marthinsen's thesis, Section 3.4.1, alternative approach).
+The stage velocities v_i solve dexp^(r)(X_i) v_i = xi_i, and dexp^(r) is dexp truncated after the r-th power
+(Marthinsen's thesis, Section 3.4.1, alternative approach).
 Conditions are indexed by action trees, as in every variational family, and evaluated by the action series of
 this method.
 """

@@ -225,8 +225,8 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return ``square_root`` if the only radical is a square root. Otherwise return a random number;
-        equal radicals give equal numbers."""
+        """Return ``square_root`` if it is given and ``index`` is 2. Otherwise return a random number; equal
+        radicals give equal numbers."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))

@@ -270,8 +270,8 @@ def _reached(proof: Proof, order: int) -> int:
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the indices of the equations that are not satisfied identically.
 
-    ``values`` are jets over a box. If the value and the gradient of an equation both contain zero, the
-    equation may be an identity. Such an equation is evaluated exactly, with random numbers for the unknowns
+    ``values`` are jets over a box. An equation may be an identity if the ball of its value and all balls of
+    its gradient contain zero. Such an equation is evaluated exactly, with random numbers for the unknowns
     (:mod:`orderconds.tableau.random_member`). If the exact value is zero, the equation is an identity and is
     omitted.
 

@@ -14,8 +14,8 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""Let P be the probability that random numbers satisfy some relation with coefficients of the same size. A
-relation is accepted only if P is below 2^-GUARD."""
+"""Let P be the probability that random numbers satisfy some relation whose coefficients are not larger than
+those of the relation that was found. The relation that was found is accepted only if P is below 2^-GUARD."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:

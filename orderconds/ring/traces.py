@@ -66,8 +66,8 @@ class Traces:
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:
-        """Return True if x is the constant zero. The result of an operation on inputs is never the constant
-        zero."""
+        """Return True if x is the constant zero, and False for every recorded operation. The value of a
+        recorded operation is not known, because it depends on the inputs."""
         return x.constant == 0
 
     def text(self, x: Trace) -> str:

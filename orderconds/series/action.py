@@ -149,14 +149,15 @@ class ActionSeries(ABC):
         update.
 
         Let ``F(t)`` be the right-invariant field of t at (q0, mu1), divided by the order of the symmetry
-        group of t. For every function f on the group, ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f
-        (q0)``, where the field of the first letter acts first.
+        group of t. For every function f on the group, ``f(q1)`` is the sum over all words ``w = t_1 ...
+        t_k`` of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``. The field of the first letter acts first.
 
         The same coefficients determine the momentum. Let mubar be the momentum relative to q0, with mubar1 =
         Ad*_{q1} mu1. Then mubar1 - mubar0 is a sum over the trees t = (v, M). The term of t is the
         coefficient of the one-letter word t, times the covector ``x -> -D_q H(x v | M)``. In this covector
-        the derivative along x is applied first. If mubar1 is expanded in the covectors ``x -> <mu1, ad t_1
-        ... ad t_k x>``, the coefficient of this covector is the coefficient of the word ``t_k ... t_1``.
+        the derivative along x is applied first. The covector mubar1 is a linear combination of the covectors
+        ``x -> <mu1, ad t_1 ... ad t_k x>`` for all words ``t_1 ... t_k``. The factor of such a covector is
+        the coefficient of the reversed word ``t_k ... t_1``.
         :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates q1 and mu1 in this way.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
@@ -190,10 +191,10 @@ class CommutatorFreeSeries(ActionSeries):
         self._inverse_factorial = [ring.one]
 
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return sum_{J_1 <= ... <= J_k} prod phi_{J_l}(t_l) / prod (run lengths)!.
+        """Return sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)! for a word t_1 ... t_k.
 
         Here phi_J(t) is the coefficient of the letter t in exponent J. A run is a maximal block of letters
-        with equal J_l.
+        t_l with equal J_l.
         """
         return self._before(row, word)[-1]
 

@@ -1,8 +1,8 @@
 """Enumeration of the action trees with a given number of vertices. The trees are generated when they are
 needed, simplest trees first.
 
-The cost of a tree measures how difficult its condition is to read. It is a sum of non-negative terms, among
-them the costs of the subtrees. Hence, if the cost of a tree is at most a limit, so are the costs of its
+The cost of a tree measures how difficult its condition is to read. The cost is a sum of non-negative terms,
+among them the costs of the subtrees. Hence, if the cost of a tree is at most a limit, so are the costs of its
 subtrees. Subtrees are tried in order of cost, so the search ends at the first subtree beyond the limit. A
 long list is enumerated in parts, with increasing cost limits. The parts that a check does not need are not
 computed. For example, there are 6331 trees with six vertices, but the few hundred simplest trees decide the

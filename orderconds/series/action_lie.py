@@ -1,7 +1,8 @@
 """The action series of VRKMK: each group element is one exponential of a Lie series in the stage velocities.
 
 The exponents are ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j`` for stage i, and ``Y``, with b_j in place of
-a_ij, for the update (Bogfjellmo and Marthinsen, equation (3.16)). An additional letter x represents a
+a_ij, for the update (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
+dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X. An additional letter x represents a
 variation of the velocity of one stage. In a word ``u x v`` the letter x occurs exactly once.
 """
 
@@ -88,8 +89,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of the word u x v in every exp(X_i), or in exp(Y), where x is a
-        variation."""
+        """Return the coefficient of the word u x v, where x is a variation, in every exp(X_i). If ``update``
+        is 1, return the coefficient in exp(Y) instead."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -102,7 +103,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficient of a word with at least n letters in every X_i^n, or in Y^n."""
+        """Return the coefficient of a word with at least n letters in every X_i^n, or in Y^n if ``update`` is
+        1."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -116,7 +118,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of u x v in every X_i^n, or in Y^n, where x is a variation."""
+        """Return the coefficient of u x v, where x is a variation, in every X_i^n, or in Y^n if ``update`` is
+        1."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -242,7 +245,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return triples (coefficient, m, n) of the terms X^n xi X^m of dexpinv with m + n <= ``most``."""
+        """Return the triples (coefficient, m, n) that represent the terms X^n xi X^m of dexpinv with m + n <=
+        ``most``."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 
@@ -253,7 +257,8 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 
 class PadeActionSeries(MuntheKaasActionSeries):
     """The action series of VRKMK in which the inverse of a truncated dexp replaces dexpinv: X_i = h sum_j
-    a_ij v_j, where v_j is the solution of dexp_(r),X_j v_j = xi_j.
+    a_ij v_j. The vector v_j solves dexp_{(r),X_j} v_j = xi_j, and dexp_{(r),X} is dexp_X truncated after the
+    r-th power of X.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities

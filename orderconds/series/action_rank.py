@@ -27,7 +27,8 @@ from orderconds.series.action_trees import Velocity
 from orderconds.series.monomials import products
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
-"""A function that returns the action series of random methods of a family, one for each sample."""
+"""A function that returns one action series for many random methods of a family. Each value of the series
+contains one residue for each method (sample)."""
 
 SPARE_SAMPLES = 24
 """The number of samples beyond the largest possible rank; they make accidental dependences improbable."""

@@ -5,7 +5,8 @@ independent trees. The combination is the same for every method of the family an
 differ only in the choice of the root have the same value. For all other trees, the values at random methods
 give linear equations for the coefficients of the combination. The equations are solved modulo two primes, and
 the rational coefficients are reconstructed from the residues. Three relations of order 4 hold for VCG but not
-for VCF. These three follow from the equation ``psi_{L(H|L)} = 3 psi_{L(HH)} - psi_{L(H)}^2``.
+for VCF. These three follow from the equation ``psi_{L(H|L)} = 3 psi_{L(HH)} - psi_{L(H)}^2``, where psi_p is
+the coefficient of the tree p at a stage (:mod:`orderconds.series.action`).
 """
 
 from __future__ import annotations

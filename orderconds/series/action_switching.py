@@ -1,10 +1,10 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
 The root of a tree can be moved to the vertex of a force that is attached to the root: ``o(w | M, H(u*v |
-N))`` and ``o(u o(w | M) v | N)`` have equal coefficients, for every method and for the flow. In both
-coefficients, the indices of a double sum are the stages of the two vertices of the connecting edge. The
-coefficients are equal because the order of the two summations may be exchanged. Hence one tree of each class
-is sufficient.
+N))`` and ``o(u o(w | M) v | N)`` have equal coefficients, for every method and for the flow. Both
+coefficients contain a double sum, whose two indices are the stages of the two vertices of the connecting
+edge. The coefficients are equal, because the order of the two summations can be exchanged. Hence one tree of
+each class is sufficient.
 """
 
 from __future__ import annotations

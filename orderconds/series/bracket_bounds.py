@@ -3,16 +3,16 @@ computes given arguments of exponentials.
 
 The argument u_i is computed before the stage value k_i. Hence brackets in u_i contain only the letters q_1,
 ..., q_(i-1). For a fixed m < i, call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets with
-new letters in any program for u_1, ..., u_i. Consider the words of two or more letters that contain a new
-letter. Brackets without new letters, and single letters, contribute no such words to an argument. Each
-argument has a part that consists of such words. N is at least the dimension of the space that these parts of
-all arguments span.
+new letters in any program for u_1, ..., u_i. In each argument, consider the terms whose words have two or
+more letters and contain a new letter. Brackets without new letters, and single letters, contribute nothing to
+these terms. Form the sum of these terms for each argument. N is at least the dimension of the space that
+these sums span.
 
 The first bracket with new letters is [x + sum c_n q_n, y + sum d_n q_n], where x and y contain no new
-letters. The part of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where all P_n = d_n x
-- c_n y are Lie elements. Suppose that the parts of the arguments in which new letters occur once span d
-dimensions. Suppose also that zero is the only element of the span for which all P_n are Lie elements. Then
-the corresponding part of the first bracket is not in the span, and N is at least d + 1.
+letters. The sum of those terms of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where
+all P_n = d_n x - c_n y are Lie elements. Form the same sum for each argument, and suppose that these sums
+span a space of dimension d. Suppose also that zero is the only element of this space for which all P_n are
+Lie elements. Then the sum for the first bracket is not in this space, and N is at least d + 1.
 
 A bracket either contains new letters or contains no new letters. Hence the sum of a lower bound for the
 brackets with new letters and a lower bound for the brackets without new letters is a lower bound for all
@@ -28,8 +28,8 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return P_n for all n >= ``first``, where sum_n ad_(P_n) q_n is the part of x with exactly one letter
-    q_n, n >= ``first``, in each word.
+    """Return P_n for all n >= ``first``. The sum over n of ad_(P_n) q_n is the part of x whose words contain
+    exactly one letter with an index of at least ``first``.
 
     P_n is computed from the words of at least two letters that end in q_n.
 

@@ -160,10 +160,10 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
     """Return, for each stage i, the combinations u_j + c u_i that need only one bracket, where stage j is
     later than stage i.
 
-    Let q be the latest stage value in the brackets of u_i. It must also be the latest stage value in the
-    brackets of u_j. In u_i, and likewise in u_j, the terms with q need two brackets. In the combination they
-    need only the bracket [P, q], where P is a Lie element. The program computes u_j from this combination and
-    u_i.
+    Let q be the latest stage value in the brackets of u_i. The same q must be the latest stage value in the
+    brackets of u_j. In u_i, and likewise in u_j, the terms with q need two brackets. In the combination, the
+    terms with q need only the bracket [P, q], where P is a Lie element. The program computes u_j from this
+    combination and u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -184,10 +184,11 @@ class _Shape:
     """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e] with C_n = [q_1, z_n
     + C_(n+1)].
 
-    The pool is the list of known elements. ``inner`` is the number of brackets C_n. If ``outer`` is true, the
+    Here x, y, z_n and w_e are linear combinations of the elements of the pool. The pool is the list of known
+    elements; q_1 is its first element. ``inner`` is the number of brackets C_n. If ``outer`` is true, the
     bracket [q_1 + x, y + C_1] occurs. If ``leading`` is true, the coefficient of the second pool element in y
-    is one, and the equations for x are linear. ``extra`` contains the indices in the pool of the left factors
-    e.
+    is one, and x is unknown. Otherwise x is zero. ``extra`` contains the indices in the pool of the left
+    factors e.
     """
 
     outer: bool = False

@@ -17,7 +17,7 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""A cut: its components and its rest. The rest is empty if the whole tree is a component."""
+"""A cut: its components and its rest. The rest is empty if the whole tree (or forest) is one component."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 

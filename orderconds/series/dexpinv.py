@@ -62,7 +62,8 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in every exp(u_i), or in the exponential of the step."""
+        """Return the coefficient of ``word`` in every exp(u_i) or, if ``step`` is 1, in the exponential of
+        the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -75,7 +76,8 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficient of a word with at least n letters in every u_i^n, or in the step's u^n."""
+        """Return the coefficient of a word with at least n letters in every u_i^n. If ``step`` is 1, return
+        the coefficient in u^n instead, where u is the argument of the step."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:

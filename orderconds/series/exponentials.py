@@ -5,7 +5,8 @@ coefficient
 
 sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!
 
-(HLW, Section III.5; Reutenauer, Free Lie Algebras, Chapter 3).
+where a run is a maximal sequence of equal indices J_l (HLW, Section III.5; Reutenauer, Free Lie Algebras,
+Chapter 3).
 """
 
 from __future__ import annotations
@@ -52,8 +53,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The last r letters of the word come from this exponential, and all other letters come from
-                # earlier exponentials.
+                # For each r, the last r letters of the word are taken from exponential J, and all other
+                # letters from earlier exponentials.
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

@@ -77,8 +77,8 @@ class GradedAlgebra:
 def solve(
     ring: Ring, columns: Sequence[Mapping[Key, Element]], target: Mapping[Key, Element]
 ) -> list[Element] | None:
-    """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None. If the solution is not unique,
-    pivot columns are chosen from the left, and x_n is zero for all other columns.
+    """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If the
+    solution is not unique, pivot columns are chosen from the left, and x_n is zero for all other columns.
 
     The method is Gaussian elimination. The ring must be able to divide by every non-zero number that it
     contains.

@@ -1,12 +1,13 @@
 """Lie-Butcher series: the values of products of exponentials and of the exact flow on ordered forests.
 
 A forest is a word of ordered trees, in which the first tree acts first. Let g = exp(X_m) ... exp(X_1), where
-each X_J is a linear combination of trees, and let k = f(g y0). The coefficient of a word in g is
+X_J is a linear combination of trees with the coefficients x_J(t). The coefficient of a word t_1 ... t_n in g
+is
 
-sum over J_1 <= ... <= J_k of prod x_{J_l}(t_l) / prod (run lengths)!
+sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!
 
-This number is also the value of the series of k on the tree whose branches form this word (Owren and
-Marthinsen, BIT 39 (1999) 116; HLW IV.8).
+where a run is a maximal sequence of equal indices J_l. Let k = f(g y0). The number is also the value of the
+series of k on the tree whose branches form this word (Owren and Marthinsen, BIT 39 (1999) 116; HLW IV.8).
 """
 
 from __future__ import annotations
@@ -123,8 +124,8 @@ class ExponentialsSeries:
         other places are set to zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # The last r letters of the word come from the last exponential, and all other letters come from
-        # earlier exponentials.
+        # For each r, the last r letters of the word are taken from the last exponential, and all other
+        # letters from earlier exponentials.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -162,9 +163,10 @@ def exact_value(forest: Forest) -> Fraction:
     r"""Return the value of the exact flow on a forest, by left grafting.
 
     Let g be the solution of g' = f(g y0) g, g(0) = 1. The value of its series on a word is the iterated
-    integral of the letters, with the first letter at the earliest time. By homogeneity, the integral over [0,
-    s] is e s^n, where n is the number of vertices and e the value to be computed. The derivative with respect
-    to s removes the last letter. The value of a letter is the value of the word of its branches.
+    integral of the values of the letters, with the first letter at the earliest time. By homogeneity, the
+    integral over [0, s] is e s^n, where n is the number of vertices and e is the value to be computed. The
+    derivative with respect to s removes the last letter. The value of a letter is the value of the word of
+    its branches.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')

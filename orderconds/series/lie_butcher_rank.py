@@ -5,8 +5,8 @@ A condition is superfluous if two requirements are satisfied. First, its left-ha
 combination of simpler left-hand sides of the same order and of products of left-hand sides of lower order.
 The coefficients of this combination are the same for every method of the family. Second, the values of the
 exact flow satisfy this relation. The exact flow is therefore one of the samples. If the exact flow violates
-the relation, no method of the family satisfies this condition together with the simpler conditions. The
-condition is then not removed. An example is order 3 of Runge-Kutta-Munthe-Kaas methods without brackets
+the relation, no method of the family satisfies the condition together with the simpler conditions. In this
+case the condition is not removed. An example is order 3 of Runge-Kutta-Munthe-Kaas methods without brackets
 (cutoff 0).
 """
 
@@ -24,7 +24,8 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""A function that returns the series of random methods of a family, one for each sample."""
+"""A function that returns one series for many random methods of a family. Each value of the series contains
+one residue for each method (sample)."""
 
 SPARE_SAMPLES = 20
 """The number of samples beyond the largest possible rank. These additional samples make accidental

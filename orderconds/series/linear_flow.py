@@ -27,8 +27,9 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""For the exponential and the Cayley transform: the coefficients of the power series of this map and of the
-inverse map, without constant terms."""
+"""For the exponential and for the Cayley transform: two functions that return the coefficients of a power
+series without its constant term. The first series is that of the transform, and the second is that of the
+inverse of the transform."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:

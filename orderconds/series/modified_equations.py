@@ -103,8 +103,8 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
     For t = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). The sum is over free
     trees with at most ``order`` vertices. Trees that an edge divides into two equal halves are omitted (HLW
     IX.9.2). Raises :class:`~orderconds.errors.InputError` for a Lie-Butcher series. The same error is raised
-    unless it is proved that b(u o v) + b(v o u) = 0 for all u and v. Without this proof, the field need not
-    be Hamiltonian.
+    if it cannot be proved that b(u o v) + b(v o u) = 0 for all u and v, where o is Butcher's product. Without
+    this proof, the field need not be Hamiltonian.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

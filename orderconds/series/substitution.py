@@ -59,9 +59,10 @@ def substituted(field: VectorField, step: Character) -> Character:
 def modifying_field(step: Character) -> VectorField:
     """Return the field to which ``step`` must be applied so that the result is the exact flow of f.
 
-    This field is called the modifying field. If ``step`` is applied to a truncated modifying field, the
-    result is a method of any required order (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941).
-    ``step`` must be a consistent B-series. Raises :class:`~orderconds.errors.InputError` for any other step.
+    This field is called the modifying field. If ``step`` is applied to the modifying field, truncated after
+    the power h^(p-1), the result is a method of order at least p (Chartier, Hairer and Vilmart, Math. Comp.
+    76 (2007) 1941). ``step`` must be a consistent B-series. Raises :class:`~orderconds.errors.InputError` for
+    any other step.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))

@@ -3,8 +3,8 @@
 A stage computes k <- A_i k + h f(y), y <- exp(B_i k) y, from k = 0. On functions of (y, k) a step is a
 product of exponentials of two vector fields. The kick K is the derivative along dk = f(y). The drift D is the
 derivative along dy = k y. The step is therefore a sum over words in K and D. A word is an operator whose last
-letter acts first. At k = 0 only those words count that contain as many K as D and have no suffix with more K
-than D.
+letter acts first. At k = 0 a word contributes only if it contains as many letters K as letters D, and if no
+suffix of the word contains more letters K than D.
 
 The page docs/explanation/two_registers.md proves that the same linear combinations of words vanish on every
 group and on vector spaces. The values of a scheme on ordered forests are therefore linear combinations of its
@@ -154,8 +154,8 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
 
 
 def _symmetry(forest: Forest) -> int:
-    """Return the order of the symmetry group of a forest. In the series of a method, the elementary
-    differential operator of the forest has as coefficient the value on the forest, divided by this order."""
+    """Return the order of the symmetry group of a forest. In the series of a method, the coefficient of the
+    elementary differential operator of a forest is the value on the forest, divided by this order."""
     return symmetry(rooted_at_new_vertex(forest))
 
 

@@ -5,14 +5,15 @@ on the momentum, and m_i for the transport of the momentum by Ad* through the up
 
     1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j.
 
-For Crouch-Grossman methods m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i
-x_i y_i = 1/3 for any two abscissae x, y among c, chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i
-(chat_i - m_i)^2 = 0. If the weights are positive, the three abscissae are equal. In practice the three
-abscissae are also equal in solutions with negative weights. For a given update, sum_j a_ij = m_i then holds
-for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. The row sums and column sums of the
-matrix with the entries b_i a_ij are therefore known. As in a transportation problem, these linear equations
-are solved for entries that form a spanning tree. The nodes of the tree are the rows and columns, and its
-edges are the entries.
+Here beta_J^i is the coefficient of stage i in the J-th exponential of the update. For Crouch-Grossman methods
+m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i x_i y_i = 1/3 for any two
+abscissae x, y among c, chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i (chat_i - m_i)^2 = 0. If the
+weights are positive, the three abscissae are equal. In practice the three abscissae are also equal in
+solutions with negative weights. For a given update, sum_j a_ij = m_i then holds for each row i, and sum_i b_i
+a_ij = b_j (1 - m_j) for each column j. The row sums and column sums of the matrix with the entries b_i a_ij
+are therefore known. As in a transportation problem, these linear equations are solved for some of the
+entries. If rows and columns are the nodes of a graph and the entries are its edges, these entries form a
+spanning tree.
 """
 
 from __future__ import annotations

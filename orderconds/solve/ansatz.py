@@ -45,7 +45,7 @@ class Ansatz:
     centre: Mapping[str, float] | None = None
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
-        """Return the file in which the free coefficients have these values as text."""
+        """Return the text of the file in which the free coefficients have the given ``values``."""
         texts = {**{name: values[name] for name in self.free}, **self.numbers}
         numbers = [f'{name} = "{texts[name]}"' for name in sorted(texts, key=_place)]
         table = ["", "[numbers]", *numbers] if numbers else []
@@ -87,8 +87,9 @@ class Ansatz:
 
 
 def _place(name: str) -> tuple[bool, bool, str, list[int]]:
-    """Return the sort key of a name. Names with the letter m come first, then names with the letter b.
-    Otherwise, names are sorted by their letters, then by their indices as numbers."""
+    """Return the sort key of a name. Names with the letter m come first, then names with the letter b, then
+    all other names. Each of these three groups is sorted by the letters of the names, then by their indices
+    as numbers."""
     letters = name.rstrip("0123456789_")
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
 

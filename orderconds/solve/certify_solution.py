@@ -54,8 +54,8 @@ solution is found.
 """
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""The units for rounding if the principal error was minimised. Coarse units are sufficient, because near a
-minimum of the error rounding hardly changes the error."""
+"""The units for rounding if the principal error was minimised. Smaller units are not necessary, because near
+a minimum of the error rounding hardly changes the error."""
 
 DIGITS = 50
 """Decimal places of a coefficient in the file."""

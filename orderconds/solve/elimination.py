@@ -89,7 +89,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
     if len(names) > MAX_UNKNOWNS:
         return None
     # For symplectic methods it suffices to consider nonzero weights. A stage of weight zero can be replaced
-    # by a copy of another stage; the original weight is divided equally between this other stage and its
+    # by a copy of another stage, and the weight of that other stage is divided equally between it and its
     # copy.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
@@ -143,8 +143,8 @@ def _subsystems(
 def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
-    """Return a polynomial in the ideal of ``members`` that has no real root, or None. The root zero is
-    ignored if the formulas of the family divide by the variable."""
+    """Return a polynomial in the ideal of ``members`` that has no real root, or None if no such polynomial is
+    found. The root zero is ignored if the formulas of the family divide by the variable."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]

@@ -6,8 +6,8 @@ nodes, sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) if |t| = p, and 0 otherwise. For 
 linear system, and the program computes the solution of least norm. If the first stage value is f(y_0), the
 program chooses beta_1 such that the derivative at theta = 0 is f(y_0). It then changes the coefficients of
 the highest powers of theta such that b_i(1) = b_i. If, in addition, the last stage value is f(y_1) and q > 1,
-the change also makes the derivative at theta = 1 equal to f(y_1). All changes belong to the kernel of the
-linear system.
+the changed weights also make the derivative at theta = 1 equal to f(y_1). All changes of the weights belong
+to the kernel of the linear system.
 """
 
 from __future__ import annotations

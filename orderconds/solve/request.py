@@ -113,7 +113,7 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need no trees of order p.
+    refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need only these trees.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,

@@ -2,8 +2,8 @@
 batches run in one process, in several processes, or on a cluster.
 
 The result of a batch depends only on the problem, the seed and the number of the batch, and batches are
-evaluated in the order of their numbers. Therefore the number of processes and interruptions do not change the
-result. A worker process receives only strings and numbers, and compiles the programs itself.
+evaluated in the order of their numbers. Therefore the result depends neither on the number of processes nor
+on interruptions. A worker process receives only strings and numbers, and compiles the programs itself.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ POLISHED = 1e-11
 """A residual norm below which a point counts as a solution."""
 
 KEPT = 4
-"""The number of solutions of one batch that are kept. If the principal error is minimised, it is minimised
-for only this number of solutions of the batch.
+"""The largest number of solutions that are kept of one batch, those with the lowest scores. If the principal
+error is minimised, the minimisation starts only from these solutions.
 """
 
 

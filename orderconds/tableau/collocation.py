@@ -93,7 +93,8 @@ class Nodes:
         """Return the weights of the quadrature on all nodes except one. The weight of the omitted node is
         zero.
 
-        These weights differ from b by a multiple of the leading coefficients of l_1, ..., l_s.
+        The difference of these weights and b is a multiple of the vector of the leading coefficients of l_1,
+        ..., l_s.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -114,7 +115,8 @@ class Nodes:
     def column(self, k: int, value: Algebraic) -> Matrix:
         """Return the matrix A that satisfies C(s - 1) and has ``value`` in every entry of column k.
 
-        Two rows that satisfy C(s - 1) differ by a multiple of the leading coefficients of l_1, ..., l_s.
+        For a given node, the difference of two rows that satisfy C(s - 1) is a multiple of the vector of the
+        leading coefficients of l_1, ..., l_s.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [

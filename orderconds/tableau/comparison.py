@@ -19,7 +19,7 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
     """Return True if two tableaux have the same number of coefficients, and corresponding coefficients are
     equal. The comparison includes embedded methods.
 
-    Two balls agree if they intersect and neither is much wider than the other. Equal balls are not required,
+    Two balls agree if they intersect and neither is much wider than the other. The balls need not be equal,
     because the centre and the radius of a ball may be rounded when the ball is written to a file.
 
     >>> from orderconds.tableau import find

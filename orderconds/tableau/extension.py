@@ -17,7 +17,7 @@ from orderconds.tableau.methods import Row
 
 @dataclass(frozen=True)
 class Extension:
-    """The polynomials b_i(theta): row i has the coefficients of theta, theta^2, ...; all rows have one
+    """The polynomials b_i(theta): row i has the coefficients of theta, theta^2, ...; all rows have the same
     length. ``order`` is the claimed order.
 
     >>> Extension(((1, -1), (0, 1)), 1).power(2)

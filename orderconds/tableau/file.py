@@ -155,7 +155,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # The error already states the name of the tableau and the key. The file replaces the name of the tableau.
+    # The error already states the name of the tableau and the key. Here ``where``, usually the path of the
+    # file, replaces the name of the tableau.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -312,7 +313,7 @@ def _decimal(text: str, where: str) -> Constant:
 
 
 def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
-    """Return the ``[proof]`` of the file after verifying the names in it."""
+    """Return the table ``[proof]`` of the file. The names in this table are verified."""
     given = entry.proof
     if given is None:
         return None

@@ -86,8 +86,8 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return the keys and values of the file that follow from ``names``, the names of the arrays in which
-        a tableau is stored."""
+        """Return those keys and values of the file that can be deduced from ``names``, the names of the
+        arrays in which a tableau is stored."""
         return {}
 
     def coefficients(self) -> Places:

@@ -9,11 +9,11 @@ parser reads them, and no text is executed as code.
     power   = atom ["^" (["-"] integer | "(" sum ")")]
     atom    = integer | decimal | decimal "~" | decimal "d" | name | "sqrt" "(" sum ")" | "(" sum ")"
 
-``0.5`` is exactly 1/2; ``0.81772~`` is a ball of one unit in its last digit; ``0.3333333333333333d`` is a
-double, a ball of a few units of rounding (:mod:`orderconds.tableau.doubles`). An exponent is a fraction of
-integers; ``a^b^c`` is an error, because programs disagree on the meaning (a^b)^c or a^(b^c). This module
-bounds the length of the text, the nesting and the exponents. The module :mod:`orderconds.tableau.evaluate`
-bounds the size of intermediate values.
+``0.5`` is exactly 1/2; ``0.81772~`` is a ball whose radius is one unit of the last digit;
+``0.3333333333333333d`` is a double, a ball whose radius is a few rounding errors
+(:mod:`orderconds.tableau.doubles`). An exponent is a fraction of integers; ``a^b^c`` is an error, because
+programs disagree on the meaning (a^b)^c or a^(b^c). This module bounds the length of the text, the nesting
+and the exponents. The module :mod:`orderconds.tableau.evaluate` bounds the size of intermediate values.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     @property
     def is_double(self) -> bool:
-        """True if the number was given as a double. The radius ``unit`` of a rounded decimal is a power of
-        ten, but the radius of a double is not."""
+        """True if the number was given as a double. The test uses that the radius ``unit`` is a power of ten
+        for every rounded decimal, but for no double."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 

@@ -3,8 +3,8 @@ backwards.
 
 A step of length -h from y1 undoes a step of length h from y0 under two conditions. Each condition compares
 two sequences of exponentials. Before the comparison, stages j and s + 1 - j are exchanged in one of them.
-First, the sequence of exponentials in the update is equal to the reversed sequence. Second, for each i, the
-exponentials from y1 to stage s + 1 - i are the exponentials from y0 to stage i with opposite signs.
+First, the sequence of exponentials in the update is equal to this sequence in reverse order. Second, for each
+i, the exponentials from y1 to stage s + 1 - i are the exponentials from y0 to stage i with opposite signs.
 Neighbouring exponentials whose exponents are multiples of each other count as one exponential.
 """
 

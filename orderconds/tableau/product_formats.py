@@ -217,8 +217,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # A bracket of two elements of a Lie algebra is an element of the Lie algebra. A product of two
-        # elements need not be an element, so combinations of products are verified.
+        # A bracket of two elements of a Lie algebra is again in the Lie algebra. A product of two elements
+        # need not be in the Lie algebra, so combinations of products are verified.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():

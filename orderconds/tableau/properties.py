@@ -58,8 +58,8 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     """Return the scheme with two registers (2N) that is equal to the method, or the reason why there is none.
     Return None for a method that is neither a tableau (A, b) nor a commutator-free method.
 
-    If the rounded decimals of the file have a ``[proof]``, and the method is a 2N scheme for all values of
-    these decimals, ``holds`` is True.
+    Let the file have a ``[proof]``. If the method is a 2N scheme for all values of the rounded decimals,
+    ``holds`` of the result is True.
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds

@@ -31,9 +31,9 @@ LARGEST = 100
 of this size, the computation with flint takes a second."""
 
 EFFORT = 10**11
-"""The limit on the work over number fields other than Q. The unit of work is the product of two bits; work up
-to the limit takes about a second. The limit is necessary because the remainders in Euclid's algorithm grow
-fast."""
+"""The limit on the work over number fields other than Q. The unit of work is the multiplication of one bit by
+one bit; work up to the limit takes about a second. The limit is necessary because the remainders in Euclid's
+algorithm grow fast."""
 
 
 class SignedRing(Ring, Protocol):
@@ -135,7 +135,8 @@ class _Limited:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Subtract the cost of an operation from the remaining work. The unit is the product of two bits."""
+        """Subtract the cost of an operation from the remaining work. The unit is the multiplication of one
+        bit by one bit."""
         self.left -= work
         if self.left < 0:
             raise _Undecided

@@ -13,7 +13,7 @@ from orderconds.tableau.record import Tableau
 
 
 def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
-    """Return the tableau, in which every double has the uncertainty ``units`` (measured as
+    """Return the tableau, in which every double has the uncertainty ``units`` (in the same unit as
     :data:`orderconds.tableau.doubles.UNITS`). Other coefficients do not change. If ``units`` is None, the
     tableau does not change.
 

@@ -65,9 +65,9 @@ def as_data(tableau: Tableau) -> Data:
 
 
 def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
-    """Return the keys and values of a file in which coefficients do not refer to named numbers.
+    """Return the keys and values of a file in which the coefficients are written in full.
 
-    Names are used only for roots without a formula and, if ``name_radicals`` is true, for square roots inside
+    Names remain only for roots without a formula and, if ``name_radicals`` is true, for square roots inside
     other roots.
 
     >>> from orderconds.tableau import Tableau

@@ -50,10 +50,10 @@ def bch(length: int) -> dict[Word, Fraction]:
 def goldberg(word: str) -> Fraction:
     """Return the coefficient of a non-empty word over A and B in log(exp A exp B).
 
-    For a word that begins with A and has run lengths s_1, ..., s_m, the coefficient is the integral over [0,
-    1] of t^[m/2] (t - 1)^[(m-1)/2] prod G_{s_i}(t), where [x] is the integer part of x, G_1 = 1 and s G_s =
-    (t (t - 1) G_{s-1})'. If A and B are exchanged in a word of n letters, the coefficient is multiplied by
-    (-1)^(n-1) (Goldberg 1956, Thm 1 and Cor. 2).
+    Let a word begin with A and have the run lengths s_1, ..., s_m. Its coefficient is the integral over [0,
+    1] of t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t), where [x] is the integer part of x. The
+    polynomials G_s are defined by G_1 = 1 and s G_s = (t (t - 1) G_{s-1})'. If A and B are exchanged in a
+    word of n letters, the coefficient is multiplied by (-1)^(n-1) (Goldberg 1956, Thm 1 and Cor. 2).
 
     >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0
     ('1/2', '1/12', True)

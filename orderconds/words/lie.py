@@ -80,7 +80,7 @@ def coordinates_from_values(
 
     ``words`` contains all Lyndon words of one weight, or all Lyndon words with the same letters, in ascending
     order. The function ``value`` returns the coefficient of a word, where the word xy denotes the product xy.
-    The function does not test whether the series is a Lie element.
+    It is not tested whether the series is a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
     >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])

@@ -32,9 +32,9 @@ def lyndon_words(
     if any(w < 1 for w in weights):
         raise ValueError("every letter must have a positive weight")
     # The algorithm of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of lengths. A
-    # prefix of a Lyndon word with period p is extended by one letter. If the new letter is equal to the
-    # letter p positions before it, the period does not change. If the new letter is greater, the new period
-    # is the length of the extended word.
+    # prefix of a Lyndon word is extended by one letter; the prefix has the period p. If the new letter is
+    # equal to the letter p positions before it, the period does not change. If the new letter is greater, the
+    # new period is the length of the extended word.
     places: list[int] = []
 
     def extend(period: int, left: int) -> Iterator[tuple[Letter, ...]]:

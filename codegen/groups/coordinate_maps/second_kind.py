@@ -14,8 +14,9 @@ class SecondKind(CoordinateMap):
     """tau(x) = exp(x_1 e_1) exp(x_2 e_2) ... exp(x_d e_d) for the basis e_1, ..., e_d of the algebra.
 
     dtau_x v = sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k with E_k = exp(x_k e_k) (Owren and Marthinsen 2001).
-    The inverse is the solution of this linear system. If the system is singular, or if a pivot of the
-    elimination is zero, the step returns the status TOO_FAR (only a shorter step has a finite result).
+    dtau^{-1}_x y is the solution v of the linear system dtau_x v = y. If the system is singular, or if a
+    pivot of the elimination is zero, the step returns the status TOO_FAR (only a shorter step has a finite
+    result).
     """
 
     name = "second_kind"

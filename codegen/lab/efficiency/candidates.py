@@ -124,8 +124,9 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     """Yield the recipes of one tableau in one family, without and with step-size control.
 
     For each order only the smallest cut-off that gives this order is used. Up to the order :data:`SEARCHED`,
-    a recipe with the fewest brackets is added. Orders below half the classical order are omitted, because
-    other tableaux reach these orders with fewer stages.
+    one recipe without a cut-off is added, which uses the fewest brackets that give the order of the method.
+    Orders below half the classical order are omitted, because other tableaux reach these orders with fewer
+    stages.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()

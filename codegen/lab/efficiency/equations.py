@@ -14,8 +14,8 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations of a scene in one form; if ``form`` is None, the equations as the scene states them, on
-    its manifold.
+    """The equations of a scene in one form. If ``form`` is None, these are the equations on the manifold, as
+    the scene states them.
 
     ``alone`` is True if the scene has no other form; tables then omit the name of the form.
     """

@@ -5,10 +5,10 @@ Each recipe is first run by the interpreter with more and more steps, as long as
 number of steps may be fast enough. The counted operations give the time of a step, and the measured error
 gives the number of steps for the required error. The product of this time and this number, divided by SAFE,
 is a lower bound of the time of the recipe. If this bound exceeds WORST times the best measured time for every
-required error, the recipe is excluded. If runs with equal steps have large errors, their bounds are not
-reliable for implicit recipes and for recipes with step-size control, and such recipes are not excluded. All
-recipes that are not excluded are emitted, compiled and raced. A sample of the excluded recipes is also raced.
-The times of the sample show whether the bound is safe.
+required error, the recipe is excluded. If the interpreted runs of a recipe have large errors, and the recipe
+is implicit or has step-size control, its bound is not reliable, and the recipe is not excluded. All recipes
+that are not excluded are emitted, compiled and raced. A sample of the excluded recipes is also raced. The
+times of the sample show whether the bound is safe.
 """
 
 from __future__ import annotations
@@ -48,9 +48,9 @@ class Exhausted:
     ``known`` is the time of a known recipe for each error, ``results`` contains the runs for each error, and
     ``recipes`` is the number of recipes of the library. Four further numbers count recipes: ``raced`` those
     that were emitted and measured, ``refused`` those that cannot be compiled for the scene, ``copies`` those
-    with the same code as another recipe, and ``excluded`` those that exceed the bound. ``nearest`` is the
-    smallest ratio of the time of a sampled excluded recipe to the best time for the same error. ``complete``
-    is False if the time limit ended the search.
+    with the same code as another recipe, and ``excluded`` those that were not measured because their bounds
+    were too large. ``nearest`` is the smallest ratio of the time of a sampled excluded recipe to the best
+    time for the same error. ``complete`` is False if the time limit ended the search.
     """
 
     known: Mapping[float, float]

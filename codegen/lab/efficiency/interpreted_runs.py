@@ -41,8 +41,8 @@ class CountingDomain(FloatDomain):
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Count one sweep. Return True if the iteration may end, for example because the relative change is
-        at most SETTLED; return also the change."""
+        """Count one sweep. Return two values: True if the iteration may end, for example because the relative
+        change is at most SETTLED, and the change."""
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
         return done or change <= SETTLED * max(map(abs, old), default=0.0), change

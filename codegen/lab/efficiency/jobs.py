@@ -38,7 +38,7 @@ FAILED = 4.0
 
 
 def usual_order(error: float) -> float:
-    """Return the order of methods that are usually the fastest for an error.
+    """Return the order that the fastest methods for an error usually have.
 
     >>> usual_order(1e-4), usual_order(1e-12)
     (4.0, 8.0)
@@ -129,8 +129,9 @@ class Jobs(Sequence[Job]):
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the part of the delay that depends on predicted times: log2 of the predicted time of the
-        queue divided by the least predicted time.
+        """Return the part of the delay that depends on predicted times: log2(a/b), where a is the least
+        predicted time of this kind of recipe and b the least predicted time of all kinds. If there are
+        several goals, the goal with the smallest a/b is used.
 
         The result is FAILED if all predictions of this kind of recipe failed.
         """

@@ -68,7 +68,8 @@ class PeerCandidate:
             # The overhead of a call does not depend on the tolerance or on the number of steps.
             self.overhead = self.overhead or Overhead(prepared.idle)
             times = span_times(lambda n: prepared.run(n).steps, self.overhead)
-        # A peer may raise any exception. After the exception all other candidates must still be measured.
+        # A peer may raise any exception. All exceptions are caught, because the other candidates must still
+        # be measured.
         except Exception as failure:
             self.refused = not isinstance(failure, PeerFailed)
             setup = time.perf_counter() - start

@@ -309,7 +309,8 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Return a number of steps with a small error, the error, and the average number of sweeps of a step.
+    """Return the number of steps of the first run with a small error, its error, and its average number of
+    sweeps in a step. If no run has a small error, the results belong to the most accurate run.
 
     The number of steps is doubled up to ``most``, and until the process has used ``end`` CPU seconds. The
     error is infinite if all runs failed.

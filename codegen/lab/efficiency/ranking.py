@@ -91,7 +91,8 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful rows, except rows whose error another form of the equations reaches in less time.
+    """Return the successful rows. A row is left out if another form of the equations reaches the error of
+    this row in less time.
 
     The rows of several forms are ordered by their errors, from large to small.
     """

@@ -53,11 +53,12 @@ class Request:
 
 @dataclass(frozen=True)
 class Recommendation:
-    """The result of a search: the recipes that reach the error, fastest first, and data about the search.
+    """The result of a search. ``places`` are the fastest runs of the recipes that reach the error, fastest
+    first.
 
-    ``best`` is the most accurate run if no recipe reaches the error. ``predicted`` and ``raced`` are the
-    numbers of recipes that were predicted and that were measured. ``complete`` is False if the budget ended
-    the search. ``lost`` contains the labels of recipes that lose a conserved quantity in a long run.
+    ``best`` is the most accurate run if no recipe reaches the error, otherwise None. ``predicted`` is the
+    number of predictions, and ``raced`` the number of measured recipes. ``complete`` is False if the budget
+    ended the search. ``lost`` contains the labels of recipes that lose a conserved quantity in a long run.
     ``referred`` is the fraction of the budget that the reference solution used. ``kinks`` is the number of
     points of the solution where the field is not smooth.
     """

@@ -5,8 +5,9 @@ The search has three stages. First, each recipe is predicted by a few interprete
 too long, or if methods of higher order do not come close to the error. Where equal steps have large errors,
 for example on stiff scenes, a run with step-size control is interpreted, too. Second, recipes are emitted and
 measured in C, in the order of their predicted times. For each kind of recipe, the ratio of measured to
-predicted times corrects later predictions. A recipe is not emitted if its corrected prediction exceeds the
-best measured time by a safety factor. Third, the fastest recipes are timed again with more repetitions.
+predicted times corrects later predictions. A recipe is not emitted if its corrected prediction is larger than
+the best measured time, multiplied by a safety factor. Third, the fastest recipes are timed again with more
+repetitions.
 
 Several goals, which differ in the error and in the needs, share predictions, compiled modules and runs.
 """
@@ -121,7 +122,7 @@ class Search:
         return (time.monotonic() - self.start) / self.task.budget
 
     def run(self) -> None:
-        """Run both parts of the search: predict the recipes, then race them."""
+        """Run the first two stages of the search: predict the recipes, then race them."""
         self.predict()
         self.race()
 

@@ -222,8 +222,8 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 
 
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
-    """Return the drift for times, deviations and largest deviations that are all finite. The caller replaces
-    ``largest``, ``rounding`` and ``until`` in the result."""
+    """Return the drift for finite times ``t``, deviations ``y`` and largest deviations ``size``. The caller
+    replaces ``largest``, ``rounding`` and ``until`` in the result."""
     whole, scale = float(t[-1]), float(size.max()) or 1.0
     # Times and values are scaled, so that their squares do not overflow.
     t, y, size = t / whole, y / scale, size / scale
@@ -245,8 +245,8 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the variance of the block means about a fitted polynomial of the given degree, divided as
-    described at :data:`CONFINED`."""
+    """Return the ratio V/(n D) described at :data:`CONFINED`, where V is the variance of the block means
+    about a fitted polynomial of the given degree."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())

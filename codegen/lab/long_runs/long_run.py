@@ -168,10 +168,10 @@ def _kept(
     """Return the quantities with their drifts.
 
     The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors. For
-    any other quantity, ``changes`` contains the change by one step in 60 digits. The deviations of such a
-    quantity count as rounding errors only if this change is much smaller than one rounding error. If a
-    quantity saturates within the first samples, the function calls ``early(n)``, which records the first n
-    steps with more samples.
+    any other quantity, ``changes`` contains its change in one step, computed with 60 digits. The deviations
+    of such a quantity count as rounding errors only if this change is much smaller than one rounding error.
+    If a quantity saturates within the first samples, the function calls ``early(n)``, which records the first
+    n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:

@@ -51,8 +51,8 @@ because the quantity may be stationary at one state.
 """
 
 NEARLY = 1e-14
-"""If rounding errors have moved a state off the manifold, a quantity counts as exactly conserved if a step
-from this state changes it by less than NEARLY, and not EXACT, relative to its size."""
+"""For a state that rounding errors have moved off the manifold, NEARLY replaces the bound EXACT: a quantity
+counts as exactly conserved if a step from this state has a smaller relative change."""
 
 
 @dataclass(frozen=True)
@@ -173,8 +173,8 @@ def exactly_conserved(
 
 
 def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str, float]:
-    """Return, for each quantity, the largest change by a single step among the first :data:`CHAIN` steps, in
-    60 digits.
+    """Return the largest change of each quantity in one of the first :data:`CHAIN` steps, computed with 60
+    digits.
 
     The steps begin at the initial state of the scene in 60 digits, so all states are on the manifold. The
     result is empty if the interpreter cannot make the steps.

@@ -82,10 +82,10 @@ def symplectic_defect(
     t: float = 0.0,
     near: list[list[float]] | None = None,
 ) -> float:
-    """Return the largest entry of J^T Omega(end) J - Omega(start) divided by the largest entry of
-    Omega(start).
+    """Return the largest absolute entry of J^T Omega(end) J - Omega(start), divided by the largest absolute
+    entry of Omega(start).
 
-    Entries are compared by absolute value.
+    J is the tangent map of the step, and Omega is the matrix of the symplectic form.
 
     ``state`` contains the coordinates of the group element, then the momentum. The scene must be Hamiltonian.
     Implicit blocks are solved by fixed-point iteration. If the iteration does not converge, Newton's method

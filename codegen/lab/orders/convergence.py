@@ -70,7 +70,8 @@ class Convergence:
 
     @property
     def limit(self) -> float:
-        """The highest order that equal steps can have if the solution has kinks; infinity if it has none."""
+        """The highest order that equal steps can have in spite of the kinks of the solution; infinity if the
+        solution has no kinks."""
         # If k derivatives of the field are continuous at a kink, the local error of the step that contains
         # the kink has order k + 2. The number of steps that contain a kink does not depend on h, so the error
         # at the end has this order, too.

@@ -125,7 +125,7 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
 
     Raises :class:`codegen.errors.SceneError` if the field is not rational in the coordinates, for example if
     it calls ``sqrt``. Raises :class:`codegen.errors.MethodError` if the coefficients are balls, because a
-    ball does not show if a number is zero.
+    ball does not determine whether a number is zero.
     """
     ring = method.ring
     third = ring.rational(1, 3)

@@ -88,9 +88,9 @@ def leading_term(error: Vector) -> tuple[int, Vector]:
 def predicted(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficients of h^power that the order conditions of a method predict.
 
-    All lower coefficients must vanish. ``scene`` is the problem from which the program was lowered. It must
-    be autonomous and polynomial. For symplectic partitioned methods the scene must be Hamiltonian on T*R^n,
-    and the order conditions are those of trees with directed edges.
+    The coefficients of all lower powers must vanish. ``scene`` is the problem from which the program was
+    lowered. It must be autonomous and polynomial. For symplectic partitioned methods the scene must be
+    Hamiltonian on T*R^n, and the order conditions are those of trees with directed edges.
     """
     if not scene.autonomous:
         raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")

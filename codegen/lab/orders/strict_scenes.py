@@ -5,9 +5,9 @@ axis, generators orthogonal to the state, or fields that do not depend on time. 
 every field f is polynomial and depends on state and time, and the values of f at different points do not
 commute. On the sphere, f has a component along the state. The groups are SO(3), GL(3) and the unipotent 4 x 4
 matrices, which are nilpotent of class three. The groups act on themselves or on vectors. Variational methods
-run on T*G with Hamiltonians that have no symmetry and depend on time. Methods for linear problems run on
-fields that depend on the time alone, under left and right actions. Splittings run on Hamiltonians in three
-parts with exact flows; no two of these flows commute.
+run on T*G with Hamiltonians that have no symmetry and depend on time. Methods for linear equations
+y' = A(t).y run on such equations, under left and right actions. Splittings run on Hamiltonians in three parts
+with exact flows; no two of these flows commute.
 """
 
 from __future__ import annotations
@@ -227,8 +227,8 @@ def _of_time(name: str, group: LieGroup, action: Action, f: Matrix, start: Seque
 
 
 def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
-    """Return the scenes for a family: field scenes, linear problems whose field depends on time alone,
-    Hamiltonian scenes, or Hamiltonians with exact flows."""
+    """Return the scenes for a family: field scenes, linear problems y' = A(t).y, Hamiltonian
+    scenes, or Hamiltonians in parts with exact flows."""
     if isinstance(family, LinearLowering):
         return linear_fields()
     if isinstance(family, FlowLowering):

@@ -138,7 +138,7 @@ parts.
 
 GRID = 120
 """The number of grid points in each direction. The number is even, so that no grid point is on an axis. Many
-stable regions are bounded by the imaginary axis, and on a boundary, rounding errors decide if |R| <= 1.
+stable regions are bounded by the imaginary axis, and on a boundary, rounding errors decide whether |R| <= 1.
 """
 
 MARGIN = 0.7

@@ -119,8 +119,8 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
 
 def _formula(problem: Problem, quantity: Quantity) -> Any:
-    """Return the formula of a quantity; raise SceneError if the quantity is the name of an invariant. A scene
-    with sites declares invariants of one site; they are constant, so their means are not drawn."""
+    """Return the formula of a quantity; raise SceneError if the quantity is the name of an invariant. In a
+    scene with sites, an invariant is constant at every site, so its mean need not be drawn."""
     if isinstance(quantity, str):
         raise SceneError(
             f"the name {quantity!r} in place of a formula", where=problem.name, expected="a sympy formula"

@@ -1,8 +1,8 @@
 """Draws the motion of a body that consists of bars as an SVG element with an animation.
 
-The animation is a list of keyframes in a style element; it needs no script. A page without animations, a
-printed page, and a reader who prefers reduced motion show the bars at the first time, the curve of one point
-and the bars at a few later times.
+The animation is a list of keyframes in a style element; it needs no script. On paper, in a browser without
+animations, and in a browser that is set to reduced motion, the picture shows the bars at the first time, the
+curve of one point and the bars at a few later times.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ exact result shows the number of digits that the input *determines*.
   rotation by 1e20 radians has no correct digit. The emitted code should return a status for this step.
 - A result is *wrong* if it is finite and rounding does not explain its error.
 
-The number of correct digits refers to the size of a block of the state, before or after the step; the larger
+Correct digits are counted relative to the size of a block of the state, before or after the step; the larger
 of these two sizes is used. Numbers below the smallest normal double count as zero.
 
 The equations of a long implicit step have several solutions. If fixed-point iteration converges in the
@@ -161,7 +161,7 @@ def _firsts(compiled: Compiled) -> list[int]:
 
 
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
-    """Return the state in which momenta, points that are rotated, and elements of abelian groups are
+    """Return the state in which momenta, points on which rotations act, and elements of abelian groups are
     multiplied by ``scale``. The result is None if the state has no such part or if a number overflows.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
@@ -238,8 +238,8 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
     """Return the state after the step in 60 digits, and the states after the steps of the probes.
 
-    The equations of a long step contain numbers of the size of h^2, whose differences have fewer correct
-    digits. Newton's method therefore solves these equations in more than 60 digits.
+    The equations of a long step contain differences of numbers of the size of h^2. These differences have
+    fewer correct digits than the numbers, so Newton's method solves these equations in more than 60 digits.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -282,7 +282,8 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 
 
 class Rounding(BallDomain):
-    """Arithmetic with many digits in which every result of an operation has one rounding error of a double.
+    """Arithmetic with many digits that changes the result of every operation by one rounding error of a
+    double.
 
     Two rounding errors are added to the right-hand side of every equation: the first is relative to this
     right-hand side, the second is relative to the right-hand side of the next equation. The signs of all

@@ -2,8 +2,8 @@
 usable.
 
 A number of equal steps over the span is usable if no step fails and the final error is below a tenth of the
-state's size. If the scene conserves an energy, the energy must also change by at most a tenth of its size.
-If n is the smallest usable number of steps, the reported reason is why n - 1 steps are not usable: a solver
+state's size. If the scene conserves an energy, the energy must also change by at most a tenth of its size. If
+n is the smallest usable number of steps, the reported reason says why n - 1 steps are not usable: a solver
 failed, a number was not finite, the energy changed too much, or the error was too large.
 """
 

@@ -66,8 +66,8 @@ class FunctionPrinter:
         return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def forms(self, name: str, near: bool = False) -> str:
-        """Return the name of the variant of a function that a caller uses; ``near`` is true for a caller
-        without branches."""
+        """Return the name of the variant to call for the function ``name``; ``near`` is true if the caller
+        has no branches."""
         # In a module with loops over lanes or sites, the loops evaluate sines and cosines by polynomials.
         # Scalar functions use the same polynomials where these are valid, so that loops and scalar functions
         # have the same roundings.

@@ -209,9 +209,9 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
 
     At -O0 a call uses about as much stack as the bound without the margin, because each name has its own
-    slot. Tests compare the bound with the numbers that ``-fstack-usage`` prints, and with the part of a
-    stack, filled with a known value before a call, that the call changes. :class:`SceneError` is raised if
-    the bound exceeds :data:`LARGEST_STACK`.
+    slot. Tests compare the bound with the numbers that ``-fstack-usage`` prints. They also fill a stack with
+    a known value, and compare the bound with the number of bytes that a call then changes.
+    :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # The function ``invert`` has local variables (scalars, a row, a permutation), so the bound of a step that
