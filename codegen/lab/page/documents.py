@@ -136,7 +136,13 @@ def _environment() -> Environment:
     )
     environment.filters["power"] = scientific
     environment.filters["key"] = key
+    environment.filters["breakable"] = _breakable
     return environment
+
+
+def _breakable(name: str) -> Markup:
+    """Return a name as HTML in which a line may end after a colon and after an underscore."""
+    return Markup(re.sub("([:_])", r"\1<wbr>", str(escape(name))))
 
 
 def _title(scene: Problem) -> str:

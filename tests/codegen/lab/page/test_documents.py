@@ -44,7 +44,7 @@ def with_part(results: SceneResults, kind, *found) -> SceneResults:
     return replace(results, measured=tuple(map(changed, results.measured)))
 
 
-VOID = {"meta", "br", "hr", "img", "link"}
+VOID = {"wbr", "meta", "br", "hr", "img", "link"}
 
 
 class Balanced(HTMLParser):
@@ -365,7 +365,9 @@ def test_every_picture_has_title_and_description(page: str) -> None:
 def keys(text: str) -> dict[str, set[tuple[str, ...]]]:
     """Return the looks of each method in the tables: colour and outline of its key."""
     looks: dict[str, set[tuple[str, ...]]] = {}
-    for key, label in re.findall(r'<svg class="key"(.*?)</svg><code>([^<]+)</code>', text, flags=re.DOTALL):
+    for key, label in re.findall(
+        r'<svg class="key"(.*?)</svg><code>([^<]+)</code>', text.replace("<wbr>", ""), flags=re.DOTALL
+    ):
         found = re.findall(r"stroke:(var\([^)]+\))", key)[:1] + re.findall(r'd="(M[^"]+Z)"', key)
         looks.setdefault(label.removeprefix("adaptive "), set()).add(tuple(found))
     return looks
