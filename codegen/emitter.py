@@ -126,8 +126,7 @@ def compile_method(
     (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
     times, ``events`` is the number of event functions of this run, and ``dense`` uses the continuous
     extension of the tableau at output times. ``compensate`` extends the state by the carries of compensated
-    summation (:mod:`codegen.kernel.compensation`). Errors: SceneError, MethodError, UnknownName,
-    TableauError.
+    summation (:mod:`codegen.kernel.compensation`). Errors: subclasses of InputError.
     """
     request = RunRequest(**run)
     scene = _with_arguments(scenes.problem_of(scene), parameters, inputs)
