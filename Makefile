@@ -62,7 +62,7 @@ test-all: $(INSTALLED)
 
 bench: $(INSTALLED) compiler
 	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[peers]'
-	@set -e; for script in benchmarks/*.py; do echo "$$script"; $(BIN)/python $$script; done
+	@set -e; for script in $(filter-out benchmarks/scale_all.py,$(wildcard benchmarks/*.py)); do echo "$$script"; $(BIN)/python $$script; done
 
 # MkDocs stops at the first broken link (--strict).
 docs: $(INSTALLED)

@@ -124,8 +124,8 @@ def _peer(
     raise SystemExit(f"heyoka does not reach the error {error:g} on {scene}")
 
 
-def rows(case: Case, systems: int, turns: int, error: float) -> Iterator[str]:
-    """Yield one row of the table for heyoka, and one for each method."""
+def rows(case: Case, systems: int, turns: int, error: float) -> Iterator[tuple[str, float]]:
+    """Yield one row of the table for heyoka, and one for each method, with the ratio heyoka / program."""
     lanes = heyoka.recommended_simd_size()
     systems += -systems % lanes
     start = np.array([float(x) for x in scenes.load(case.scene).initial(FloatDomain(0.0))])
@@ -147,23 +147,25 @@ def rows(case: Case, systems: int, turns: int, error: float) -> Iterator[str]:
     base = statistics.median(times["heyoka"])
     yield (
         f"| {case.scene} | heyoka {heyoka.__version__}, {lanes} systems at once | tolerance {tolerance:.0e} "
-        f"| {reached:.1e} | {base * scale:.2f} | 1 | - |"
+        f"| {reached:.1e} | {base * scale:.2f} | 1 | - |",
+        0.0,
     )
     for method in case.methods:
         if method not in found:
-            yield f"| {case.scene} | {method} | not reached | - | - | - | - |"
+            yield f"| {case.scene} | {method} | not reached | - | - | - | - |", 0.0
             continue
         candidate, deviation = found[method]
         ratios = [a / b for a, b in zip(times["heyoka"], times[method], strict=True)]
         low, middle, high = statistics.quantiles(ratios, n=4)
         yield (
             f"| {case.scene} | {method} | {candidate.steps} steps | {deviation:.1e} "
-            f"| {statistics.median(times[method]) * scale:.2f} | {middle:.2f} | {low:.2f} to {high:.2f} |"
+            f"| {statistics.median(times[method]) * scale:.2f} | {middle:.2f} | {low:.2f} to {high:.2f} |",
+            middle,
         )
 
 
-def main() -> None:
-    """Print a table with a row for each scene and program."""
+def main() -> int:
+    """Print a table with a row for each scene and program; return 1 if heyoka is the fastest on a scene."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--systems", type=int, default=1000, help="systems in a batch")
     parser.add_argument("--turns", type=int, default=15, help="measurements of each program")
@@ -171,10 +173,15 @@ def main() -> None:
     options = parser.parse_args()
     print("| scene | program | control | error | us per system | heyoka / program | quartiles |")
     print("|---|---|---|---:|---:|---:|---:|")
+    slower = False
     for case in CASES:
-        for row in rows(case, options.systems, options.turns, options.error):
+        best = 0.0
+        for row, ratio in rows(case, options.systems, options.turns, options.error):
             print(row, flush=True)
+            best = max(best, ratio)
+        slower |= best < 1
+    return int(slower)
 
 
 if __name__ == "__main__":
-    main()
+    raise SystemExit(main())

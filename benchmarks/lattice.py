@@ -1,11 +1,12 @@
 """Time emitted steps of a spin lattice beside the same loops written by hand in C, and beside NumPy.
 
-    python benchmarks/lattice.py [--side N] [--turns N]
+    python benchmarks/lattice.py [--side N] [--turns N] [--threads N]
 
 The scene is `spin_lattice` with N x N spins. One compiler builds the emitted C and the C of
 benchmarks/handwritten with the same flags. Both make the same steps in turns in one process. The ratio of
 their CPU times is printed with the median and the quartiles of all turns, and the largest difference of
-their states. A vectorised step of cf4 in NumPy is timed after them.
+their states. A vectorised step of cf4 in NumPy is timed after them. With --threads only the emitted code is
+timed, by wall time, for lattices of several sizes: without OpenMP, and with OpenMP on 1 and on N processors.
 """
 
 from __future__ import annotations
@@ -15,15 +16,18 @@ import statistics
 import subprocess
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from codegen import emit
-from codegen.build import compile_files, find_compiler
+from codegen.build import build, compile_files, find_compiler
 from codegen.emitter import compile_method
 from codegen.ir.site_step import traffic
+from codegen.lattice import CompiledLattice
+from codegen.loader import LOOP_FLAGS
 from codegen.printers.c.module import VECTOR_FLAGS
+from codegen.printers.interface import Interface
 
 HERE = Path(__file__).parent
 SCENE = "spin_lattice"
@@ -140,12 +144,48 @@ def numpy_seconds(side: int, steps: int = 2) -> float:
     return (time.process_time() - start) / steps
 
 
+def threads_compared(method: str, sides: Sequence[int], threads: int, turns: int) -> None:
+    """Print the wall time of a step without OpenMP, and with OpenMP on one and on several processors."""
+    import cffi
+    import numpy as np
+
+    artifact = emit(SCENE, method, target="c")
+    interface = Interface.from_json(artifact.manifest["interface"])
+    ffi = cffi.FFI()
+    ffi.cdef("void omp_set_num_threads(int);")
+    paths = [build(artifact.files, (*LOOP_FLAGS, *more)) for more in ((), ("-fopenmp",))]
+    alone, shared = (CompiledLattice(interface, artifact.manifest["defaults"], path) for path in paths)
+    openmp = ffi.dlopen(str(paths[1]))
+    kinds = [("without OpenMP", alone, 0), ("1 thread", shared, 1), (f"{threads} threads", shared, threads)]
+    for side in sides:
+        shape, least = (side, side), dict.fromkeys((name for name, _, _ in kinds), float("inf"))
+        steps = max(1, 400_000 // side**2)
+        spins = np.random.default_rng(1).normal(size=(3, side, side))
+        spins /= np.linalg.norm(spins, axis=0)
+        work = np.zeros(interface.workspace * side**2)
+        for _ in range(turns):
+            for name, lattice, number in kinds:
+                if number:
+                    openmp.omp_set_num_threads(number)
+                table = spins.copy()
+                start = time.perf_counter()
+                lattice.advance(shape, table, (0.0, H, steps), [], work)
+                least[name] = min(least[name], (time.perf_counter() - start) / steps)
+        times = ", ".join(f"{name} {1e6 * seconds:.0f} us" for name, seconds in least.items())
+        print(f"{method}, {side} x {side}: {times} for a step")
+
+
 def main() -> int:
     """Print the table; return 1 if a required ratio is missed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--side", type=int, default=1000)
     parser.add_argument("--turns", type=int, default=15)
+    parser.add_argument("--threads", type=int, default=0)
     chosen = parser.parse_args()
+    if chosen.threads:
+        for method in METHODS.values():
+            threads_compared(method, (32, 64, 128, 1000), chosen.threads, chosen.turns)
+        return 0
     missed, emitted = False, {}
     print(f"{chosen.side} x {chosen.side} spins; {find_compiler().version}; {' '.join(FLAGS)}")
     for name, method in METHODS.items():

@@ -78,12 +78,16 @@ def compared(scene: str, errors: list[float], budget: float, end: float) -> tupl
             continue
         runs = [advice.places[0], *reached]
         times = timed(scene, runs)
-        least = min(times)
-        worst = max(worst, times[0] / least)
+        # The exhaustive search compiles the recommended program again. Two copies of a program may differ in
+        # time, because their code is at different addresses, so the least time of both counts.
+        first = runs[0].entry.recipe, runs[0].control
+        copies = [t for t, r in zip(times, runs, strict=True) if (r.entry.recipe, r.control) == first]
+        own, least = min(copies), min(times)
+        worst = max(worst, own / least)
         labels = [runs[0].entry.recipe.label, runs[times.index(least)].entry.recipe.label]
         lines.append(
-            f"| {scene} | {error:g} | {labels[0]} | {1e6 * times[0]:.3g} µs | {search:.0f} s "
-            f"| {labels[1]} | {1e6 * least:.3g} µs | {times[0] / least:.2f} |"
+            f"| {scene} | {error:g} | {labels[0]} | {1e6 * own:.3g} µs | {search:.0f} s "
+            f"| {labels[1]} | {1e6 * least:.3g} µs | {own / least:.2f} |"
         )
     return lines, worst, f"{scene}: {every.recipes} recipes: {every.text()}"
 

@@ -1,4 +1,5 @@
-"""The compiler: it translates a scene and a method to a step program, and the step program to Python or C.
+"""The compiler. A scene describes a differential equation on a manifold. The compiler translates a scene and
+a method to a step program, and the step program to Python or C.
 
 >>> import codegen
 >>> integrator = codegen.load(codegen.emit("free_rigid_body", "cf4", target="python"))

@@ -12,7 +12,8 @@ MOST = 2**63 - 1
 
 
 def real(x: object, name: str) -> float:
-    """Return a number as a float; TypeError for text, complex numbers, arrays and all other objects.
+    """Return ``x`` as a float. TypeError is raised for text, for a complex number and for an object that
+    ``float`` does not accept; ValueError is raised if the float would be infinite because ``x`` is too large.
 
     >>> real("0.1", "h")
     Traceback (most recent call last):
@@ -50,15 +51,18 @@ def count(x: object, name: str, least: int = 0) -> int:
 
 
 def numbers(inputs: object) -> tuple[float, ...]:
-    """Return the run-time inputs of one step, which are constant during the step, as floats."""
+    """Return the values of the run-time inputs in one step as floats; the inputs are constant during a step.
+    TypeError is raised if ``inputs`` is not a sequence of numbers."""
     if isinstance(inputs, str) or not isinstance(inputs, Iterable):
         raise TypeError(f"expected a sequence of numbers for inputs, found {described(inputs)}")
     return tuple(real(x, "inputs") for x in inputs)
 
 
 def monotone(t: float, times: object) -> list[float]:
-    """Return the times ``t_eval`` as floats; ValueError if a time is not finite, or if t followed by the
-    times is not a monotone sequence.
+    """Return ``times`` as floats. They are the output times ``t_eval`` of a run that starts at the time t.
+
+    ValueError is raised if a time is not finite, or if the sequence of t and the times both increases and
+    decreases. TypeError is raised if ``times`` is not a sequence of numbers.
 
     >>> monotone(0.0, [0, 1])
     [0.0, 1.0]
@@ -88,6 +92,6 @@ def described(x: object) -> str:
         return f"an object of type {type(x).__name__}"
     try:
         shown = str(x) if isinstance(x, Number) else repr(x)
-    except ValueError:  # an integer with thousands of digits
+    except ValueError:  # Python does not convert an integer with thousands of digits to text
         shown = "a number"
     return f"{shown if len(shown) <= 60 else shown[:60] + ' ...'} of type {type(x).__name__}"

@@ -1,4 +1,5 @@
-"""The results of runs: statuses, errors, arrivals, statistics, and the checked arguments of a call."""
+"""The result of a run, its status, its error, and the counts of its iterations; also the checked arguments of
+a call."""
 
 from __future__ import annotations
 
@@ -11,7 +12,7 @@ from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.state_form import Batch, State, StateForm
 
 Signals = Callable[[float], Sequence[float]]
-"""A function from the time to the run-time inputs."""
+"""A function that returns the values of the run-time inputs at a given time."""
 
 
 SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
@@ -19,7 +20,7 @@ SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
 
 
 class Status(IntEnum):
-    """The result of a step; emitted code returns these numbers."""
+    """The status of a step or a run; emitted code returns the number of the status."""
 
     OK = 0
     NOT_CONVERGED = 1
@@ -41,8 +42,9 @@ class StepFailed(ArithmeticError):
     """The error of a failed step: its status, the number of steps completed before it, and the state after
     these steps.
 
-    If the step belongs to an adaptive run or to a call of ``integrate``, ``arrival`` contains the last good
-    state, its time, and the size of the next step. The run can be continued from this state.
+    If the step belongs to an adaptive run or to a call of ``integrate``, ``arrival`` contains the state after
+    the last successful step, its time, and the size of the next step. The run can be continued from this
+    state.
     """
 
     arrival: Arrival | None = None
@@ -65,7 +67,7 @@ class Arrival:
     states: State = None
     """The states at the times ``t_eval``; None without such times."""
     crossings: tuple[Crossing, ...] = ()
-    """The events that a run of ``integrate`` has found, in order."""
+    """The zeros of event functions that a run of ``integrate`` has found, in the order of the run."""
     status: Status = Status.OK
     """EVENT if a terminal event ended the run, otherwise OK. If the arrival belongs to a :class:`StepFailed`
     error, this is the status of the failed step."""
@@ -74,8 +76,8 @@ class Arrival:
 @dataclass(frozen=True)
 class Reached:
     """The results of one call of the emitted function that integrates to a given end time. States are flat
-    sequences of numbers, not yet converted to the type of the caller's state. Each of the ``events`` is
-    (index, time, direction, state)."""
+    sequences of numbers, not yet converted to the type of the caller's state. Each of the ``events`` is a
+    tuple: the index of the event function, the time, the direction of the zero, and the state."""
 
     status: int
     state: Sequence[float]
@@ -105,8 +107,9 @@ class Statistics:
 
 @dataclass(frozen=True)
 class Begun:
-    """The checked arguments of a call. ``form`` converts results to the type of the caller's state,
-    ``numbers`` are the coordinates of the state, ``values`` the values of the parameters."""
+    """The checked arguments of a call that integrates. ``form`` converts results to the type of the caller's
+    state, ``numbers`` are the coordinates of the state, ``values`` the values of the parameters. ``solvers``
+    are the solvers that the emitted module uses for its implicit blocks."""
 
     form: StateForm
     numbers: list[float]
@@ -118,7 +121,8 @@ class Begun:
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
         """Return the error of a failed step; its state has the type of the caller's state.
 
-        If an implicit block did not converge, the message contains the names of the other solvers.
+        If an implicit block did not converge, the message recommends shorter steps, and the solvers that the
+        module does not use.
         """
         if status == Status.NOT_CONVERGED:
             others = [s for s in SOLVERS if s not in self.solvers]
@@ -128,7 +132,8 @@ class Begun:
 
 
 def joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
-    """Return the result of adaptive runs from all states of a batch."""
+    """Return one result for the adaptive runs of a batch. The final states are joined, the counts are added,
+    and t and h are those of the last run."""
     last = arrivals[-1]
     states = None if last.states is None else batch.joined([x.states for x in arrivals])
     accepted, rejected = sum(x.accepted for x in arrivals), sum(x.rejected for x in arrivals)

@@ -43,8 +43,8 @@ class Artifact:
     def write(self, directory: str | Path) -> list[Path]:
         """Write files and manifest into a folder, which is created if it is missing; return their paths.
 
-        Other modules of the folder are kept. InputError is raised if the folder cannot be written to, or if
-        files of another method have the same names.
+        Other modules of the folder are kept. InputError is raised if the folder cannot be written to, or if a
+        module of another scene or method has the same name.
         """
         folder = Path(directory)
         try:
@@ -64,8 +64,8 @@ class Artifact:
             ) from None
 
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
-        """Raise an InputError if this module would overwrite the files of an entry that belongs to another
-        method.
+        """Raise an InputError if ``entry`` has the name and the target of this module, but another scene or
+        method. This module would then overwrite the files of the entry.
 
         Two methods such as ``a.b`` and ``a-b`` have the same default module name. If the user chose the
         prefix of one of the two modules with ``--prefix``, the equal names are intended, and no error is
@@ -84,9 +84,9 @@ class Artifact:
 
 @contextmanager
 def writing(folder: Path) -> Iterator[None]:
-    """Lock a folder for writing, and remove temporary files of writers that were killed."""
+    """Lock a folder for writing, and remove the temporary files that killed processes have left."""
     with locked(folder) as held:
-        if held:  # without the lock, a temporary file may belong to a process that is still writing
+        if held:  # if the lock failed, another process may be writing its temporary file
             for path in folder.iterdir():
                 if is_temporary(path.name):
                     path.unlink(missing_ok=True)
@@ -129,7 +129,8 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
 
 
 def _is_entry(entry: Mapping[str, Any]) -> bool:
-    """Return True if an entry has the required keys, of the right types."""
+    """Return True if the values of an entry are text and its file names contain no folder. KeyError is raised
+    if a key is missing."""
     files = entry["files"]
     plain = [entry["module"], entry["target"], *files, *files.values()]
     return all(isinstance(x, str) for x in plain) and not any("/" in name or "\\" in name for name in files)

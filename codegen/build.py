@@ -1,9 +1,9 @@
 """Compile emitted C to a shared object. The shared object is stored in a cache. It is used again if the
 sources, the compiler and its flags are the same.
 
-The compiler writes into a temporary folder inside the cache, and the finished file is renamed
-(:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes may build the same
-module at once.
+The compiler writes into a temporary folder inside the cache. The finished file is then copied to its final
+name atomically (:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes
+may build the same module at once.
 """
 
 from __future__ import annotations
@@ -34,11 +34,12 @@ instead."""
 
 
 class CompilerMissing(InputError):
-    """Raised if there is no C compiler, or if the command in $CC does not exist."""
+    """Raised if there is no C compiler, or if the command in $CC cannot be run."""
 
 
 class CompileError(InputError):
-    """Raised if the compiler rejects the source; the error contains the message of the compiler."""
+    """Raised if the compiler rejects the source; the error contains the message of the compiler. It is also
+    raised if the compiler takes too long."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class Compiler:
 def find_compiler() -> Compiler:
     """Return the C compiler: $CC if it is set, else the first of cc, gcc and clang that exists.
 
-    CompilerMissing is raised if there is none.
+    CompilerMissing is raised if none of them exists, or if the command in $CC cannot be run.
     """
     return _find(os.environ.get("CC", ""), os.environ.get("PATH", os.defpath))
 
@@ -93,11 +94,13 @@ def build(
     compiler: Compiler | None = None,
     *,
     again: bool = False,
+    seconds: float | None = None,
 ) -> Path:
     """Return the path of a shared object compiled from C files; ``files`` maps their names to their texts.
 
     A cached file is used if its content has the recorded digest; with ``again`` the files are always
-    compiled. Errors: CompilerMissing, CompileError, and InputError if the result cannot be written.
+    compiled. ``seconds`` limits the time of the compiler. Errors: CompilerMissing, CompileError, and
+    InputError if the result cannot be written.
     """
     compiler = compiler or find_compiler()
     suffix = ".dylib" if sys.platform == "darwin" else ".so"
@@ -108,7 +111,8 @@ def build(
     while again or recall(directory / file) is None:
         try:
             with working_directory(directory) as folder:
-                compile_files(files, folder, folder / "out", (*flags, "-fPIC", "-shared"), compiler)
+                shared = (*flags, "-fPIC", "-shared")
+                compile_files(files, folder, folder / "out", shared, compiler, seconds)
                 keep(directory / file, (folder / "out").read_bytes())
             break
         except OSError as error:
@@ -132,22 +136,34 @@ def compile_seconds(files: Mapping[str, str]) -> float:
 
 
 def compile_files(
-    files: Mapping[str, str], directory: Path, output: Path, flags: tuple[str, ...], compiler: Compiler
+    files: Mapping[str, str],
+    directory: Path,
+    output: Path,
+    flags: tuple[str, ...],
+    compiler: Compiler,
+    seconds: float | None = None,
 ) -> None:
-    """Write files into a directory and compile its C sources; raise CompileError if the compiler fails."""
+    """Write files into a directory and compile its C sources; raise CompileError if the compiler fails, or if
+    it does not end within ``seconds``."""
     for name, text in files.items():
         (directory / name).write_text(text, encoding="utf-8")
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    # The compiler writes its temporary files into this folder. They are removed with the folder, even if the
-    # compiler is killed.
+    # With TMPDIR the compiler writes its temporary files into ``directory``. The caller removes this
+    # directory, so no temporary file remains even if the compiler is killed.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
-        answer = _finished(command, directory, environment)
+        answer = _finished(command, directory, environment, seconds)
     except FileNotFoundError:
         raise CompilerMissing(
             f"the compiler {compiler.command[0]} no longer exists", where="$CC", hint="set CC to a C compiler"
+        ) from None
+    except subprocess.TimeoutExpired:
+        raise CompileError(
+            f"{compiler.command[0]} did not compile the module within {seconds:g} seconds",
+            where=", ".join(sources),
+            hint="choose a method with fewer operations",
         ) from None
     if answer.returncode or not output.exists():
         words = (answer.stderr or answer.stdout).strip()
@@ -160,9 +176,10 @@ def compile_files(
 
 
 def _finished(
-    command: Sequence[str], directory: Path, environment: Mapping[str, str]
+    command: Sequence[str], directory: Path, environment: Mapping[str, str], seconds: float | None
 ) -> subprocess.CompletedProcess[str]:
-    """Run a compiler and return its output. If the call is interrupted, all processes of the compiler end."""
+    """Run a compiler and return its output. If the call is interrupted, or if the time limit is exceeded, all
+    processes of the compiler end."""
     # A compiler starts other programs, such as an assembler. They would continue if only the compiler were
     # killed, so all of them belong to one process group.
     with subprocess.Popen(
@@ -176,7 +193,7 @@ def _finished(
         process_group=0,
     ) as process:
         try:
-            output, messages = process.communicate()
+            output, messages = process.communicate(timeout=seconds)
         except BaseException:
             os.killpg(process.pid, signal.SIGKILL)
             raise

@@ -70,8 +70,8 @@ def _require_private(folder: Path) -> None:
 
 @cache
 def temporary_directory(why: str) -> Path:
-    """Return a temporary folder for this process alone. It is removed when the process ends. The reason
-    ``why`` is logged once."""
+    """Return a temporary folder for this process alone. It is removed when the process ends. A warning is
+    logged once; it contains ``why``, the reason why the cache cannot be used."""
     logging.getLogger("orderconds").warning(
         "orderconds: the cache cannot be used (%s); compiled modules are kept in a temporary folder until "
         "the process ends; set XDG_CACHE_HOME to a folder that you own",
@@ -149,11 +149,12 @@ def working_directory(folder: Path) -> Iterator[Path]:
 
 
 def _sweep(folder: Path) -> None:
-    """Remove the working folders whose processes have ended, and old temporary files."""
+    """Remove temporary files and working folders older than SETTLED seconds, except working folders that a
+    process has locked."""
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:
-                continue  # the process that has created the folder may not have locked it yet
+                continue  # a new folder may belong to a process that has not locked it yet
             if is_temporary(path.name):
                 path.unlink()
             elif path.name.startswith(WORKING) and path.is_dir():

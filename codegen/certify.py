@@ -30,7 +30,7 @@ class CertifiedOrder:
     If ``bound`` is true, no condition failed up to the largest order that was examined, so the order may be
     higher. If the order was computed for an abelian group, ``classical`` is the classical family to which the
     method reduces on this group. ``radius`` is the uncertainty of the coefficients if it exceeds the rounding
-    error of a double; in this case there is no certificate.
+    error of a double, otherwise the empty text. A method with such an uncertainty has the certificate "none".
     """
 
     order: int
@@ -74,8 +74,8 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
     """Return the order of a method in its family; raise a MethodError if the precision of the coefficients
     does not determine the order.
 
-    On a ``scene`` with an abelian group the method belongs to a classical family, whose conditions determine
-    the order.
+    If the group of ``scene`` is abelian, a method of some families reduces to a classical method. The
+    conditions of the classical family are then used, if they determine the order.
     """
     from orderconds.checking import check
 
@@ -95,7 +95,8 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
 
 def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision, scene: Problem) -> str:
-    """Return a sentence for a header: how well the order conditions hold at the rounded coefficients."""
+    """Return a sentence for a header: how well the order conditions hold if the coefficients are rounded to
+    the precision ``target``."""
     from orderconds import families
 
     lowered = lowering(method.family)
@@ -109,7 +110,7 @@ def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision,
 
 
 def upwards(x: float) -> str:
-    """Return the text of a positive number, rounded up to two digits.
+    """Return the text of a positive number, rounded up to two significant digits.
 
     >>> upwards(1.01e-16), upwards(2e-5)
     ('1.1e-16', '2.0e-05')

@@ -150,8 +150,9 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield the arguments for inputs and statistics. After the call, raise the error that an input
-        function has raised during the call, if any."""
+        """Yield the arguments of the C call for the inputs, and its argument for the counts of iterations. At
+        the end of the block raise the error that the input function has raised in the C call; if there is
+        none, add the counts to the caller's statistics."""
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
         counted = [self._ffi.new(f"{prefix}statistics *")] if blocks else []
@@ -161,7 +162,7 @@ class CompiledIntegrator(Integrator):
         self._count(counted[0] if counted else None, begun.statistics)
 
     def _block(self, counted: list[Any]) -> str:
-        """Return the label of the block that failed; '' if no block failed."""
+        """Return the label of the implicit block that did not converge in the C call; '' if all converged."""
         failed = counted[0].failed if counted else 0
         return self.interface.blocks[failed - 1] if failed else ""
 
@@ -205,7 +206,7 @@ class _Buffers:
         return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
 
     def crossings(self) -> list[tuple[int, float, int, list[float]]]:
-        """Return the events that the call has found."""
+        """Return the zeros that the call has found: index of the event function, time, direction, state."""
         n = self.size
         events = []
         for k in range(self.count[0]):

@@ -1,7 +1,8 @@
 """Translate a scene and a method, or a kernel, to emitted files and a manifest entry.
 
-:func:`compile_method` runs the whole compiler: lowering, passes, kernel. Emitted files depend on scene,
-method and options only, so the same arguments give the same bytes.
+:func:`compile_method` runs the whole compiler. It lowers the method to a step program, optimises the program
+in passes, and translates it to a kernel, which consists of scalar assignments and loops. Emitted files depend
+on scene, method and options only, so the same arguments give the same bytes.
 """
 
 from __future__ import annotations
@@ -59,8 +60,8 @@ Additions and products cost 1, and functions that are not listed cost 12."""
 
 @dataclass(frozen=True)
 class Optimised:
-    """A method on a scene, ready to be interpreted: its step program before the first pass, and after each
-    pass.
+    """A method on a scene, ready to be interpreted. ``lowered`` is its step program before the first pass of
+    the compiler, ``program`` the step program after the last pass. ``trace`` has a report of each pass.
 
     ``problem`` is the scene in the form that the method's family requires.
     """
@@ -198,8 +199,9 @@ def compensated(compiled: Compiled) -> Compiled:
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module also has a function that steps many independent systems.
 
-    C compilers do not vectorise a loop over systems if its body calls a function. Therefore, if an explicit
-    step has repeated computations in functions of their own, it is translated again without these functions.
+    C compilers do not vectorise a loop over systems if its body calls a function. If the compiler has moved
+    repeated computations of an explicit step to functions, the step is translated again without functions.
+    MethodError is raised for a semilinear equation.
     """
     kernel = compiled.kernel
     if kernel.modes is not None:
@@ -217,7 +219,8 @@ def with_batch(compiled: Compiled) -> Compiled:
 
 
 def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a method on a scene whose field is given by formulas of matrices."""
+    """Return a compiled method on a scene whose field is given by formulas of large matrices; raise
+    MethodError for an option that such a scene does not support."""
     options = {
         "--jacobian": jacobian,
         "--compensate": request.compensate,
@@ -243,7 +246,8 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
 
 
 def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a method on a chain or lattice, or on a semilinear equation."""
+    """Return a compiled method on a chain or lattice, or on a semilinear equation; raise MethodError if an
+    error estimate, a Jacobian, compensated summation or a run to an end time is requested."""
     requests = {
         "an error estimate": method.adaptive,
         "a Jacobian": jacobian,
@@ -256,8 +260,8 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
         what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
     if scene.semilinear is not None:
-        # If the method has a cut-off, the series of dexp^{-1} is truncated, so the closed form is removed
-        # from the scene.
+        # ``coordinates`` contains the closed form of dexp^{-1}. It is removed if the method has a cut-off,
+        # because such a method truncates the series of dexp^{-1}.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
@@ -296,7 +300,7 @@ def emit(
     batch: bool = False,
     **run: Unpack[RunOptions],
 ) -> Artifact:
-    """Return the integrator of a method on a scene as a module of a target.
+    """Return the integrator of a method on a scene as a module in a target language.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a problem. ``method`` is
     ``FAMILY:TABLEAU``, ``TABLEAU``, or an :class:`orderconds.Tableau`. A tableau is used in ``family``; the
@@ -348,7 +352,7 @@ def emit_compiled(
     *,
     precision: str = DOUBLE.name,
 ) -> Artifact:
-    """Return a compiled method as a module of a target.
+    """Return a compiled method as a module in a target language.
 
     ``named`` contains the names of scene and method for the command that the header shows. ``order`` is the
     result of :func:`certified_order`, if the caller has computed it already.
@@ -399,7 +403,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # If a parameter with a given value remains a run-time argument, the value is the argument's default.
+    # A parameter may be listed without and with a value. It is then a run-time argument with this default.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 
@@ -412,10 +416,10 @@ def emit_kernel(
     about: Mapping[str, Any] | None = None,
     precision: str = DOUBLE.name,
 ) -> Artifact:
-    """Return a kernel as a module of a target; ``about`` is added to the manifest entry.
+    """Return a kernel as a module in a target language; ``about`` is added to the manifest entry.
 
     Every external C name and every file name begins with the prefix. UnknownName is raised for an unknown
-    target.
+    target, InputError if the target or the precision is not available for this kernel.
     """
     interface = Interface.of(kernel, prefix, precision)
     if kernel.batch and not known_target(target).batches:

@@ -4,9 +4,9 @@ The estimate is the difference between the results of the two rows of weights of
 method and of the embedded method. If both rows have the same leading error term, the estimate has a higher
 order than the local error. It is then called blind. RKMK methods with a small cut-off are an example: the
 same brackets are missing in both rows. If the rows have different orders, their results differ at the lower
-order, and the estimate is not blind. The exception is an f that does not depend on the state: both rows may
-then give the same result. For this exception, and for rows of the same order, the orders of the estimate and
-of the local error are computed from very short steps in 100 digits. The local error is measured by the
+order, and the estimate is not blind. The exception is a field that depends on the time alone: both rows may
+then give the same result. In this case, and if the rows have the same order, very short steps are computed in
+100 digits. They give the orders of the estimate and of the local error. The local error is measured by the
 difference between one step of size h and two steps of size h/2.
 """
 
@@ -38,7 +38,7 @@ State = tuple[Scalar, ...]
 
 
 def order_of_estimate(method: Method, scene: Problem) -> int:
-    """Return the power of h in the error estimate of an adaptive method.
+    """Return the power of the step size h in the error estimate of an adaptive method.
 
     :class:`MethodError` is raised if there is no embedded method, or if the estimate has a higher order than
     the local error on this scene.
@@ -47,12 +47,12 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # If f depends on t alone, stages at the same time have the same values, so rows of weights of different
-    # orders may give the same result.
+    # A field that depends on t alone has equal values in stages at the same time, so the weights of the
+    # method and of the embedded method may give the same result although their orders differ.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
-            f"no error estimate for {method.label}: if f does not depend on the state, the method and its "
-            "embedded method give the same result or the same leading error",
+            f"no error estimate for {method.label}: if the field does not depend on the state, the method "
+            "and its embedded method give the same result or the same leading error",
             where=scene.name,
             expected="an embedded method whose result differs on y' = A(t).y",
             hint="use another tableau with an embedded method, for example cf:cf3 or rkmk(4):dormand_prince5",

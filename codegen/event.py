@@ -30,8 +30,8 @@ class Event:
 
     @property
     def stops(self) -> int:
-        """The number that tells emitted code which zeros end the run: zeros with rising values (1), with
-        falling values (2), all zeros (3), or none (0)."""
+        """The number that tells emitted code which zeros end the run: zeros at which the values increase (1),
+        zeros at which the values decrease (2), all zeros (3), or no zeros (0)."""
         return {RISING: 1, FALLING: 2, 0: 3}[self.direction] if self.terminal else 0
 
 
@@ -46,11 +46,11 @@ class Crossing:
 
 
 def events_of(given: object, most: int) -> tuple[Event, ...]:
-    """Return functions and events as a tuple of events; a function becomes an event that does not end the
-    run.
+    """Return the items of a list of functions and events as events. A function becomes an event that does not
+    end the run.
 
-    TypeError is raised for other objects, ValueError for more than ``most`` events or for a direction other
-    than 1, -1 and 0.
+    ``most`` is the number of events that the emitted module accepts; ValueError is raised for more events, or
+    for a direction other than 1, -1 and 0. TypeError is raised for other objects.
 
     >>> events_of([lambda t, y: y[0]], 1)[0].stops
     0
@@ -78,7 +78,7 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
 
 
 class EventValues:
-    """The values of all event functions of a call, in the order of emitted code.
+    """The function that emitted code calls to compute the values of all event functions, in their order.
 
     ``restore`` converts a flat state to the type of the caller's state. If a function raises an error, the
     error is stored, and all values are NaNs, which end the run.
@@ -89,7 +89,7 @@ class EventValues:
         self.failure: BaseException | None = None
 
     def __call__(self, t: float, state: Sequence[float]) -> list[float]:
-        """Return the values at a time and a state."""
+        """Return the values at the time t and a flat state."""
         try:
             form = self.restore(list(state))
             values = [real(event.function(t, form), "the value of an event") for event in self.events]

@@ -14,8 +14,8 @@ from pathlib import Path
 
 @contextmanager
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
-    """Lock an existing folder. Several readers may hold a ``shared`` lock at the same time; such a lock
-    excludes only writers.
+    """Lock an existing folder. Several readers may hold a ``shared`` lock at the same time; it excludes only
+    writers, whose lock is not shared.
 
     Yields True if the lock was acquired, otherwise False. The lock is not acquired if the file system has no
     locks, or if ``wait`` is false and another process holds the lock.
@@ -26,7 +26,7 @@ def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator
     ...         held, again
     (True, False)
     """
-    # Windows has no flock, so there is no lock; files are still complete, because renames are atomic
+    # Windows has no flock, so nothing is locked. Each file is still complete, because renames are atomic.
     if sys.platform == "win32":
         yield False
         return

@@ -1,5 +1,5 @@
-"""The content of the header of an emitted module: facts about the method and the scene, and what the module
-omits."""
+"""The content of the header of an emitted module: facts about the method and the scene, and the parts of a
+general step that the module does not need."""
 
 from __future__ import annotations
 
@@ -28,7 +28,8 @@ NOT_SMOOTH = "the order holds for steps in which the solution crosses none of th
 
 COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
 COUNTED = "; the numbers of sweeps above are for double precision"
-"""A remark in the header if the solvers were compared in double precision."""
+"""A remark in the header of a module in single precision. The header lists numbers of sweeps, which were
+measured in double precision."""
 
 
 def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: Precision) -> Recipe:
@@ -89,7 +90,8 @@ def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
 
 
 def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
-    """Return the sentence about the coordinate map of the scene, if the method uses the map."""
+    """Return the line of the header about the coordinate map of the scene; no line if the method does not
+    use the map."""
     used = compiled.scene.coordinates if lowering(compiled.method.family).reads_coordinates else None
     if used is None:
         return ()
@@ -123,13 +125,14 @@ def site_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
 
 
 def _mode_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the line of the header about the operator of a semilinear equation."""
+    """Return the line of the header about the linear operator of a semilinear equation; no line for other
+    equations."""
     semilinear = compiled.scene.semilinear
     return () if semilinear is None else (("operator", semilinear.text()),)
 
 
 def steps_of(kernel: Kernel) -> str:
-    """Describe the step control of a run."""
+    """Describe how a run chooses its step sizes."""
     if kernel.expansion is not None:
         last = kernel.expansion.degree
         return f"constant, or chosen from the Taylor coefficients {last - 1} and {last} of each step"
@@ -147,7 +150,7 @@ def substeps_of(kernel: Kernel) -> str:
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:
-    """Return a line for each simplification that this scene and method allow."""
+    """Return a line for each part of a general step that a module for this scene and method does not need."""
     kernel, scene = compiled.kernel, compiled.scene
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]

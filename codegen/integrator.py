@@ -30,7 +30,8 @@ from codegen.state_form import Fields, State, batch_of, read
 
 
 class Integrator(RunToEnd):
-    """A loaded module: ``interface`` lists its arguments, ``defaults`` the scene's parameter values."""
+    """A loaded module. ``interface`` lists the arguments of its functions, and ``defaults`` contains the
+    values that the scene gives to the parameters."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
         self.interface, self.defaults = interface, dict(defaults)
@@ -148,13 +149,14 @@ class Integrator(RunToEnd):
         return begun.form.restore(states)
 
     def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
-        """Return the states at these times, reached with equal steps of at most h between two times."""
+        """Return the states at ``times``. From each time to the next the steps are equal, and their absolute
+        value is at most that of h."""
         if not math.isfinite(h) or h == 0:
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
         for time in monotone(t, times):
-            # Rounding can make a quotient slightly larger than the integer that is meant. The factor prevents
-            # an additional step in this case.
+            # If the exact quotient is an integer, rounding can make the computed quotient slightly larger.
+            # The factor prevents an additional step in this case.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
                 raise ValueError(
@@ -185,13 +187,13 @@ class Integrator(RunToEnd):
     ) -> Arrival:
         """Integrate from t to end with steps as large as the tolerances allow; the first step has size ``h``.
 
-        With ``t_eval`` the result also has the states at these times; a step ends at each of them. ``end`` is
-        by default the last of the times. A batch is integrated state by state; the result has an array of
-        states and the counts of all steps.
+        If ``t_eval`` is given, the result also has the states at these times, and a step ends at each of
+        them. ``end`` is then by default the last of these times. A batch is integrated state by state; the
+        result has an array of states, and numbers of steps that are sums over the batch.
 
-        TypeError is raised for a module without an error estimate (``emit(..., adaptive=True)``). StepFailed
-        is raised if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps do not
-        reach the end.
+        TypeError is raised if the module has no run with step control (``emit(..., adaptive=True)`` adds it).
+        StepFailed is raised if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps
+        do not reach the end.
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")
@@ -229,14 +231,16 @@ class Integrator(RunToEnd):
         tolerances: tuple[float, float],
         limit: int,
     ) -> Arrival:
-        """Run with step control to each of the ``times`` in turn; the run ends at the last of them."""
+        """Run with step control to each of the ``times`` in turn; the last of them is the end of the run. The
+        result contains the states at all other times."""
         rows: list[Sequence[float]] = []
         accepted = rejected = 0
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # If the next time is close, a single short step reaches it, and the size of this step is too
-            # small for later steps. Therefore the larger of the old and the new proposal is used.
+            # If a time is close, a single short step reaches it, and the step size ``arrival.h`` that is
+            # proposed after this step is too small. In this case the larger one of ``h`` and ``arrival.h``
+            # is used next.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -315,8 +319,7 @@ class Integrator(RunToEnd):
         """Return the derivative of one step with respect to the state, as a matrix. The header of the emitted
         module describes the rows and columns of the matrix.
 
-        TypeError is raised for a module without a Jacobian (``emit(..., jacobian=True)``), StepFailed if the
-        step fails.
+        TypeError is raised if the module was emitted without ``jacobian=True``, StepFailed if the step fails.
         """
         if not self.interface.variations:
             raise TypeError("this module has no derivative of its step; emit it with jacobian=True")
@@ -342,7 +345,7 @@ class Integrator(RunToEnd):
         if inputs is not None and not callable(inputs):
             raise TypeError(f"expected a function of the time for inputs, found {described(inputs)}")
         if statistics is not None and not isinstance(statistics, Statistics):
-            raise TypeError(f"expected Statistics for statistics, found {described(statistics)}")
+            raise TypeError(f"expected an object Statistics as statistics, found {described(statistics)}")
         form, values = read(state, self.interface.size, self.fields)
         return Begun(
             form,
@@ -365,7 +368,7 @@ class Integrator(RunToEnd):
         return [real(values[name], name) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Add the counts that emitted code has returned to the caller's statistics."""
+        """Add ``counts``, which emitted code has returned, to the caller's ``statistics``."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -391,7 +394,10 @@ class Integrator(RunToEnd):
 
 
 def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
-    """Return the name and the values of each run-time input of a batch."""
+    """Return the name of each run-time input of a batch, and its value or its values for all systems.
+
+    ValueError is raised for an array of another shape.
+    """
     import numpy as np
 
     if not names:
@@ -407,7 +413,7 @@ def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, 
 def _loaded(
     target: str, interface: dict[str, Any], defaults: Mapping[str, float], artifact: Artifact
 ) -> Integrator:
-    """Return the integrator that is loaded from the files of a pickle."""
+    """Return the integrator that is loaded from the emitted files in ``artifact``; pickles call this."""
     integrator = known_target(target).load(Interface.from_json(interface), defaults, artifact.files)
     integrator.artifact = artifact
     return integrator

@@ -1,4 +1,4 @@
-"""Emitted Python modules."""
+"""Integrators that execute an emitted Python module."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from codegen.printers.interface import Interface
 
 
 class InterpretedIntegrator(Integrator):
-    """An emitted Python module."""
+    """An integrator that executes an emitted Python module with the text ``source``."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], source: str) -> None:
         super().__init__(interface, defaults)
@@ -84,8 +84,9 @@ class InterpretedIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[dict[str, Any]]:
-        """Yield the argument for statistics. If the emitted module raises its own error StepFailed,
-        :class:`StepFailed` of this package is raised in its place."""
+        """Yield the keyword argument ``statistics`` for a call of the module; empty if the module has no
+        statistics. At the end its counts are added to the caller's statistics. If the module raises its own
+        error StepFailed, :class:`StepFailed` of this package is raised instead."""
         counts = self.module.Statistics() if self.interface.blocks else None
         try:
             yield {} if counts is None else {"statistics": counts}

@@ -1,4 +1,5 @@
-"""Batches: many independent systems of one module, each with its own state, parameters and inputs.
+"""Batches: one emitted module integrates many independent systems, each with its own state, parameters and
+inputs.
 
 A batch of N systems is an array of N states, one in each row. Emitted C stores a batch as a structure of
 arrays: row k of an array of shape (size, N) contains component k of each state. An array of shape (N, size)
@@ -112,7 +113,10 @@ def rows_of(values: Sequence[tuple[str, object]], count: int, real: str) -> Any:
 def chosen(
     known: Sequence[str], defaults: Mapping[str, float], given: Mapping[str, object]
 ) -> list[tuple[str, object]]:
-    """Return the name and value of each parameter; raise TypeError for an unknown name or a missing value."""
+    """Return the name and value of each parameter in ``known``: its value in ``given`` or its default.
+
+    TypeError is raised for an unknown name in ``given``, and for a parameter without a value.
+    """
     for name in given:
         if name not in known:
             raise TypeError(f"unknown parameter {name}; the parameters are: {', '.join(known) or 'none'}")

@@ -8,10 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from codegen import lanes
-from codegen.argument import count, described, real
+from codegen.argument import count, real
+from codegen.array_module import ArrayModule, ArrayRun, real_array
 from codegen.arrival import Status
-from codegen.artifact import Artifact
 from codegen.printers.interface import Interface
 from codegen.run.status import reason
 from orderconds.errors import InputError
@@ -23,38 +22,25 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class LatticeRun:
-    """The result of a run: the states after the last completed step, of shape (n1, ..., nd, size), the
-    status, and the number of completed steps."""
+@dataclass(frozen=True, kw_only=True)
+class LatticeRun(ArrayRun):
+    """The result of a run with the states after the last completed step, of shape (n1, ..., nd, size)."""
 
     states: Floats
-    status: Status
-    completed: int
-    reason: str = ""
-
-    @property
-    def ok(self) -> bool:
-        """True if no step failed."""
-        return self.status == Status.OK
 
 
-class Lattice(ABC):
-    """An emitted module for a chain or lattice of any number of sites."""
-
-    artifact: Artifact
-
-    def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
-        self.interface, self.defaults = interface, dict(defaults)
+class Lattice(ArrayModule, ABC):
+    """An emitted module as a Python object. The module integrates a chain or lattice of any number of
+    sites."""
 
     def run(self, states: object, h: float, steps: int, t: float = 0.0, **parameters: object) -> LatticeRun:
         """Return the states of all sites after ``steps`` steps of size h from time t.
 
         ``states`` has the shape (n1, ..., nd, size): one state for each site of the lattice. If a step fails,
         no error is raised: the result contains the status and the states before this step. ValueError is
-        raised for an array of another shape or type, for states that are not finite, and for a lattice that
-        is too small. TypeError is raised for unknown parameters, and InputError if there is not enough
-        memory.
+        raised for an array of another shape, for states that are not finite, and for a lattice that is too
+        small. TypeError is raised for other types and for unknown parameters, and InputError if there is not
+        enough memory.
         """
         import numpy as np
 
@@ -62,8 +48,7 @@ class Lattice(ABC):
         table = self._table(states)
         shape = tuple(int(n) for n in table.shape[1:])
         h, t, steps = real(h, "h"), real(t, "t"), count(steps, "steps")
-        pairs = lanes.chosen(interface.parameters, self.defaults, parameters)
-        values = [real(x, name) for name, x in pairs]
+        values = self._values(parameters)
         finite = np.isfinite(table).all(axis=0)
         if not finite.all():
             place = tuple(int(i) for i in np.argwhere(~finite)[0])
@@ -77,14 +62,14 @@ class Lattice(ABC):
                 expected=f"space for {interface.workspace} numbers for each site",
                 hint="use fewer sites",
             ) from None
-        status, completed = self._call(shape, table, (t, h, steps), values, work)
+        status, completed = self.advance(shape, table, (t, h, steps), values, work)
         if status == Status.BAD_SHAPE:
             raise ValueError(
                 f"expected another number of sites, found the shape {shape}: {reason(status.name, '', h)}"
             )
         block = "" if status == Status.NOT_FINITE else "the equations of the step"
         why = "" if status == Status.OK else reason(status.name, block, h)
-        return LatticeRun(np.moveaxis(table, 0, -1), status, completed, why)
+        return LatticeRun(states=np.moveaxis(table, 0, -1), status=status, completed=completed, reason=why)
 
     def _table(self, states: object) -> Any:
         """Return the states as a new array of shape (size, n1, ..., nd)."""
@@ -92,12 +77,7 @@ class Lattice(ABC):
 
         n, size = self.interface.dimension, self.interface.size
         kind = np.dtype({"double": np.float64, "float": np.float32}[self.interface.format.c_type])
-        try:
-            given = np.asarray(states)
-        except ValueError:
-            raise ValueError("expected an array of states, found rows of different lengths") from None
-        if given.dtype.kind not in "fiub":
-            raise ValueError(f"expected real numbers, found {described(states)}")
+        given = real_array(states, "states")
         if given.ndim != n + 1 or given.shape[-1] != size or 0 in given.shape:
             expected = ", ".join([*(f"n{k + 1}" for k in range(n)), str(size)])
             raise ValueError(
@@ -106,7 +86,7 @@ class Lattice(ABC):
         return np.array(np.moveaxis(given, -1, 0), dtype=kind, order="C")
 
     @abstractmethod
-    def _call(
+    def advance(
         self,
         shape: Sequence[int],
         table: Any,
@@ -114,7 +94,12 @@ class Lattice(ABC):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
-        """Run the steps in place; return the status and the number of completed steps."""
+        """Make steps in place; return the status and the number of completed steps.
+
+        The arguments are those of the emitted function: ``table`` is an array of shape (size, n1, ..., nd) or
+        (size, n1 ... nd), ``moment`` contains t, h and the number of steps, ``values`` are the run-time
+        parameters, and ``work`` is the workspace. The arguments are not tested.
+        """
 
 
 class CompiledLattice(Lattice):
@@ -131,7 +116,7 @@ class CompiledLattice(Lattice):
         self._library = self._ffi.dlopen(str(path))
         self._run = getattr(self._library, f"{interface.prefix}run")
 
-    def _call(
+    def advance(
         self,
         shape: Sequence[int],
         table: Any,
@@ -139,6 +124,7 @@ class CompiledLattice(Lattice):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
+        """Make steps in place by the emitted function (:meth:`Lattice.advance`)."""
         (t, h, steps), kind = moment, self.interface.format.c_type
         completed = self._ffi.new("size_t *")
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
+from typing import TypeVar
 
 from codegen.artifact import Artifact, read
 from codegen.build import build
@@ -23,29 +24,22 @@ from codegen.spectral import CompiledSpectral, InterpretedSpectral, Spectral
 from orderconds.argument import described
 from orderconds.errors import InputError
 
+# With VECTOR_FLAGS the compiler turns loops over many systems, sites or modes into vector instructions. These
+# flags select -O3, allow all instructions of this machine, let square roots leave errno unchanged, and do not
+# preserve floating-point exceptions.
+LOOP_FLAGS = (*FLAGS, *VECTOR_FLAGS)
+"""The compiler flags of modules with a batch, and of modules for lattices and semilinear equations."""
+
 
 def load(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Integrator:
     """Return the integrator of an artifact, or of a module in a folder with a manifest.
 
     If the folder contains several modules, ``module`` and ``target`` choose one of them. C code is compiled,
-    or a compiled file is read from the cache. Errors: CompilerMissing, CompileError, and InputError for a
-    folder without such a module.
+    or a compiled file is read from the cache. Errors: CompilerMissing, CompileError, and InputError. The
+    cause of an InputError is a folder without such a module, or a module that :func:`load_lattice` or
+    :func:`load_spectral` must load.
     """
-    artifact, interface, defaults = _opened(source, module, target)
-    if interface.dimension:
-        raise InputError(
-            f"{artifact.key[0]} is a module for a chain or lattice",
-            where="load",
-            expected="a module for a single system",
-            hint="call codegen.load_lattice",
-        )
-    if interface.modes:
-        raise InputError(
-            f"{artifact.key[0]} is a module for a semilinear equation",
-            where="load",
-            expected="a module for a system of ordinary differential equations",
-            hint="call codegen.load_spectral",
-        )
+    artifact, interface, defaults = _opened(source, module, target, "load")
     integrator = known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
     integrator.artifact = artifact
     return integrator
@@ -54,16 +48,9 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
 def load_lattice(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Lattice:
     """Return the module of a scene on a chain or lattice (:class:`codegen.scene.SiteScene`) as an object.
 
-    The arguments and errors are those of :func:`load`.
+    The arguments and errors are those of :func:`load`. A module for a single system is also an error.
     """
-    artifact, interface, defaults = _opened(source, module, target)
-    if not interface.dimension:
-        raise InputError(
-            f"{artifact.key[0]} is a module for a single system",
-            where="load_lattice",
-            expected="a module for a chain or lattice",
-            hint="call codegen.load",
-        )
+    artifact, interface, defaults = _opened(source, module, target, "load_lattice")
     lattice = known_target(artifact.manifest["target"]).load_lattice(interface, defaults, artifact.files)
     lattice.artifact = artifact
     return lattice
@@ -74,25 +61,31 @@ def load_spectral(source: Artifact | str | PathLike[str], module: str = "", targ
 
     The arguments and errors are those of :func:`load`.
     """
-    artifact, interface, defaults = _opened(source, module, target)
-    if not interface.modes:
-        raise InputError(
-            f"{artifact.key[0]} is no module for a semilinear equation",
-            where="load_spectral",
-            expected="a module for a semilinear equation",
-            hint="call codegen.load, or codegen.load_lattice for a lattice",
-        )
+    artifact, interface, defaults = _opened(source, module, target, "load_spectral")
     spectral = known_target(artifact.manifest["target"]).load_spectral(interface, defaults, artifact.files)
     spectral.artifact = artifact
     return spectral
 
 
-def _opened(source: object, module: str, target: str) -> tuple[Artifact, Interface, dict[str, float]]:
-    """Return an artifact, its interface, and the default values of its parameters."""
+_PROBLEMS = {
+    "load": "a system of ordinary differential equations",
+    "load_lattice": "a chain or lattice",
+    "load_spectral": "a semilinear equation",
+}
+"""For each function that loads a module, the kind of problem which the module solves."""
+
+
+def _opened(
+    source: object, module: str, target: str, where: str
+) -> tuple[Artifact, Interface, dict[str, float]]:
+    """Return an artifact, its interface, and the default values of its parameters.
+
+    Raises InputError if another function than ``where`` loads modules of this kind.
+    """
     if not isinstance(source, Artifact | str | PathLike):
         raise InputError(
             described(source),
-            where="load",
+            where=where,
             expected="the result of codegen.emit, or a folder of emitted files",
         )
     artifact = source if isinstance(source, Artifact) else read(Path(source), module, target)
@@ -105,23 +98,41 @@ def _opened(source: object, module: str, target: str) -> tuple[Artifact, Interfa
             "written, or another version of the program wrote it",
             hint="emit the module again",
         ) from None
+    loader = "load_lattice" if interface.dimension else "load_spectral" if interface.modes else "load"
+    if loader != where:
+        raise InputError(
+            f"{artifact.key[0]} is a module for {_PROBLEMS[loader]}",
+            where=where,
+            expected=f"a module for {_PROBLEMS[where]}",
+            hint=f"call codegen.{loader}",
+        )
     return artifact, interface, defaults
+
+
+C = TypeVar("C", CompiledIntegrator, CompiledLattice, CompiledSpectral)
+
+
+def _compiled(
+    kind: type[C],
+    interface: Interface,
+    defaults: Mapping[str, float],
+    files: Mapping[str, str],
+    flags: tuple[str, ...],
+) -> C:
+    """Return an object of class ``kind`` for a C module, which is compiled unless the cache contains it."""
+    try:
+        return kind(interface, defaults, build(files, flags))
+    except (OSError, AttributeError):
+        # The digest of the cached file is correct, but the file is not a library, or it lacks functions of
+        # the module. Therefore the module is compiled again.
+        return kind(interface, defaults, build(files, flags, again=True))
 
 
 def load_compiled(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Integrator:
     """Return the integrator of a C module; the module is compiled unless the cache contains it."""
-    # These flags let the compiler turn loops over many systems into vector instructions. For this purpose the
-    # compiler needs -O3, permission to use all instructions of this machine, and square roots that do not set
-    # errno.
-    flags = (*FLAGS, *(VECTOR_FLAGS if interface.batch else ()))
-    try:
-        return CompiledIntegrator(interface, defaults, build(files, flags))
-    except (OSError, AttributeError):
-        # The digest of the cached file is correct, but the file is not a library, or it lacks functions of
-        # the module. Therefore the module is compiled again.
-        return CompiledIntegrator(interface, defaults, build(files, flags, again=True))
+    return _compiled(CompiledIntegrator, interface, defaults, files, LOOP_FLAGS if interface.batch else FLAGS)
 
 
 def load_interpreted(
@@ -136,13 +147,7 @@ def load_compiled_lattice(
 ) -> Lattice:
     """Return a C module for a lattice as a Python object; the module is compiled unless the cache contains
     it."""
-    flags = (*FLAGS, *VECTOR_FLAGS)
-    try:
-        return CompiledLattice(interface, defaults, build(files, flags))
-    except (OSError, AttributeError):
-        # The cached file has the recorded digest, but it is not the library of this module. The module is
-        # built again.
-        return CompiledLattice(interface, defaults, build(files, flags, again=True))
+    return _compiled(CompiledLattice, interface, defaults, files, LOOP_FLAGS)
 
 
 def load_compiled_spectral(
@@ -150,13 +155,7 @@ def load_compiled_spectral(
 ) -> Spectral:
     """Return a C module for a semilinear equation as a Python object; the module is compiled unless the
     cache contains it."""
-    flags = (*FLAGS, *VECTOR_FLAGS)
-    try:
-        return CompiledSpectral(interface, defaults, build(files, flags))
-    except (OSError, AttributeError):
-        # The cached file has the recorded digest, but it is not the library of this module. The module is
-        # built again.
-        return CompiledSpectral(interface, defaults, build(files, flags, again=True))
+    return _compiled(CompiledSpectral, interface, defaults, files, LOOP_FLAGS)
 
 
 def load_interpreted_spectral(

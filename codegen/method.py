@@ -86,7 +86,8 @@ class Method:
 
     @property
     def source(self) -> str:
-        """The publication of the tableau, or of a family without tableau."""
+        """The publication that describes the tableau. For a family without tableau, the publication that
+        describes the family."""
         return self.kind.source if self.coefficients is None else self.coefficients.source
 
     @property
@@ -139,7 +140,8 @@ class Method:
         return self.runge_kutta().as_crouch_grossman(self.ring)
 
     def embedded(self) -> Method | None:
-        """Return the embedded method if ``adaptive`` is set; raise :class:`MethodError` if there is none.
+        """Return the embedded method; raise :class:`MethodError` if there is none. The result is None if
+        ``adaptive`` is False, or if the family estimates the error without an embedded method.
 
         The embedded method uses the same stages with other weights, so the stages must not depend on the
         weights. The fewest brackets depend on the weights, so a family that searches for the fewest brackets
@@ -172,8 +174,8 @@ class Method:
         return replace(self, coefficients=lower, adaptive=False)
 
     def abscissae(self) -> tuple[Element, ...]:
-        """Return the abscissae c_i. The method is written as a commutator-free method; c_i is then the sum of
-        all coefficients in the exponents of stage i."""
+        """Return the abscissae c_i of the stages. If the method is written with products of exponentials, c_i
+        is the sum of all coefficients in the exponents of stage i."""
         return self.commutator_free().as_runge_kutta(self.ring).c
 
 
@@ -184,7 +186,8 @@ def _file(name: str) -> Path:
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return a tableau with exact coefficients in place of the decimals of a tableau file with a proof.
+    """Return the tableau with the coefficients that its proof certifies, in place of the decimals of its
+    file. A tableau without a valid proof is returned unchanged.
 
     The proof encloses one exact solution of the order conditions near the decimals. The certificate is valid
     for this solution only, so emitted code must use the solution and not the decimals.
@@ -253,8 +256,8 @@ def _unclaimed(
     tableau."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
-    # If the family has a cut-off, the label in the hint contains a cut-off. A label without a cut-off would
-    # be refused again.
+    # If the family has a cut-off, the label in the hint contains a cut-off. A user who follows a hint without
+    # the cut-off would get the same error again.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
@@ -315,9 +318,9 @@ def _library() -> Iterator[Tableau]:
 def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
     """Return the method that a user passed to a Python function as a method, a tableau, or a text.
 
-    ``families`` are the families that accept the scene. ``family``, such as ``"rkmk(2)"``, is the
-    family in which a tableau is used. Without ``family``, the claims of the tableau determine the family, as
-    in :func:`parse`. A tableau without claims is used in the family in which its computed order is highest.
+    ``families`` are the families that accept the user's scene. ``family``, such as ``"rkmk(2)"``, is the
+    family in which the tableau is used. If ``family`` is empty, the orders that the tableau claims determine
+    the family, as in :func:`parse`. If the tableau claims no order, computed orders replace the claims.
     """
     if isinstance(given, Method):
         return given
@@ -339,9 +342,9 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Yield the order of a tableau, computed from the order conditions, for each family in which the file of
-    such a tableau should claim an order. If ``family`` is given, only this family and its cut-offs are
-    considered."""
+    """Yield one order claim for each family and cut-off in which a file of this tableau should claim an
+    order. The orders are computed from the order conditions. If ``family`` is given, only this family and its
+    cut-offs are considered."""
     from orderconds.checking import check, claimable_families
 
     for member in claimable_families(tableau):
@@ -372,9 +375,9 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
     If the text names no family, the family with the highest claimed order is chosen; among families of equal
     order, the first in ``families``. ``rkmk`` without a cut-off is compiled with the fewest brackets if the
-    tableau is explicit and exact. Otherwise, and for ``vrkmk``, the cut-off is the smallest one for which the
-    tableau claims its highest order. :class:`MethodError` is raised for a text that cannot be read, and if no
-    claim determines the choice.
+    tableau is explicit, exact, and not of too high an order. Otherwise, and for ``vrkmk``, the cut-off is the
+    smallest one for which the tableau claims its highest order. :class:`MethodError` is raised for a text
+    that cannot be read, and for a tableau without a claim that determines the family or the cut-off.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -411,14 +414,15 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"a number in parentheses after {' or '.join(cutting)} only, as in rkmk(2):rk4",
         )
-    # A commutator-free tableau has no A and b. If it claims an order in rk, the claim is for the Runge-Kutta
-    # method whose coefficients are the sums of its exponents.
+    # A commutator-free tableau has no A and b. If it claims an order in rk, the claim is for a Runge-Kutta
+    # method: a_ij and b_j are sums of coefficients of its exponents. Such a claim does not choose the family.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]
     if not readable or (family is not None and family not in readable):
         raise _unreadable(text, tableau, families if family is None else (family,))
-    claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # as splitting(3)
+    # The family of a claim may contain a number: splitting(3) is replaced by splitting.
+    claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:
         return Method(family, tableau, int(cutoff))

@@ -18,8 +18,8 @@ def default_prefix(scene: Problem, method: Method) -> str:
     """Return the prefix SCENE_FAMILY_TABLEAU_, or SCENE_TABLEAU_ if the name of the tableau starts with the
     name of the family.
 
-    If the method has a cut-off, this number is appended to the name of the family:
-    ``free_rigid_body_rkmk2_rk4_``.
+    If the method has a cut-off, the value of the cut-off is appended to the name of the family. For example,
+    the prefix ``free_rigid_body_rkmk2_rk4_`` contains the cut-off 2 of the family rkmk.
     """
     family = STEP if method.step else method.family + ("" if method.cutoff is None else str(method.cutoff))
     tableau = method.name

@@ -25,7 +25,7 @@ class Entry:
     targets: tuple[str, ...]
 
     def emissions(self) -> list[Artifact]:
-        """Return the modules of this entry."""
+        """Emit the method of this entry on its scene for each target, and return the emitted modules."""
         compiled = compile_method(self.scene, self.method)
         named = {"scene": self.scene, "method": self.method}
         return [emit_compiled(compiled, target, "", named) for target in self.targets]
@@ -53,7 +53,7 @@ def entries(path: Path = LIST) -> list[Entry]:
 
 
 def _entry(module: object, where: str) -> Entry:
-    """Return one entry of the list."""
+    """Return one entry of the list; raise InputError if its keys or the types of its values are wrong."""
     if not isinstance(module, dict) or sorted(module) != sorted(KEYS):
         keys = ", ".join(sorted(module)) if isinstance(module, dict) else repr(module)
         raise InputError(
@@ -81,7 +81,9 @@ def contents(listed: list[Entry]) -> dict[str, str]:
             manifests.setdefault(folder, []).append(dict(artifact.manifest))
             for name, text in artifact.files.items():
                 if files.setdefault(f"{folder}/{name}", text) != text:
-                    raise InputError(f"two modules emit different files {name}", where=str(LIST))
+                    raise InputError(
+                        f"two modules emit the file {name} with different contents", where=str(LIST)
+                    )
     for folder, manifest in manifests.items():
         files[f"{folder}/{MANIFEST}"] = manifest_text(manifest)
     return dict(sorted(files.items()))
@@ -117,7 +119,7 @@ def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
 def _holds(path: Path, content: bytes) -> bool:
     try:
         return content_of(path, limit=len(content)) == content
-    except OSError:  # the file could not be read, for example because it is larger than the expected content
+    except OSError:  # an unreadable file, or a file larger than the limit, counts as different
         return False
 
 

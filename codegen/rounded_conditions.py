@@ -24,8 +24,8 @@ terms of a residual cancel.
 """
 
 MOST = 3000
-"""The largest number of conditions of one order that are evaluated. Evaluating more would take most of the
-time of ``emit``.
+"""If an order has more conditions than this number, no residual is computed, because this would take most of
+the time of ``emit``.
 """
 
 
@@ -33,7 +33,7 @@ def rounded_residual(method: Method, family: Family, order: int, target: Precisi
     """Return the largest residual of the conditions up to ``order``, for coefficients rounded to ``target``.
 
     Every coefficient is rounded once to the target's format. :func:`largest_residual` evaluates the
-    conditions.
+    conditions, and states when the result is None.
 
     >>> from codegen.method import parse
     >>> from codegen.ir.precision import DOUBLE, SINGLE

@@ -23,9 +23,9 @@ MOST_EVENTS = 64
 def extension_of(method: Method, scene: Problem) -> Continuous:
     """Return the kernels of the continuous extension of a method.
 
-    The order of the extension is the order that the tableau's extension has for differential equations in a
-    vector space, but at most the order of the method. The order in a vector space suffices, because the
-    coordinates of the solution satisfy a differential equation in the Lie algebra, a vector space.
+    The tableau's extension has an order for differential equations in a vector space. The extension of the
+    method has the same order, but at most the order of the method. The reason is that the coordinates of the
+    solution satisfy a differential equation in the Lie algebra, which is a vector space.
     :class:`MethodError` is raised for a method without an extension.
     """
     from orderconds.checking.continuous import extension_order
@@ -56,7 +56,7 @@ class RunOptions(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class RunRequest:
-    """The values of :class:`RunOptions`, with their defaults."""
+    """The options of :class:`RunOptions`; an option that is not given has its default value."""
 
     integrate: bool = False
     events: int = 0
@@ -75,7 +75,7 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` for options that compensated summation does not support."""
+    """Raise :class:`MethodError` if an option is True; compensated summation supports none of ``options``."""
     for option, requested in options.items():
         if requested:
             raise MethodError(
@@ -86,8 +86,11 @@ def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
 
 
 def observed_run(method: Method, scene: Problem, degree: int, events: int, dense: bool) -> Observed:
-    """Return the request for a run to a given end time. ``degree`` is the degree of the Taylor polynomial of
-    a step, or 0 if a step evaluates no Taylor polynomial."""
+    """Return the request for a run to a given end time, with ``events`` event functions.
+
+    With ``dense`` it contains the continuous extension of the method. ``degree`` is the degree of the Taylor
+    polynomial of a step, or 0 if a step evaluates no Taylor polynomial.
+    """
     if count(events, "events") > MOST_EVENTS:
         raise InputError(
             f"{events} event functions are too many", where="events", expected=f"at most {MOST_EVENTS}"

@@ -75,8 +75,11 @@ class RunToEnd(ABC):
         limit: int,
         times: Sequence[float],
     ) -> Arrival:
-        """Integrate to the end. A call of ``_integrate`` returns early if its buffer of events is full; the
-        next call then continues where it stopped."""
+        """Integrate to the end by one or more calls of ``_integrate``.
+
+        A call returns early if its buffer of events is full. The next call continues at the time that this
+        call reached.
+        """
         t, end, h = span
         restore = begun.form.restore
         rows: list[Sequence[float]] = []
@@ -114,8 +117,10 @@ class RunToEnd(ABC):
         inputs: Signals | None,
         statistics: Statistics | None,
     ) -> Begun:
-        """Return the checked arguments; raise TypeError for wrong names or inputs, ValueError for a wrong
-        state."""
+        """Return the arguments in the form that ``_integrate`` accepts.
+
+        TypeError is raised for wrong names of parameters or wrong inputs, ValueError for a wrong state.
+        """
 
     @abstractmethod
     def _integrate(
@@ -127,4 +132,7 @@ class RunToEnd(ABC):
         limit: int,
         times: Sequence[float],
     ) -> Reached:
-        """Run to the end; ``span`` is (t, end, h), ``bounds`` is (rtol, atol, least, greatest)."""
+        """Run to the end, or until the buffer of events is full.
+
+        ``span`` is (t, end, h), ``bounds`` is (rtol, atol, least, greatest).
+        """

@@ -1,4 +1,4 @@
-"""Emitted modules for semilinear equations, called from Python."""
+"""Classes that call emitted modules for semilinear partial differential equations from Python."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from codegen import lanes
-from codegen.argument import count, described, real
+from codegen.argument import count, real
+from codegen.array_module import ArrayModule, ArrayRun, real_array
 from codegen.arrival import Status
-from codegen.artifact import Artifact
 from codegen.printers.interface import Interface
 from codegen.run.status import reason
 from orderconds.errors import InputError
@@ -24,28 +23,15 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class SpectralRun:
-    """The result of a run: the last good values, the status, and the number of completed steps."""
+@dataclass(frozen=True, kw_only=True)
+class SpectralRun(ArrayRun):
+    """The result of a run with the values after the last completed step."""
 
     values: Floats
-    status: Status
-    completed: int
-    reason: str = ""
-
-    @property
-    def ok(self) -> bool:
-        """True if no step failed."""
-        return self.status == Status.OK
 
 
-class Spectral(ABC):
+class Spectral(ArrayModule, ABC):
     """An emitted module for a semilinear equation, for any even number of points."""
-
-    artifact: Artifact
-
-    def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
-        self.interface, self.defaults = interface, dict(defaults)
 
     def points(self, n: int, **parameters: object) -> Floats:
         """Return the coordinates x of n equally spaced points, beginning at 0."""
@@ -62,20 +48,15 @@ class Spectral(ABC):
         """Return the values after ``steps`` steps of size h from time t.
 
         ``u`` contains the values at an even number of equally spaced points. If a step fails, no error is
-        raised: the result contains the status and the last good values. ValueError is raised for an array of
-        another shape, for an odd number of points, and for values that are not finite; TypeError for other
-        types and for unknown parameters.
+        raised: the result contains the status and the values after the last successful step. Raises
+        ValueError for an array with more than one axis, an odd number of points, and values that are not
+        finite. Raises TypeError for values that are not real numbers, and for unknown parameters.
         """
         import numpy as np
 
         h, t, steps = real(h, "h"), real(t, "t"), count(steps, "steps")
         values = self._values(parameters)
-        try:
-            given = np.asarray(u)
-        except ValueError:
-            raise ValueError("expected an array of values, found rows of different lengths") from None
-        if given.dtype.kind not in "fiub":
-            raise TypeError(f"expected real numbers, found {described(u)}")
+        given = real_array(u, "values")
         if given.ndim != 1:
             raise ValueError(f"expected an array of shape (n,), found an array of shape {given.shape}")
         _even(given.size)
@@ -86,25 +67,24 @@ class Spectral(ABC):
             raise ValueError(f"expected finite numbers, found the value {array[place]} at point {place}")
         result, status, completed = self._call(array, (t, h, steps), values)
         why = "" if status == Status.OK else reason(status.name, "", h)
-        return SpectralRun(result, status, completed, why)
-
-    def _values(self, parameters: Mapping[str, object]) -> list[float]:
-        pairs = lanes.chosen(self.interface.parameters, self.defaults, parameters)
-        return [real(x, name) for name, x in pairs]
+        return SpectralRun(values=result, status=status, completed=completed, reason=why)
 
     @abstractmethod
     def _period(self, values: list[float]) -> float:
-        """Return the length of the interval."""
+        """Return the period of the solution in x, for these values of the parameters."""
 
     @abstractmethod
     def _initial(self, points: Floats, values: list[float]) -> Floats:
-        """Return the initial state at given points."""
+        """Return the initial state at given points, for these values of the parameters."""
 
     @abstractmethod
     def _call(
         self, u: Floats, moment: tuple[float, float, int], values: list[float]
     ) -> tuple[Floats, Status, int]:
-        """Return the new values, the status, and the number of completed steps."""
+        """Run from ``u``; ``moment`` is (t, h, steps), and ``values`` are the values of the parameters.
+
+        Return the last values of the solution, the status, and the number of successful steps.
+        """
 
 
 def _even(n: int) -> int:
@@ -184,7 +164,7 @@ class CompiledSpectral(Spectral):
         if status != Status.OK:
             return u, status, 0
         transform = self._ffi.new(f"{self.interface.prefix}transform *")
-        callbacks = self._numpy()  # the variable keeps the functions alive during the run
+        callbacks = self._numpy()  # the variable keeps the callbacks alive while C calls them
         if self._function("fft_prepare")(n, self._pointer(memory)) == Status.OK:
             transform[0] = self._function("fft")(self._pointer(memory))
         else:
@@ -196,7 +176,7 @@ class CompiledSpectral(Spectral):
         return u, status, int(completed[0])
 
     def _memory(self, name: str, n: int) -> Floats:
-        """Return an uninitialised array; the C function ``name`` of the module returns its length."""
+        """Return an uninitialised array for n points. The C function ``name`` determines its length."""
         import numpy as np
 
         return np.empty(int(self._function(name)(n)))

@@ -37,7 +37,8 @@ class StateForm:
     arrays: tuple[bool, ...]
 
     def restore(self, values: Sequence[Any]) -> Any:
-        """Return numbers, or the rows of a trajectory, in this form."""
+        """Return ``values`` in this form: the numbers of one state, or a row of numbers for each state of a
+        trajectory."""
         if not self.is_tuple and self.shapes == ((len(values),),) and not self.arrays[0]:
             return list(values)
         import numpy as np
@@ -54,7 +55,7 @@ class StateForm:
         return tuple(parts) if self.is_tuple else parts[0]
 
     def matrix(self, rows: Sequence[Sequence[float]]) -> Any:
-        """Return a matrix: an array if the state contains an array, else a list of rows."""
+        """Return a matrix: a NumPy array if any part of the state is a NumPy array, else a list of rows."""
         if not any(self.arrays):
             return list(rows)
         import numpy as np
@@ -92,9 +93,10 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
 
 
 def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
-    """Raise ValueError unless each part has the size of one field or of several consecutive fields.
+    """Raise ValueError if a part has neither the size of a field nor the size of several consecutive fields.
 
-    A state with one field may be a tuple of any parts, such as the rows of a matrix.
+    A state with one field may be a tuple of any parts, such as the rows of a matrix. A tuple with a wrong
+    total size is accepted here, because the caller tests the total size.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return
@@ -113,7 +115,7 @@ def _listed(sizes: Sequence[int]) -> str:
 
 
 def _fields_text(fields: Fields) -> str:
-    """Return the names and sizes of the fields for a message."""
+    """Return the end of a message: the names and sizes of the fields, or nothing if they are unknown."""
     return f"; a state is {', '.join(f'{name} ({size} numbers)' for name, size in fields)}" if fields else ""
 
 
@@ -133,8 +135,9 @@ class Batch:
 
 
 def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
-    """Return the states of a batch; None for a single state. ValueError is raised for a tuple whose parts
-    have the wrong sizes, as in :func:`read`.
+    """Return the states of a batch, or None if ``state`` is not a batch of states with ``size`` numbers.
+
+    Raises ValueError for a batch in the form of a tuple whose parts have wrong sizes, as in :func:`read`.
 
     >>> batch_of([[1, 0, 0], [0, 1, 0]], 3).states
     ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
@@ -149,7 +152,7 @@ def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
 
     try:
         tables = [np.array(part, dtype=float) for part in parts]
-    # The array is ragged or complex; such a state is refused later, when its numbers are read.
+    # A ragged or complex array is not a batch. It is refused later, when its numbers are read.
     except (TypeError, ValueError):
         return None
     count = len(tables[0])
@@ -165,7 +168,7 @@ def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
 
 
 def _nested(part: object) -> bool:
-    """Return True if a part has at least two axes, or lists within a list."""
+    """Return True if a part is an array with at least two axes, or a sequence of sequences."""
     if _is_array(part):
         return bool(getattr(part, "ndim", 0) > 1)
     return isinstance(part, list | tuple) and bool(part) and _has_entries(part[0])
@@ -177,7 +180,8 @@ def _has_entries(part: object) -> bool:
 
 
 def _flat(part: Any) -> tuple[tuple[int, ...], list[float]]:
-    """Return the shape and the numbers of a part; raise ValueError for ragged or complex parts."""
+    """Return the shape and the numbers of a part. Raise ValueError if the part is ragged or contains anything
+    but real numbers."""
     if not _has_entries(part):
         return (), [_real(part)]
     if not _is_array(part) and not _nested(part):

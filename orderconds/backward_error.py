@@ -1,12 +1,12 @@
-"""Modified equations: the exact flow of the modified vector field is the numerical method. The field is a
-truncated series in h.
+"""Modified equations. A numerical method is the exact flow of a modified vector field, which this module
+computes as a truncated series in h.
 
 A step of a method is the exact flow, over the time h, of a modified field f~ = f + h f_2 + h^2 f_3 + ... The
 terms of f~ describe how the numerical solution differs from the exact solution over long times. For a
 symplectic method, f~ is the vector field of a modified Hamiltonian, which the method conserves (Hairer,
 Lubich and Wanner, *Geometric Numerical Integration*, Chapter IX). On Lie groups the terms are elementary
-differentials along frozen fields and their commutators (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011)
-295).
+differentials along frozen fields, y -> f(p).y for a fixed point p, and their commutators (Lundervold and
+Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 
 The *modifying* field solves the inverse problem: if the method is applied to the modifying field, the result
 is the exact flow of f. This field is a series of the same form (Chartier, Hairer and Vilmart, Math. Comp. 76
@@ -49,10 +49,11 @@ def default_families() -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Term:
-    """One term of a series: h^(order - 1) times ``coefficient`` times the function ``name``.
+    """One term of a series: h^(order - 1) times ``coefficient`` times a function with the text ``name``.
 
-    ``tree`` is a tree in bracket notation. If the term is a commutator, ``tree`` is the Lyndon word of
-    ordered trees whose standard bracketing equals the commutator.
+    The function is an elementary differential, such as ``f'(f)``, a commutator of elementary differentials,
+    or a term of the modified Hamiltonian. ``tree`` is a tree in bracket notation. If the term is a
+    commutator, ``tree`` is the Lyndon word of ordered trees whose standard bracketing equals the commutator.
     """
 
     order: int
@@ -66,8 +67,8 @@ class ModifiedEquation:
     """The modified field of a method up to h^(order - 1), and the modified Hamiltonian if there is one.
 
     ``family`` is the label of the family in which the method was read. ``terms`` contains no term whose
-    coefficient is known to be zero. ``hamiltonian`` is None unless the field is a B-series of Hamiltonian
-    form.
+    coefficient is known to be zero. ``hamiltonian`` is None unless the series is a B-series and the field is
+    proved to be Hamiltonian.
     """
 
     family: str
@@ -77,7 +78,7 @@ class ModifiedEquation:
     hamiltonian: tuple[Term, ...] | None
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of ``orderconds modified``."""
+        """Return the part of the JSON output of ``orderconds modified`` that describes the equation."""
         hamiltonian = None if self.hamiltonian is None else [self._record(term) for term in self.hamiltonian]
         return {
             "family": self.family,
@@ -135,7 +136,10 @@ def modified_equation(
 
 
 def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
-    """Return the label of the family and the series of a step in this family."""
+    """Return the label of the family and the series of a step in this family.
+
+    If ``family`` is None, the family is the first of :func:`default_families` that can read the tableau.
+    """
     for name in default_families() if family is None else (family,):
         candidate = families.get(name)
         method = tableau.read_as(candidate.formats)
@@ -166,8 +170,8 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of this order of ``field``, which is an element of a free Lie algebra. The trees in the
-    text of a term are in the order of action."""
+    """Yield the terms of ``field`` with this order, in the basis of Lyndon words of ordered trees. In the
+    text of a word, the tree that acts first comes first."""
 
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))
@@ -179,13 +183,13 @@ def _ordered(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _place(tree: Tree) -> tuple[int, bytes]:
-    """Return the sort key of a tree in the alphabet of Lyndon words. Larger trees come first; among trees of
-    equal size, taller trees come first."""
+    """Return the sort key of a tree as a letter of Lyndon words. Larger trees come first; among trees of
+    equal size, trees with lexicographically larger sequences of levels come first."""
     return -len(tree), bytes(255 - level for level in tree)
 
 
 def _hamiltonian(field: VectorField, order: int) -> tuple[Term, ...] | None:
-    """Return the terms of the modified Hamiltonian, or None if the field has no Hamiltonian."""
+    """Return the terms of the modified Hamiltonian, or None if the field is not proved to be Hamiltonian."""
     try:
         terms = modified_hamiltonian(field, order)
     except InputError:

@@ -144,15 +144,15 @@ class Program(click.Group):
             formatter.write_dl(rows)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command and flush its output."""
+        """Run the command and flush stdout."""
         with past_click():
             result = super().invoke(ctx)
             sys.stdout.flush()
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line. A closed pipe is handled here as in :meth:`invoke`, because click prints
-        the text of --help during parsing."""
+        """Parse the command line. The reader of stdout may have closed its pipe; this case is handled here as
+        in :meth:`invoke`, because click prints the text of --help during parsing."""
         with past_click():
             return super().make_context(*args, **extra)
 
@@ -179,8 +179,8 @@ class Program(click.Group):
 
 
 def _offered() -> Iterable[EntryPoint]:
-    """Return the commands of other packages. The import of ``importlib.metadata`` is slow, so it happens only
-    when this function is called."""
+    """Return the entry points of the commands of other packages. The import of ``importlib.metadata`` is
+    slow, so this function imports it when it is called."""
     from importlib import metadata
 
     return metadata.entry_points(group=COMMAND_GROUP)
@@ -189,7 +189,8 @@ def _offered() -> Iterable[EntryPoint]:
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
     """Raise a UsageError if an option with one value is given twice; click would silently use the last value.
 
-    Flags that set the same parameter, such as ``--quick`` and ``--full``, count as one option.
+    Two different flags for one parameter, such as ``--quick`` and ``--full``, are refused too. The same flag
+    may be repeated.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))

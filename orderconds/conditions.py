@@ -66,7 +66,7 @@ class OrderCondition:
         return f"{self.latex} = {latex_fraction(self.rhs)}"
 
     def sympy(self) -> Any:
-        """Return the equation as ``sympy.Eq`` (SymPy is imported here)."""
+        """Return the equation as ``sympy.Eq``. SymPy is imported only when this function is called."""
         import sympy
 
         from orderconds.formula.sympy_form import export
@@ -75,8 +75,8 @@ class OrderCondition:
         return sympy.Eq(export(self.formula), rhs, evaluate=False)
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of ``orderconds derive --format json``, with the relation of a dependent
-        condition."""
+        """Return the entry of this condition in the output of ``orderconds derive --format json``. The key
+        ``relation`` is present only for a dependent condition."""
         record: dict[str, object] = {
             "order": self.order,
             "tree": self.tree,

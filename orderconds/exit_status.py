@@ -85,7 +85,7 @@ class Run:
         click.echo(text)
 
     def end(self, error: BaseException) -> int:
-        """Print an error, and return the exit status.
+        """Print the message of an error, with ``--json`` also as a document, and return the exit status.
 
         >>> Run(as_json=True).end(InputError("a row of 3", where="x.toml", expected="2 entries"))
         {
@@ -165,8 +165,8 @@ def _usage_message(error: click.UsageError) -> str:
 
 @contextlib.contextmanager
 def past_click() -> Iterator[None]:
-    """Replace the error of an interrupt or of a closed pipe by :class:`Stopped`. Then :meth:`Run.end` handles
-    the error, and click does not.
+    """Within this context, replace the error of an interrupt or of a closed pipe by :class:`Stopped`. Then
+    :meth:`Run.end` handles the error, and click does not.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -180,8 +180,8 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Discard the output that the interpreter would flush at exit, because the process that read stdout has
-    ended."""
+    """Redirect stdout to the null device. The process that read stdout has ended, so another error would be
+    raised when the interpreter flushes stdout at exit."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

@@ -29,7 +29,8 @@ def read_bytes(
 ) -> bytes:
     """Return the content of a regular file of at most ``limit`` bytes.
 
-    Raises ``error``, a subclass of InputError, with the path and the description ``expected`` in its message.
+    If the file cannot be read, is not regular or has more than ``limit`` bytes, the function raises
+    ``error``, a subclass of InputError. The message contains the path and the text ``expected``.
 
     >>> read_bytes(os.devnull)
     Traceback (most recent call last):
@@ -50,8 +51,8 @@ def read_text(
     limit: int = MAX_BYTES,
     error: type[InputError] = InputError,
 ) -> str:
-    """Return the text of a regular file in UTF-8. Raises the same errors as :func:`read_bytes`, also if the
-    file is not in UTF-8.
+    """Return the text of a regular file in UTF-8. Raises ``error`` in the same cases as :func:`read_bytes`,
+    and also if the content is not UTF-8.
 
     >>> read_text(__file__).partition(".")[0]
     '\"\"\"Reading of files that a user names'
@@ -95,7 +96,7 @@ def _require_regular(status: os.stat_result, own: bool) -> None:
 
 
 def reason(problem: OSError) -> str:
-    """Return the description of an error by the operating system. The first letter is in lower case.
+    """Return the operating system's description of an error, with the first letter in lower case.
 
     >>> reason(FileNotFoundError(errno.ENOENT, "No such file or directory"))
     'no such file or directory'

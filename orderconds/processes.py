@@ -1,7 +1,7 @@
 """Parallel execution of jobs in worker processes. The workers end when the process that started them ends.
 
-Jobs and results must not contain exact numbers of flint, because these cannot be pickled. They consist of
-strings, numbers of Python, and records of strings and numbers.
+Jobs and results must not contain numbers of python-flint, because these cannot be pickled. Jobs and results
+may contain strings, numbers of Python, and records of strings and numbers.
 """
 
 from __future__ import annotations
@@ -30,10 +30,11 @@ def in_processes(
 ) -> Iterator[Result]:
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
-    ``processes`` is the number of worker processes, by default the number of processors. A single job runs in
-    this process. If a worker process itself calls this function, the jobs run in that worker. If the
-    iteration ends before the last job, the workers are terminated. An error that a job raises in a worker is
-    raised again in this process. Raises InputError if a worker was killed.
+    ``processes`` is the number of worker processes, by default the number of processors. If there is only one
+    job, or if ``processes`` is 1, no worker is started and the jobs run in this process. The same is true if
+    a worker itself calls this function. If the iteration ends before the last job, the workers are
+    terminated. An error that a job raises in a worker is raised again in this process. Raises InputError if a
+    worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]
@@ -75,7 +76,8 @@ def _start(work: Callable[[Job], Result]) -> tuple[Connection, BaseProcess]:
 
 
 def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]:
-    """Send the next job to each idle worker, and yield the results in the order of the jobs."""
+    """Send the next job to each idle worker, and yield the results in the order of the jobs. Raise the error
+    of a job; raise InputError if a worker was killed."""
     from multiprocessing import connection
 
     count, given = len(idle), 0
@@ -127,7 +129,8 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """Return an error that can be pickled and that contains the traceback of this process as a note."""
+    """Return ``error``, with the traceback of this process as a note. If ``error`` cannot be pickled, return
+    a RuntimeError with the type and the text of ``error`` and with the same note."""
     import pickle
     import traceback
 

@@ -49,7 +49,8 @@ def _is_on(config: pytest.Config) -> bool:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Collect a tableau file if a flag is given."""
+    """Return a collector for a tableau file. Return None if no flag of the plugin is given, or if the file is
+    not examined or is skipped."""
     if not _is_on(parent.config):
         return None
     from orderconds.exchange.folder import SUFFIXES, reason_to_skip
@@ -114,7 +115,7 @@ class TableauFile(pytest.File):
     """A file with one tableau."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Yield the one test of the file."""
+        """Yield one test, which checks all claims of the file."""
         yield TableauItem.from_parent(self, name="claims")
 
 
@@ -155,5 +156,5 @@ class TableauItem(pytest.Item):
 
 
 class ClaimFails(AssertionError):
-    """The error for a file with a claim that does not hold or cannot be decided, or without a required
-    claim."""
+    """The error for a file that fails the test: a claim does not hold or cannot be decided, or a required
+    claim is missing."""

@@ -47,6 +47,7 @@ QUICK = [
 ]
 SLOW = [
     ("check", "yoshida6"),
+    ("emit", "spin_lattice --method splitting:strang --explain"),
     ("solve", "rk --stages 2 --order 2 --explicit"),
     ("solve", "rk --stages 1 --order 2 --explicit"),
     ("solve", "vcg --stages 2 --order 3"),

@@ -61,7 +61,7 @@ def command(
     If a method cannot be emitted for the scene, its row contains the reason.
 
     The exit status is 0 if every observed order equals the stated order, and 1 if an observed order differs
-    or is undecided.
+    or is undecided, or if a method cannot be emitted.
 
     \b
     Examples:
@@ -135,8 +135,8 @@ def _by_protocol(
 
 
 def read_steps(texts: tuple[str, ...]) -> list[int]:
-    """Return the numbers of steps in texts such as ``20,40,80``, sorted; raise :class:`InputError` for any
-    other text.
+    """Return the numbers of steps in texts such as ``20,40,80``, sorted and without duplicates; raise
+    :class:`InputError` for any other text.
 
     >>> read_steps(("40,20", "80"))
     [20, 40, 80]
@@ -150,7 +150,8 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
 
 
 def show(result: Convergence | NotEmitted, first: bool) -> None:
-    """Print the runs as a table with the verdict below it."""
+    """Print the runs as a table with the verdict below it; if the method cannot be emitted, print the reason.
+    If ``first`` is false, print an empty line before."""
     from codegen.lab.orders.convergence import NotEmitted
 
     if not first:

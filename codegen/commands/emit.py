@@ -97,7 +97,8 @@ if TYPE_CHECKING:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Print the program after each compiler pass, and the operations that the pass has removed.",
+    help="Print the program after each compiler pass, and the operations that the pass has removed. For a "
+    "lattice, also compile the module and measure the memory bandwidth of a step.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(
@@ -154,8 +155,23 @@ def command(
     artifacts = [
         emit_compiled(compiled, name, prefix, named, precision=precision) for name in targets or (DEFAULT,)
     ]
-    _write(artifacts, output, bool(chosen), as_json, explained(compiled) if explain and as_json else {})
+    more = explained(compiled) if explain and as_json else {}
+    if explain and compiled.kernel.sites is not None:
+        more |= _bandwidth(compiled, artifacts[0], as_json)
+    _write(artifacts, output, bool(chosen), as_json, more)
     return 0
+
+
+def _bandwidth(compiled: Compiled, artifact: Artifact, as_json: bool) -> dict[str, object]:
+    """Measure the memory bandwidth of a module for a lattice. Return the measurement as an entry of a JSON
+    record, or print it and return no entry."""
+    from codegen.lab.bandwidth import measure
+
+    measured = measure(compiled, artifact)
+    if as_json:
+        return {"bandwidth": measured.as_json()}
+    click.echo("# memory bandwidth\n" + "".join(f"  {line}\n" for line in measured.lines()))
+    return {}
 
 
 def _write(
@@ -232,8 +248,8 @@ def _warn(compiled: Compiled, scene: str, method: str) -> None:
 
 
 def explanation(compiled: Compiled) -> str:
-    """Return a text with the program before the first compiler pass, the program after each pass, the
-    operation counts and the simplifications.
+    """Return the text that ``--explain`` prints: the program before the first compiler pass and after each
+    pass, the operation counts, and what the emitted code leaves out for this scene and method.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations
@@ -266,14 +282,16 @@ def explanation(compiled: Compiled) -> str:
 
 
 def solvers_of(compiled: Compiled) -> list[str]:
-    """Return the text of the solver of each block, followed by one line for each solver that was compared."""
+    """Return lines of text: for each implicit block a line with its solver, then a line for each solver that
+    was compared."""
     return [
         line for choice in compiled.solvers for line in (choice.text(), *map("  {}".format, choice.compared))
     ]
 
 
 def functions_of(compiled: Compiled) -> list[dict[str, object]]:
-    """Return the outlined functions of a step: name, number of calls, description."""
+    """Return name, number of calls and description of each outlined function of a step. An outlined function
+    contains a computation that a step needs several times."""
     from codegen.kernel.outlined_functions import calls
 
     often = calls(compiled.kernel)
@@ -281,5 +299,5 @@ def functions_of(compiled: Compiled) -> list[dict[str, object]]:
 
 
 def counted(counts: dict[str, int]) -> str:
-    """Return operation counts in words."""
+    """Return operation counts as a text, such as ``3 add, 2 mul``."""
     return ", ".join(f"{n} {name}" for name, n in counts.items())

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from codegen.lab.long_runs.properties import Properties
 
 FEWEST = 200
-"""The smallest number of steps for which a drift is fitted."""
+"""The smallest number of steps that the command accepts; the fit of a drift needs this number."""
 
 
 @click.command(
@@ -44,7 +44,8 @@ FEWEST = 200
     "--properties",
     "with_properties",
     is_flag=True,
-    help="Also measure if a step is symplectic and symmetric, and if the first quantity has no drift.",
+    help="Also measure whether a step is symplectic and symmetric, and whether the first conserved quantity "
+    "drifts.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -63,9 +64,9 @@ def command(
     The deviation of a quantity is relative to the size of the quantity. The column "law" contains "lost" if
     the deviation reaches the size of the quantity, and "rounding" if rounding errors explain the deviation.
     It contains "too short to tell" if the run is too short for a verdict. For quantities that a method
-    conserves exactly, the growth of rounding errors is measured with and without compensated summation. The
-    results are the root mean square of the errors over several initial states, and the power of the number of
-    steps with which the root mean square grows. The exit status is 1 if a run ends early or a method fails.
+    conserves exactly, the growth of rounding errors is measured with and without compensated summation. Two
+    numbers are printed: the root mean square (rms) of the rounding errors over several initial states, and
+    the exponent p if the rms grows like steps^p. The exit status is 1 if a run ends early or a method fails.
 
     \b
     Examples:
@@ -110,7 +111,7 @@ def command(
 
 
 def show_properties(rows: Sequence[Properties]) -> None:
-    """Print the table of properties, one line for each method; print nothing without rows."""
+    """Print the table of properties, one line for each method; if there are no rows, print nothing."""
     if not rows:
         return
     words = {True: "yes", False: "no", None: "-"}

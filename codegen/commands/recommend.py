@@ -54,9 +54,9 @@ def command(
 
     The whole library is searched: every family that accepts the scene, with equal steps and with step-size
     control. The error is the distance from a reference solution at the end of the span. The needs are
-    manifold (the state stays on the manifold up to rounding), symplectic (for long times; a method that loses
-    a conserved quantity in a long run is excluded), explicit (no equations are solved), adaptive (step-size
-    control), fixed (equal steps). The exit status is 1 if no method reaches the error.
+    manifold (the state stays on the manifold up to rounding), symplectic (also excludes methods that lose a
+    conserved quantity in a long run), explicit (no equations are solved), adaptive (step-size control), fixed
+    (equal steps). The exit status is 1 if no method reaches the error.
 
     \b
     Examples:
@@ -109,7 +109,7 @@ def show(result: Recommendation) -> None:
 
 
 def control(asked: Request, place: Result) -> str:
-    """Return the step or the tolerance of a run in words."""
+    """Return the step size or the tolerance of a run as a text; '' if the step size is not known."""
     if place.tolerance is not None:
         return f"rtol = atol = {place.tolerance:.1e}"
     from codegen.lab.efficiency.recommend import step_of
@@ -136,8 +136,8 @@ def searched(result: Recommendation) -> str:
 
 
 def unreached(result: Recommendation) -> str:
-    """Return the message that no method reaches the error. The message contains the smallest measured
-    error.
+    """Return the message that no method reaches the error. The message contains the smallest measured error;
+    if no error was measured, it contains the reason.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""

@@ -1,4 +1,5 @@
-"""``orderconds regenerate``: rewrite the folder of emitted modules, or compare it byte by byte."""
+"""``orderconds regenerate``: emit modules again; rewrite the files of a folder, or compare them byte by byte
+with the new files."""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ from orderconds.commands import screen
 from orderconds.commands.place import FOLDER
 
 
-@click.command(name="regenerate", short_help="Rewrite generated/, or compare it byte by byte.")
+@click.command(name="regenerate", short_help="Rewrite generated/, or compare it with newly emitted files.")
 @click.option(
     "--check", "check_only", is_flag=True, help="Change nothing; the exit status is 1 if a file differs."
 )
@@ -60,10 +61,10 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
 
 
 def source_folder() -> Path:
-    """Return ``generated/`` beside the pyproject.toml of the source tree; raise a usage error without a
-    source tree."""
+    """Return the folder ``generated/`` of the source tree that contains this package; raise a usage error if
+    there is no such source tree."""
     root = Path(__file__).resolve().parents[2]
     pyproject = root / "pyproject.toml"
     if pyproject.is_file() and 'name = "orderconds"' in pyproject.read_text(encoding="utf-8").splitlines():
         return root / "generated"
-    raise click.UsageError("this is not a source tree: give the folder with -o")
+    raise click.UsageError("orderconds does not run from its source tree; name the folder with -o DIR")

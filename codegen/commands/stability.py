@@ -41,8 +41,8 @@ def command(
     """Compare single steps of emitted C on extreme inputs with 60-digit results; find the largest usable
     step.
 
-    In each case the result must be accurate, or the emitted code must return an error status. The exit status
-    is 1 if a case fails this test, or if a method cannot be emitted for the scene.
+    For each extreme input the result must be accurate, or the emitted code must return an error status. The
+    exit status is 1 if an input fails this test, or if a method cannot be emitted for the scene.
 
     \b
     Examples:
@@ -58,7 +58,7 @@ def command(
         raise click.UsageError("--parameter changes one SCENE; omit --all")
     names = scenes.GALLERY if scene is None else (scenes.with_values(scene, parameters),)
     for name in names:
-        # These calls raise InputError before the work begins.
+        # If a scene or a method cannot be tested, these calls raise InputError before the first test begins.
         scenes.with_one_system(scenes.load(name)).require_formulas()
         methods_for(scenes.load(name), methods)
     all_results: list[Stability | NotTested] = []
@@ -78,7 +78,8 @@ def command(
 
 
 def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTested]:
-    """Return the results of the stress tests of methods on a scene."""
+    """Run the stress tests of a job and return their results; ``progress`` is called with texts on the
+    progress."""
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
     from codegen.lab.stability.stability_study import stability
@@ -89,7 +90,8 @@ def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTes
 
 
 def _alone(job: Job) -> list[Stability | NotTested]:
-    """Return the results of a job. This function runs in a separate process, so it shows no progress."""
+    """Return the results of a job without showing progress, because this function runs in a separate
+    process."""
     return _run(job, str)
 
 

@@ -1,4 +1,5 @@
-"""Exact flows of the parts of a Hamiltonian: one file for each kind of flow, and recognition from formulas.
+"""Exact flows of the parts of a Hamiltonian. One file defines each kind of flow; the module ``recognise``
+finds the flow of a part from the formula of the part.
 
 The interface of a flow is :class:`codegen.scene.flow.Flow`.
 """

@@ -15,22 +15,21 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Drift(Flow):
-    """H = T(mu) on an abelian group: mu is constant, and q moves by tau xi(mu), where xi is the derivative of
-    T."""
+    """H = T(mu) on an abelian group. In the time tau, q moves by tau xi with xi = dT/dmu; mu is constant."""
 
     velocity: tuple[Expr, ...]
 
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (exp(tau xi) q, mu)."""
+        """Return (exp(tau xi) q, mu), where xi = dT/dmu."""
         xi: list[S] = evaluate(self.velocity, d, dict(values))
         return group.mul(d, group.exp(d, tuple(tau * x for x in xi)), q), mu
 
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (xi, 0)."""
+        """Return (xi, 0), where xi = dT/dmu."""
         return tuple(evaluate(self.velocity, d, dict(values))), (d.rational(0),) * group.dim
 
     def text(self) -> str:

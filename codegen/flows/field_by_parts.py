@@ -2,8 +2,8 @@
 
 Differentiation of the Hamiltonian gives a formula for the field that contains many entries of q. For a part
 with a known exact flow there is a shorter formula. Both formulas have equal values, because q is an element
-of the group. For the symmetric top the shorter formula of xi is mu/I_1 + s (mu.d) d. It contains only those
-entries of q that are the components of the axis d.
+of the group. For the symmetric top the shorter formula is xi = mu/I_1 + s (mu.d) d, with the axis d of the
+top and a number s. The only entries of q that it contains are the components of d.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from codegen.scene.problem import TIME, Problem
 
 
 def with_field_by_parts(problem: Problem) -> Problem:
-    """Return the problem with its field written as the sum of the fields of the parts, if the sum needs fewer
-    operations. Otherwise return the problem unchanged."""
+    """Return the problem with its field written as the sum of the fields of the parts, if the flows of all
+    parts are known and the sum needs fewer operations. Otherwise return the problem unchanged."""
     if problem.hamiltonian is None or not problem.parts:
         return problem
     if problem.stated or problem.inputs or problem.forced:

@@ -14,7 +14,7 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Isotropic(Flow):
-    """H = rate mu.mu/2 for an inner product invariant under Ad: mu is constant, and q rotates about mu."""
+    """H = rate mu.mu/2, where Ad preserves the dot product. mu is constant, and q rotates about mu."""
 
     rate: Fraction
 

@@ -16,7 +16,8 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Kick(Flow):
-    """H = V(q): q is constant, and mu increases by tau n(q), where n = -(D_1 V).q^-1."""
+    """H = V(q): q is constant, and mu increases by tau n in the time tau. The components of the force n are
+    n_a = -<dV, e_a.q> for the basis e_a of the Lie algebra."""
 
     force: tuple[Expr, ...]
     timed: bool = False
@@ -24,14 +25,14 @@ class Kick(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (q, mu + tau n)."""
+        """Return (q, mu + tau n) with the force n."""
         n: list[S] = evaluate(self.force, d, dict(values))
         return q, tuple(m + tau * x for m, x in zip(mu, n, strict=True))
 
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (0, n)."""
+        """Return (0, n) with the force n."""
         return (d.rational(0),) * group.dim, tuple(evaluate(self.force, d, dict(values)))
 
     def text(self) -> str:

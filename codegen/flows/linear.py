@@ -17,7 +17,8 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Linear(Flow):
-    """A quadratic H on T*R^n: z' = L z + c for z = (q, mu), where L^2 = -diag(w), w >= 0.
+    """A quadratic H on T*R^n: z' = L z + c for z = (q, mu), where L^2 = -diag(w) and no entry of w is
+    negative.
 
     The flow is z -> (C_0 + tau C_1 L) z + (tau C_1 + tau^2 C_2 L) c, where C_k is the diagonal matrix of the
     values c_k(w tau^2) of the Stumpff function c_k.
@@ -52,7 +53,7 @@ class Linear(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return L z + c."""
+        """Return L z + c for z = (q, mu)."""
         z = (*q, *mu)
         rows = [_applied(d, row, z, c) for row, c in zip(self.matrix, self.constant, strict=True)]
         rates: Vector[S] = tuple(d.rational(0) if rate is None else rate for rate in rows)
@@ -64,8 +65,9 @@ class Linear(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a linear flow for a quadratic part on T*R^n; None on other groups. L is J times the Hessian of
-    the part, where J = (0, 1; -1, 0)."""
+    """Return the part with its linear flow z' = L z + c if the group is R^n, else None. L is J times the
+    Hessian of the part, where J = (0, 1; -1, 0). If the part is not quadratic, or if L^2 is not diagonal or
+    has a positive entry, the part is returned without a flow."""
     if not formula.problem.group.abelian:
         return None
     origin = (CONSTANTS.rational(0),) * len(formula.qs)
@@ -83,7 +85,7 @@ def recognise(formula: Formula) -> Part | None:
     n = range(len(L))
     square = [[sum((L[i][k] * L[k][j] for k in n), Fraction(0)) for j in n] for i in n]
     if any(square[i][j] for i in n for j in n if i != j) or any(square[i][i] > 0 for i in n):
-        return formula.refused("the square of its matrix is not diagonal and non-positive")
+        return formula.refused("the square of its matrix is not diagonal, or has a positive entry")
     squares = tuple(-square[i][i] for i in n)
     return formula.whole(Linear(tuple(map(tuple, L)), tuple(c), squares))
 

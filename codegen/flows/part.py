@@ -63,7 +63,7 @@ class Formula:
     root: Expr
 
     def whole(self, flow: Flow) -> Part:
-        """Return the part with a single exact flow."""
+        """Return the part with the exact flow ``flow``."""
         return Part(self.name, (Summand(((self.name, flow),)),))
 
     def refused(self, reason: str) -> Part:
@@ -92,16 +92,18 @@ class Formula:
 
     @cached_property
     def timed(self) -> bool:
-        """True if the time occurs."""
+        """True if the formula contains the time."""
         return any(n.op == "sym" and n.payload == TIME for n in walk([self.root]))
 
     @cached_property
     def orbit(self) -> Orbit:
-        """The sample points at which formulas are compared."""
+        """The problem with sample points. Two formulas count as equal if their values agree at these
+        points."""
         return orbit_of(self.problem)
 
     def constants(self, roots: Sequence[Expr], q: Vector[Element]) -> list[Fraction] | None:
-        """Return the values of formulas at (q, mu = 0); None if one of them is not a rational number."""
+        """Return the values of the formulas ``roots`` at (q, mu = 0). The result is None if a value is not a
+        rational number, or if a formula contains the time or a run-time parameter."""
         symbols = {n.payload for n in walk(roots) if n.op == "sym"}
         if symbols & {*self.problem.runtime, TIME}:
             return None
@@ -113,7 +115,7 @@ class Formula:
         return [Number(QQ, x.coefficients[0]).fraction() for x in values]
 
     def matrix(self, slopes: Sequence[Expr], names: Sequence[str], q: Vector[Element]) -> Matrix | None:
-        """Return the derivatives of formulas with respect to symbols at (q, mu = 0); None if they are not
-        rational numbers."""
+        """Return the derivatives of the formulas ``slopes`` with respect to the symbols ``names``, at q and
+        mu = 0; None if :meth:`constants` returns None for them."""
         rows = [self.constants(gradient(slope, names), q) for slope in slopes]
         return None if any(row is None for row in rows) else [row for row in rows if row is not None]

@@ -9,7 +9,7 @@ Matrix = Sequence[Sequence[Fraction]]
 """Rows of a symmetric matrix."""
 
 Square = tuple[Fraction, list[Fraction]]
-"""(d, e): the form d (e.x)^2."""
+"""(d, e): the form d (e.x)^2 of a vector x, with a number d and a vector e."""
 
 
 def squares(B: Matrix) -> list[Square]:
@@ -33,7 +33,7 @@ def squares(B: Matrix) -> list[Square]:
             k = diagonal[0]
             subtract(rest[k][k], [rest[i][k] / rest[k][k] for i in n])
             continue
-        # If all diagonal entries are zero, 2 x y = ((x + y)^2 - (x - y)^2)/2 is used.
+        # All diagonal entries are zero. A mixed term is split by 2 x y = ((x + y)^2 - (x - y)^2)/2.
         i, j = next((i, j) for i in n for j in n if rest[i][j])
         rate = rest[i][j] / 2
         for sign in (1, -1):
@@ -49,9 +49,9 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 def isotropic_part(B: Matrix) -> Fraction:
     """Return a number a such that B - a I is the sum of few squares with small coefficients.
 
-    For a diagonal B, a is an entry that occurs twice, or the middle entry if there is no such entry. For
-    other matrices several candidates are compared, and a is the candidate for which B - a I is a sum of the
-    fewest squares. For a 3 x 3 matrix with a double eigenvalue, a is this eigenvalue.
+    For a diagonal B, a is a diagonal entry that occurs more than once, or the middle entry if there is no
+    such entry. For other matrices several candidates are compared, and a is the candidate for which B - a I
+    is a sum of the fewest squares. For a 3 x 3 matrix with a double eigenvalue, a is this eigenvalue.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
@@ -66,7 +66,7 @@ def isotropic_part(B: Matrix) -> Fraction:
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
                     # B - a I is a single square only if it has rank one, so all its 2 x 2 minors vanish. The
-                    # minor of the rows i and k and the columns i and j is linear in a; the value of a at
-                    # which it vanishes is a candidate.
+                    # minor of the rows i and k and the columns i and j is linear in a, and its zero is a
+                    # candidate.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -54,8 +54,8 @@ class SiteFlow(Flow):
 
 
 def site_flows(scene: Problem) -> list[Part]:
-    """Return the parts of a lattice with their exact flows, local parts first. Flows of the two sets of
-    pairs along an axis do not commute, so each set is listed as a separate part."""
+    """Return the parts of a lattice with their exact flows. Parts that couple no sites come first. The flows
+    of the two sets of pairs along an axis do not commute, so each set is listed as a separate part."""
     assert scene.sites is not None
     if scene.paired:
         return _hamiltonian_flows(scene)

@@ -24,7 +24,8 @@ from orderconds.ring.protocol import Element
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a part that is a quadratic function of the momentum, as a sum of rotations."""
+    """Return a part that is a quadratic function of the momentum as a sum of rotations; return None if the
+    group is abelian. Any other part is returned without flows."""
     if formula.problem.group.abelian:
         return None
     identity: Vector[Element] = formula.problem.group.identity(CONSTANTS)
@@ -39,7 +40,8 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool:
-    """Return True if H = H(e, 0) + P.BP/2 + w.P, where e is the identity of the group."""
+    """Return True if the part is a constant plus P.BP/2 + w.P, where P is the momentum: P = Ad*_q mu with
+    ``body``, otherwise P = mu."""
     orbit, group = formula.orbit, formula.problem.group.require(Coadjoint)
     d = orbit.domain
     base = None

@@ -30,8 +30,8 @@ class Turn(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (q g, mu) for an axis in the body, else (g q, Ad*_{g^-1} mu), where g is the exponential of
-        the angle times e."""
+        """Return (q g, mu) for an axis in the body, else (g q, Ad*_{g^-1} mu). Here g is the exponential of
+        the axis times the angle of the turn in the time tau."""
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         angle = tau * self._speed(d, self._axis(d, group, q), mu)
         g = group.exp(d, tuple(angle * x for x in axis))

@@ -19,11 +19,11 @@ from codegen.ir.domain import Domain
 def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = False) -> tuple[S, S]:
     """Return b and c such that the word equals 1 + b t + c t^2, where t^3 = -z t.
 
-    A word is a product of functions of t (:mod:`codegen.ir.ad_series`).
-    If ``signed`` is true, z may be negative.
+    A word is a product of functions of t (:mod:`codegen.ir.ad_series`). If ``signed`` is true, z may be
+    negative.
 
-    The product exp(a t) dexp(s t) is formed directly, as (exp((a + s) t) - exp(a t))/(s t). Other factors are
-    multiplied one after the other.
+    All exponentials and the first factor dexp are combined: exp(a t) dexp(s t) is computed as
+    (exp((a + s) t) - exp(a t))/(s t). The other factors are multiplied one after the other.
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -52,7 +52,8 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return b and c of the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``."""
+    """Return the coefficients b of t and c of t^2 of the sum of r exp(k t)/t^j over the pairs (k, r) in
+    ``terms``. Higher powers are reduced by t^3 = -z t; the powers t^0, 1/t, ... of the sum are ignored."""
     sums = []
     name = "signed_stumpff" if signed else "stumpff"
     for power in (1 + j, 2 + j):
@@ -71,7 +72,8 @@ def _exponentials(
 
 
 def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
-    """Return b and c of dexp or of the truncated dexpinv; the exponent ``power`` of the factor is ignored."""
+    """Return b and c such that a factor dexp or truncated dexpinv equals 1 + b t + c t^2; the exponent
+    ``power`` of the factor is ignored."""
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
@@ -85,7 +87,8 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
 
 
 def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
-    """Return b and c of 1/dexp(s t) = 1 - s t/2 + (c_2 - c_3)/(4 c_1) s^2 t^2, with c_k at s^2 z/4.
+    """Return b and c of 1/dexp(s t) = 1 - s t/2 + (c_2 - c_3)/(4 c_1) s^2 t^2. Here c_k are the values of the
+    Stumpff functions at s^2 z/4.
 
     This formula has no cancellation for negative z. For these z :func:`_inverted` would subtract numbers of
     the size exp(2 sqrt(-z)).
@@ -100,8 +103,8 @@ def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
     """Return b and c of the inverse of 1 + b t + c t^2.
 
     On so(3), t = ad_x satisfies t^2 = -z on the plane orthogonal to x. On this plane t is therefore
-    multiplication by i sqrt(z), and 1 + b t + c t^2 is multiplication by the complex number 1 - c z + i b
-    sqrt(z), which is inverted here.
+    multiplication by i sqrt(z), and 1 + b t + c t^2 is multiplication by 1 - c z + i b sqrt(z). The inverse
+    of this complex number gives the result.
     """
     one: S = d.rational(1)
     p = one - c * z

@@ -64,13 +64,13 @@ class LieGroup(ABC):
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return exp(x) for x in the algebra: exp(0) = e, exp(s x) exp(t x) = exp((s + t) x).
 
-        The formula must also be valid at x = 0, in every domain. It may therefore not divide by the length of
-        x: write sin(t)/t as ``stumpff1(t^2)``.
+        The formula must also be valid at x = 0, in every domain. It must therefore not divide by the length
+        of x: write sin(t)/t as ``stumpff1(t^2)``.
         """
 
     @abstractmethod
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return [x, y], bilinear and antisymmetric, with the Jacobi identity.
+        """Return the bracket [x, y]. It must be bilinear and antisymmetric, and satisfy the Jacobi identity.
 
         The sign is determined by exp(h x) exp(h y) exp(-h x) exp(-h y) = exp(h^2 [x, y] + O(h^3)).
         """
@@ -108,13 +108,12 @@ class LieGroup(ABC):
         return (self,)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group as a group with a capability; None if the group does not declare the
-        capability."""
+        """Return this group if it has the operations of the class ``capability``, otherwise None."""
         return self if isinstance(self, capability) else None
 
     def require(self, capability: type[C], where: str = "") -> C:
-        """Return this group as a group with a capability; raise :class:`SceneError` if it does not declare
-        the capability."""
+        """Return this group if it has the operations of the class ``capability``; otherwise raise
+        :class:`SceneError`."""
         offered = self.offers(capability)
         if offered is None:
             raise SceneError(

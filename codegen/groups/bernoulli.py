@@ -36,7 +36,8 @@ def last_term(order: int) -> int:
 def bernoulli_sum(
     d: Domain, advance: Callable[[Vector[S]], Vector[S]], first: Vector[S], order: int
 ) -> Vector[S]:
-    """Return sum over k <= order of B_k/k! advance^k(first)."""
+    """Return the sum over k <= order of B_k/k! advance^k(first), where advance^k is ``advance`` applied k
+    times."""
     total, power = first, first
     for k in range(1, last_term(order) + 1):
         power = advance(power)

@@ -131,8 +131,8 @@ class LeftTranslation(Coadjoint):
 
 
 class BodyFrame(LeftTranslation):
-    """The product q exp(x), which is a step in the body frame. The passes of the compiler that derive such
-    steps need this capability."""
+    """The product g exp(x): a step in the body frame multiplies g by exp(x) from the right. The passes of the
+    compiler that derive such steps need this capability."""
 
     provides: ClassVar[str] = "body frame"
 
@@ -229,8 +229,8 @@ class CayleyMap(LieGroup):
         """
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x = 4 y - 2 [x, y] - 4 dcay^{-1}_x y, by a formula without cancellation if the group has
-        one."""
+        """Return x y x = 4 y - 2 [x, y] - 4 dcay^{-1}_x y. A subclass may override this method by a formula
+        without cancellation."""
         terms = zip(y, self.ad(d, x, y), self.dcayinv(d, x, y), strict=True)
         four, two = d.rational(4), d.rational(2)
         return tuple(four * (a - c) - two * b for a, b, c in terms)
@@ -306,8 +306,8 @@ class Covered(LieGroup):
 
     @abstractmethod
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the result of two maps: q is projected onto the cover, and the covering map is applied. The
-        result satisfies the equations of the group exactly."""
+        """Return the image under the covering map of q after a projection onto the cover. The result
+        satisfies the equations of the group exactly."""
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -336,7 +336,7 @@ class Rotations(MatrixElements):
 
     @abstractmethod
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y for a column y without forming exp(x)."""
+        """Return exp(x) y for a column y, if possible without computing the matrix exp(x)."""
 
 
 class PointMotions(LieGroup):
@@ -376,7 +376,7 @@ class CotangentBundle(LieGroup):
 
     @abstractmethod
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
-        """Return the canonical bivector at z applied to a covector, in the algebra.
+        """Return the element of the algebra to which the canonical bivector at z maps a covector.
 
         If the covector is the trivialised differential of a Hamiltonian, the result is the field f = (xi, n).
         """
@@ -402,13 +402,13 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return sets of indices of coordinates. The coordinates of one set can be computed from all other
-        coordinates."""
+        """Return sets of indices of coordinates. The coordinates of each set can be computed from the
+        coordinates outside the set."""
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g, where the coordinates in ``missing`` are computed from all other coordinates; the old
-        values of ``missing`` are not read."""
+        """Return g with new coordinates at the indices ``missing``. They are computed from all other
+        coordinates; their old values are not read."""
 
 
 def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:

@@ -23,7 +23,8 @@ def check_size(name: str, n: object, least: int) -> None:
 
 
 def check_factor(name: str, group: object) -> None:
-    """Raise :class:`SceneError` unless the argument is a group; ``name`` is the name of the construction."""
+    """Raise :class:`SceneError` unless the argument is a group; ``name`` describes what the group is needed
+    for, such as "a product"."""
     if not isinstance(group, LieGroup):
         shown = group.__name__ if isinstance(group, type) else repr(group)
         raise SceneError(

@@ -42,12 +42,12 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return e + (d.rational(0),) * self.base.dim
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (exp xi, dexp*_{-xi} n)."""
+        """Return (exp xi, dexp*_{-xi} n) for x = (xi, n)."""
         xi, n = self._split(x)
         return self.base.exp(d, xi) + self.base.dexpt(d, tuple(-a for a in xi), n)
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return (g k, mu + Ad*_{g^-1} nu)."""
+        """Return the product of the pairs (g, mu) and (k, nu), which is (g k, mu + Ad*_{g^-1} nu)."""
         (a, mu), (b, nu) = self._split(g), self._split(k)
         moved = self.base.Adtinv(d, a, nu)
         return self.base.mul(d, a, b) + tuple(x + y for x, y in zip(mu, moved, strict=True))
@@ -62,7 +62,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return tuple(Cotangent(base) for base in self.base.variants())
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return ([x, y], ad*_y m - ad*_x n)."""
+        """Return the bracket of the pairs (x, m) and (y, n), which is ([x, y], ad*_y m - ad*_x n)."""
         (a, m), (b, n) = self._split(x), self._split(y)
         pairs = zip(self.base.adt(d, b, m), self.base.adt(d, a, n), strict=True)
         return self.base.ad(d, a, b) + tuple(p - q for p, q in pairs)
@@ -79,13 +79,13 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return b + tuple(x - y for x, y in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group as a group with a capability; it has a projection, and inverses of elements,
-        only if the base group has them."""
+        """Return this group if it has the operations of the class ``capability``, otherwise None. It has a
+        projection, or inverses of elements, only if the base group has them."""
         own = super().offers(capability)
         return None if capability in (Projection, Inverse) and self.base.offers(capability) is None else own
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (q^-1, -Ad*_q mu)."""
+        """Return (q^-1, -Ad*_q mu), the inverse of g = (q, mu)."""
         q, mu = self._split(g)
         back = self.base.Adt(d, q, mu)
         return self.base.require(Inverse).inverse(d, q) + tuple(-m for m in back)
@@ -100,7 +100,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.laws(d, self._split(g)[0])
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (xi.q, n - ad*_xi mu)."""
+        """Return (xi.q, n - ad*_xi mu) for x = (xi, n) and g = (q, mu)."""
         (xi, n), (q, mu) = self._split(x), self._split(g)
         pairs = zip(n, self.base.adt(d, xi, mu), strict=True)
         return self.base.velocity(d, xi, q) + tuple(a - b for a, b in pairs)

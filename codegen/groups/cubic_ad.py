@@ -29,7 +29,8 @@ class CubicAd(ClosedFormSeries):
 
     @abstractmethod
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return z: the non-zero eigenvalues of ad_x are the square roots of -z."""
+        """Return the number z for which ad_x^3 = -z ad_x. The non-zero eigenvalues of ad_x are the square
+        roots of -z."""
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return the product of functions of ad_x, or of ad*_x, applied to v, by two brackets."""

@@ -62,11 +62,11 @@ class DualDomain:
         return Dual(self.domain.rational(p, q), self.zero)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return a Stumpff function of a dual number."""
-        d, (x,) = self.domain, args
-        name, k = function[:-1], int(function[-1])
-        if not name.endswith("stumpff"):
+        """Return the Stumpff function ``function`` of a dual number. Other functions are not supported."""
+        name, digit = function[:-1], function[-1:]
+        if not (name.endswith("stumpff") and digit.isdecimal()):
             raise ArithmeticError(f"{function} has no rule for dual numbers; expected a Stumpff function")
+        d, (x,), k = self.domain, args, int(digit)
         slope: Scalar
         if k == 0:
             slope = -(d.rational(1, 2) * d.call(f"{name}1", x.real))

@@ -33,23 +33,23 @@ class LargeGroup(LieGroup):
         )
 
     def identity(self, d: Domain) -> Vector[S]:
-        """Raise SceneError."""
+        """Raise SceneError, because the group is too large."""
         self._refuse()
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Raise SceneError."""
+        """Raise SceneError, because the group is too large."""
         self._refuse()
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Raise SceneError."""
+        """Raise SceneError, because the group is too large."""
         self._refuse()
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Raise SceneError."""
+        """Raise SceneError, because the group is too large."""
         self._refuse()
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Raise SceneError."""
+        """Raise SceneError, because the group is too large."""
         self._refuse()
 
 

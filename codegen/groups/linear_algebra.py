@@ -1,7 +1,8 @@
 """Scalars of any domain and the linear algebra of flat tuples of them.
 
-A vector is a tuple of scalars, a matrix is a tuple of its entries row by row. Each function uses only the
-four operations, so it is valid for floats, mpmath numbers, power series and expressions.
+A vector is a tuple of scalars, a matrix is a tuple of its entries row by row. The functions use only the four
+operations and functions of the domain, so they are valid for floats, mpmath numbers, power series and
+expressions.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
     """Return v (1 + e/2 + 3 e^2/8), which is v/sqrt(1 - e) up to O(e^3)."""
     excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
     # Floating-point numbers just below 1 are closer together than numbers just above 1. Rounding 1 + excess
-    # would therefore make v shorter in each step, on average.
+    # would therefore make v shorter in each step, on average. So excess v is added to v.
     return tuple(a + excess * a for a in v)
 
 
@@ -87,7 +88,7 @@ def transposed(a: Vector[S], n: int) -> Vector[S]:
 def determinant(a: Vector[S], n: int) -> S:
     """Return the determinant of an n x n matrix without divisions, by expansion along the rows.
 
-    The number of products is n 2^(n-1).
+    The number of products is n (2^(n-1) - 1).
 
     >>> determinant((1, 2, 3, 4), 2)
     -2

@@ -87,7 +87,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self._exponential(d, a)
 
     def exp_times(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y for a column y; if the matrices are large, exp(x) is not formed."""
+        """Return exp(x) y for a column y. The matrix exp(x) is computed only if the matrices are small or the
+        algebra is nilpotent."""
         if self.n < LOOPED or self.algebra.nilpotency:
             return super().exp_times(d, x, y)
         return d.vector(f"expmv{self.n}", (*self.hat(d, x), *y))
@@ -213,12 +214,12 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return exponential, self.dual_vee(d, transposed(result, self.n))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return hat(x) g. Velocities are part of the formulas of scenes, in which each entry must be a
-        scalar formula, so no vector function is called."""
+        """Return A g, where A is the matrix of x. The entries are scalar formulas, because velocities are
+        part of the formulas of scenes. Therefore no function of arrays is called."""
         return matmul(self.hat(d, x), g, self.n)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return the coordinates of v g^-1."""
+        """Return the coordinates of the algebra element v g^-1, for a tangent vector v at g."""
         return self.vee(d, product(d, v, self.inverse(d, g), self.n))
 
 

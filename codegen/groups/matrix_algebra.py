@@ -121,8 +121,8 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
             for j, y in entries:
                 gram[i][j] = gram[i].get(j, Fraction(0)) + x * y
     dual: list[Sparse] = [()] * len(basis)
-    # Basis matrices in different components are orthogonal, so the block of the Gram matrix for each
-    # component is inverted separately.
+    # Basis matrices in different components of the graph (see _components) are orthogonal, so the block of
+    # the Gram matrix for each component is inverted separately.
     for component in _components(gram):
         inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
         if inverse is None or not all(basis[i] for i in component):

@@ -18,8 +18,11 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     x^3 for each of its elements x."""
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group as a group with a capability; None for the Cayley map if the algebra does not
-        contain all cubes of its elements."""
+        """Return this group if it has the capability, and None if it does not have it.
+
+        A group has the capability :class:`CayleyMap` only if its algebra contains the cubes of all its
+        elements. Then the algebra contains all odd powers, and cay(x) = exp(2 artanh(x/2)) is in the group.
+        """
         own = super().offers(capability)
         return None if capability is CayleyMap and not self._contains_cubes else own
 

@@ -58,9 +58,11 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return tuple(tuple(x[end - n : end]) for end, n in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product as a group with a capability; None if a factor lacks the capability."""
+        """Return this product if all factors have the operations of the class ``capability``, otherwise
+        None."""
         own = super().offers(capability)
-        if issubclass(DirectProduct, capability):  # every product has this capability
+        # A product is a LieGroup and a DirectProduct, whatever its factors are.
+        if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 
@@ -71,15 +73,15 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
 
     def identity(self, d: Domain) -> Vector[S]:
-        """Return the neutral elements."""
+        """Return the neutral elements of the factors."""
         return self._each(LieGroup, lambda f: f.identity(d))
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the exponentials."""
+        """Return the exponential of each factor."""
         return self._each(LieGroup, lambda f, a: f.exp(d, a), x)
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the products."""
+        """Return the product of each factor."""
         return self._each(LieGroup, lambda f, a, b: f.mul(d, a, b), g, k)
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -87,7 +89,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(LieGroup, lambda f, a, b: f.expmul(d, a, b), x, g)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the brackets."""
+        """Return the bracket of each factor."""
         return self._each(LieGroup, lambda f, a, b: f.ad(d, a, b), x, y)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -152,7 +154,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(CayleyMap, lambda f, a, b: f.sandwich(d, a, b), x, y)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x with v = x.g, of each factor."""
+        """Return the element x of the algebra for which v = x.g, factor by factor."""
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
@@ -161,7 +163,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the factors' symbols: ``name``, the label of the factor, and its own indices."""
+        """Return the symbols of all factors. The name of a symbol is ``name``, then the label of the factor,
+        then the index that the factor itself uses."""
         pairs = zip(self.factors, labels(len(self.factors)), strict=True)
         return [s for f, label in pairs for s in f.symbols(name + label)]
 

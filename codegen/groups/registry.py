@@ -29,8 +29,9 @@ class Registry(Generic[T]):
     def add(self, cls: type[T]) -> None:
         """Add a class under its own name.
 
-        A second class of the same name replaces the first, because a scene file may be read twice.
-        :class:`SceneError` is raised for the name of a built-in class and for a class with abstract methods.
+        A second class of the same name replaces the first: a scene file that is read twice adds its classes
+        twice. :class:`SceneError` is raised for the name of a built-in class and for a class with abstract
+        methods.
         """
         name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
         if missing:
@@ -60,7 +61,7 @@ class Registry(Generic[T]):
         return cls
 
     def listing(self) -> list[dict[str, str]]:
-        """Return name and first paragraph of the docstring of every class."""
+        """Return, for every class, its name and (``about``) the first paragraph of its docstring."""
         return [{"name": n, "about": _first_paragraph(self.get(n).__doc__ or "")} for n in self.names]
 
 

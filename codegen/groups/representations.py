@@ -29,18 +29,19 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain, FloatDomain
 
 Pair = tuple[Vector[S], Vector[S]]
-"""An element of the algebra and a vector, or an element of its dual and a covector."""
+"""An element of the algebra and a vector, or an element of the dual of the algebra and a covector."""
 
 
 class Representation(ABC):
-    """A representation of a group on ``copies`` copies of a space, one after the other.
+    """A representation of a group on ``copies`` copies of a space.
 
-    The methods act on one copy. ``needs`` is the capability that the formulas require of the group.
+    A vector contains its components in all copies, copy by copy. The methods act on one copy. ``needs`` is
+    the class that a group must be derived from, because the formulas call methods of this class.
     """
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if rho is Ad, which is the same for a group and its cover."""
+    """True if rho is Ad. A group and its cover have the same Lie algebra and the same Ad."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
@@ -93,15 +94,16 @@ class Representation(ABC):
         return False
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the product ``word`` of functions of ad_(x, u), applied to (y, v). Here u and v are vectors
-        of a single copy of the space."""
+        """Return the product ``word`` of functions of ad_(y, u), applied to (z, w). The argument ``x`` is the
+        pair (y, u), and ``v`` is the pair (z, w). The vectors u and w belong to one copy of the space."""
         raise self._missing("series")
 
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the product ``word`` of functions of ad*_(x, u), applied to (m, p). Here u is a vector and p
-        a covector of a single copy of the space."""
+        """Return the product ``word`` of functions of ad*_(y, u), applied to (m, q). The argument ``x`` is
+        the pair (y, u), and ``p`` is the pair (m, q) of an element of the dual of the algebra and a covector
+        of one copy of the space."""
         raise self._missing("dual_series")
 
     def _missing(self, method: str) -> SceneError:
@@ -171,8 +173,8 @@ class AlgebraVectors(Representation):
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the product ``word`` of functions of ad, computed by the formula of the group with dual
-        numbers."""
+        """Return the product ``word`` of functions of ad_x, applied to v. It is computed by the closed form
+        of the group, evaluated with dual numbers."""
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
         return tuple(a.real for a in result), tuple(a.rate for a in result)
@@ -180,11 +182,11 @@ class AlgebraVectors(Representation):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the product ``word`` of functions of ad*, computed by the formula of the group with dual
-        numbers.
+        """Return the product ``word`` of functions of ad*_x, applied to the pair ``p`` = (m, q). It is
+        computed by the closed form of the group, evaluated with dual numbers.
 
-        The pairing <m, y> + <p, v> is the coefficient of e in <p + m e, y + v e>. Therefore (m, p) becomes
-        the dual number p + m e, whose real part is p.
+        The pairing <m, y> + <q, v> is the coefficient of e in <q + m e, y + v e>. Therefore (m, q) becomes
+        the dual number q + m e, whose real part is q.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
@@ -215,15 +217,15 @@ class MatrixColumns(Representation):
         return matvec(self._matrices(group).matrix(d, g), v)
 
     def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the inverse matrix times v."""
+        """Return the inverse of the matrix of g, times v."""
         return matvec(self._inverse(d, group, g), v)
 
     def dual(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the transposed matrix times p."""
+        """Return the transposed matrix of g times p."""
         return matvec(_transposed(self._matrices(group).matrix(d, g)), p)
 
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the transposed inverse times p."""
+        """Return the transposed inverse of the matrix of g, times p."""
         return matvec(_transposed(self._inverse(d, group, g)), p)
 
     def _inverse(self, d: Domain, group: LieGroup, g: Vector[S]) -> Vector[S]:
@@ -277,14 +279,17 @@ class MatrixColumns(Representation):
 
 
 class PlaneVectors(MatrixColumns):
-    """Copies of R^2 with the rotations of SO(2): phi(w) = c_1(w^2) + c_2(w^2) w J with J(a, b) = (-b, a)."""
+    """Copies of R^2 with the rotations of SO(2).
+
+    With J(a, b) = (-b, a) and the Stumpff functions c_k: phi(w) = c_1(w^2) + c_2(w^2) w J.
+    """
 
     def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the transposed matrix times v."""
+        """Return the transposed rotation matrix of g times v."""
         return self.dual(d, group, g, v)
 
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the matrix times p."""
+        """Return the rotation matrix of g times p."""
         return self.act(d, group, g, p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
@@ -292,17 +297,18 @@ class PlaneVectors(MatrixColumns):
         return (v[0] * p[1] - v[1] * p[0],)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return c_1 u + c_2 w J u."""
+        """Return c_1(w^2) u + c_2(w^2) w J u for x = (w,), with J(a, b) = (-b, a)."""
         z = x[0] * x[0]
         c1, turned = d.call("stumpff1", z), x[0] * d.call("stumpff2", z)
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True: with one copy ad^3 = -w^2 ad."""
+        """Return True: on one copy ad_x^3 = -w^2 ad_x, where w is the angular velocity in x."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return y and v + (b + c w J)(w J v - y J u) for the function 1 + b ad + c ad^2."""
+        """Return the pair of y and q + (b + c w J)(w J q - y J u), where x = (w, u), v = (y, q) and J(a, b) =
+        (-b, a). The product ``word`` of functions of ad_x is equal to 1 + b ad_x + c ad_x^2."""
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)
         first = (v[0][0] * u[1] - w * v[1][1], w * v[1][0] - v[0][0] * u[0])
@@ -313,8 +319,7 @@ class PlaneVectors(MatrixColumns):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the result of the transposed linear map: the transpose of the map of :meth:`series`, applied
-        to ``p``."""
+        """Return the transpose of the linear map v -> series(d, group, word, x, v), applied to ``p``."""
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)
         turned = c * w

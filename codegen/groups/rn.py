@@ -55,7 +55,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return y
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return 0: products of the matrices of translations vanish."""
+        """Return x y x = 0: the product of the matrices of two elements of the algebra is zero."""
         return (d.rational(0),) * self.dim
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -79,7 +79,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return self._affine(d, g, d.rational(1))
 
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the last column without its last entry."""
+        """Return the last column of the matrix without its last entry: the translation."""
         n = self.dim
         return matrix[n : (n + 1) * n : n + 1]
 
@@ -88,7 +88,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return self._affine(d, x, d.rational(0))
 
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the last column without its last entry."""
+        """Return the last column of the matrix without its last entry."""
         return self.element(matrix)
 
     def _affine(self, d: Domain, x: Vector[S], one: S) -> Vector[S]:

@@ -54,7 +54,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(plain * b - c + factor * a for a, b, c in zip(x, y, cross(x, y), strict=True))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return |x|^2 y - 2 (x.y) x."""
+        """Return the quaternion product x y x = |x|^2 y - 2 (x.y) x."""
         square, factor = dot(x, x), d.rational(2) * dot(x, y)
         return tuple(square * b - factor * a for a, b in zip(x, y, strict=True))
 
@@ -76,15 +76,15 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return self.ad(d, mu, x)
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g x g^c = x + 2 q0 q cross x + 2 q cross (q cross x)."""
+        """Return g x g^c = x + 2 q0 q cross x + 2 q cross (q cross x) for g = (q0, q) and its conjugate."""
         return self._rotated(d, g[0], g[1:], x)
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return g^c mu g."""
+        """Return Ad*_g mu = g^c mu g, with the conjugate g^c of g."""
         return self._rotated(d, -g[0], g[1:], mu)
 
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return g mu g^c."""
+        """Return Ad*_{g^-1} mu = g mu g^c, with the conjugate g^c of g."""
         return self._rotated(d, g[0], g[1:], mu)
 
     def _rotated(self, d: Domain, real: S, q: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -93,7 +93,8 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(a + real * b + c for a, b, c in zip(x, first, second, strict=True))
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu = dexp_{-x} mu, with c_2 and c_3 at the squared angle 4 |x|^2."""
+        """Return dexp*_x mu = dexp_{-x} mu = mu - c_2 v + c_3 (2x cross v). Here v = 2x cross mu, and c_2 and
+        c_3 are the Stumpff functions of 4 |x|^2."""
         twice = tuple(d.rational(2) * a for a in x)
         z = dot(twice, twice)
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
@@ -107,11 +108,11 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return (-dot(x, g[1:]), *(g[0] * a + b for a, b in pairs))
 
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g^c x g."""
+        """Return Ad_{g^-1} x = g^c x g, with the conjugate g^c of g."""
         return self._rotated(d, -g[0], g[1:], x)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return q.q = 1 as a replacement of the square of the real part."""
+        """Return one rule: it replaces q0^2 by 1 - q1^2 - q2^2 - q3^2."""
         minus = Number.rational(-1)
         return (((q[0], q[0]), ((Number.rational(1), ()), *((minus, (a, a)) for a in q[1:]))),)
 
@@ -126,9 +127,9 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - |g|^2; the error of the length is then O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - |g|^2; the length of the result is 1 + O(e^3)."""
         return rescaled(d, g, d.rational(1) - dot(g, g))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return q.q = 1."""
+        """Return one equation, q.q = 1 for the quaternion q = g, as the pair of its text and the residual."""
         return (("|q|^2 = 1", dot(g, g) - d.rational(1)),)

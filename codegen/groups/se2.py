@@ -16,8 +16,9 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     """Motions z -> R z + a of the plane as (c, s, a0, a1): R rotates by the angle with cosine c and sine s.
 
     An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. With
-    J(a, b) = (-b, a): [(w, u), (w', u')] = (0, w J u' - w' J u). Since ad_x^3 = -w^2 ad_x, dexp_x = 1 +
-    c_2(w^2) ad_x + c_3(w^2) ad_x^2, and exp(w, u) rotates by w and translates by (c_1(w^2) + c_2(w^2) w J) u.
+    J(a, b) = (-b, a): [(w, u), (w', u')] = (0, w J u' - w' J u). With the Stumpff functions c_k,
+    exp(w, u) rotates by w and translates by (c_1(w^2) + c_2(w^2) w J) u. Since ad_x^3 = -w^2 ad_x,
+    dexp_x = 1 + c_2(w^2) ad_x + c_3(w^2) ad_x^2.
     """
 
     name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"
@@ -37,8 +38,8 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (c0, w * c1, c1 * u - turned * v, c1 * v + turned * u)
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the Cayley map of the 3 x 3 matrices of plane motions: its translation is (1 - w J/2)^-1
-        u."""
+        """Return the Cayley map of the 3 x 3 matrix of x = (w, u). The result has the translation
+        (1 - w J/2)^-1 u with J(a, b) = (-b, a)."""
         w, u, v = x
         one, half = d.rational(1), d.rational(1, 2) * w
         square = half * half
@@ -47,17 +48,17 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return ((one - square) * factor, w * factor, *translation)
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return y - [x, y]/2 - x y x/4, where x y x = -w w' (w, u) for y = (w', u')."""
+        """Return y - [x, y]/2 - x y x/4, where x y x = -w w' (w, u) for x = (w, u) and y = (w', u')."""
         factor, half = d.rational(1, 4) * (x[0] * y[0]), d.rational(1, 2)
         return tuple(b - half * c + factor * a for a, b, c in zip(x, y, self.ad(d, x, y), strict=True))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return -w w' (w, u) for x = (w, u) and y = (w', u')."""
+        """Return x y x = -w w' (w, u) for x = (w, u) and y = (w', u')."""
         factor = -(x[0] * y[0])
         return tuple(factor * a for a in x)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the motion z -> R^T (z - a)."""
+        """Return the inverse of the motion z -> R z + a, which is z -> R^T (z - a)."""
         c, s, a, b = g
         return (c, -s, -(c * a + s * b), s * a - c * b)
 
@@ -67,17 +68,17 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (c * k[0] - s * k[1], s * k[0] + c * k[1], *self.move(d, g, k[2:]))
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return R z + a."""
+        """Return R z + a for the motion g with rotation R and translation a."""
         c, s, a, b = g
         return (c * z[0] - s * z[1] + a, s * z[0] + c * z[1] + b)
 
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return w J z + u, the velocity of the point z under x."""
+        """Return w J z + u, the velocity of the point z under x = (w, u), with J(a, b) = (-b, a)."""
         w, u, v = x
         return (u - w * z[1], v + w * z[0])
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (0, w J u' - w' J u)."""
+        """Return (0, w J u' - w' J u) for x = (w, u) and y = (w', u'), with J(a, b) = (-b, a)."""
         return (d.rational(0), y[0] * x[2] - x[0] * y[2], x[0] * y[1] - y[0] * x[1])
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -86,7 +87,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (mu[1] * v - mu[2] * u, w * mu[2], -(w * mu[1]))
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g x g^-1 = (w, R u - w J a)."""
+        """Return g x g^-1 = (w, R u - w J a) for x = (w, u) and g with rotation R and translation a."""
         c, s, a, b = g
         w, u, v = x
         return (w, c * u - s * v + w * b, s * u + c * v - w * a)
@@ -104,7 +105,8 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (m - p * b + r * a, p, r)
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu."""
+        """Return mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu with the Stumpff functions c_k of w^2, where w is
+        the angular velocity in x."""
         z = x[0] * x[0]
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
         first = self.adt(d, x, mu)
@@ -112,17 +114,18 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return tuple(m + c2 * a + c3 * b for m, a, b in zip(mu, first, second, strict=True))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g: the pair of w J (c, s) and w J a + u, the velocity of the point a."""
+        """Return x.g for x = (w, u) and g = (c, s, a): the pair of w J (c, s) and w J a + u. The second part
+        is the velocity of the point a under x, and J(a, b) = (-b, a)."""
         w = x[0]
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g with (c, s) multiplied by 1 + e/2 + 3 e^2/8, where e = 1 - c^2 - s^2; the error of c^2 +
-        s^2 = 1 is then O(e^3)."""
+        """Return g with (c, s) multiplied by 1 + e/2 + 3 e^2/8, where e = 1 - c^2 - s^2. For the result,
+        c^2 + s^2 - 1 is O(e^3)."""
         return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return c^2 + s^2 = 1."""
+        """Return one equation, c^2 + s^2 = 1, as the pair of its text and the residual c^2 + s^2 - 1."""
         return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:

@@ -50,8 +50,8 @@ class Semidirect(
     ``representation`` is rho. (g, a) maps the point z of V to rho(g) z + a. The coordinates of g come before
     the coordinates of a. An element of the algebra is (x, u): the velocity of the point z is x.z + u. The
     brackets are [(x, u), (y, v)] = ([x, y], x.v - y.u), and exp(x, u) = (exp x, phi(x) u) with phi(x) = sum
-    of x^k/(k+1)!. The product has a capability if the linear factor has it and the representation has the
-    formulas for this capability.
+    of x^k/(k+1)!. The product offers a capability, that is, the methods of a base class such as
+    :class:`Covered`, if the linear factor offers it and the representation has the formulas for it.
     """
 
     covering_formula = "the image of q in the linear factor; the vectors are those of q"
@@ -81,17 +81,17 @@ class Semidirect(
         return tuple(g[: self.linear.size]), tuple(g[self.linear.size :])
 
     def _copies(self, v: Vector[S]) -> Iterator[Vector[S]]:
-        """Yield the part of a vector in each copy of the space."""
+        """Yield the components of a vector in each copy of the space, as one tuple for each copy."""
         return (tuple(v[i : i + self.width]) for i in range(0, len(v), self.width))
 
     def _each(self, operation: Callable[..., Vector[S]], *vectors: Vector[S]) -> Vector[S]:
-        """Return the results of an operation on all copies, joined to one tuple."""
+        """Apply an operation to each copy of the space; return the results joined to one tuple."""
         rows = zip(*map(self._copies, vectors), strict=True)
         return tuple(chain.from_iterable(operation(*row) for row in rows))
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product if it has the capability. Return None if the linear factor or the
-        representation has no formulas for it."""
+        """Return this product if it has the methods of the class ``capability``. Return None if the linear
+        factor or the representation has no formulas for them."""
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
             return own
@@ -106,7 +106,7 @@ class Semidirect(
         return own if self.linear.offers(capability) is not None else None
 
     def variants(self) -> Sequence[Semidirect]:
-        """Return the products with the variants of the linear factor."""
+        """Return one product for each implementation of the linear factor (:meth:`LieGroup.variants`)."""
         return tuple(self.with_linear(variant) for variant in self.linear.variants())
 
     def with_linear(self, linear: LieGroup) -> Semidirect:
@@ -114,38 +114,38 @@ class Semidirect(
         return Semidirect(linear, self.representation, self.name)
 
     def identity(self, d: Domain) -> Vector[S]:
-        """Return (e, 0)."""
+        """Return (e, 0), where e is the identity of the linear factor."""
         zeros: Vector[S] = (d.rational(0),) * self.point_size
         return self.linear.identity(d) + zeros
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return (g k, a + rho(g) b)."""
+        """Return (q r, a + rho(q) b) for g = (q, a) and k = (r, b)."""
         (q, a), (r, b) = self._element(g), self._element(k)
         moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), b)
         return self.linear.mul(d, q, r) + _sum(a, moved)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (g^-1, -rho(g^-1) a)."""
+        """Return (q^-1, -rho(q^-1) a) for g = (q, a)."""
         q, a = self._element(g)
         moved = self._each(lambda v: self.representation.inverse(d, self.linear, q, v), a)
         return self.linear.require(Inverse).inverse(d, q) + tuple(-x for x in moved)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (exp x, phi(x) u)."""
+        """Return (exp y, phi(y) u) for x = (y, u), with phi(y) = sum of y^k/(k+1)!."""
         y, u = self._split(x)
         moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
         return self.linear.exp(d, y) + moved
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (exp(x) g, rho(exp x) a + phi(x) u)."""
+        """Return (exp(y) q, rho(exp y) a + phi(y) u) for x = (y, u) and g = (q, a)."""
         q, y = self._element(g)[0], self._split(x)[0]
         # A variant of the linear factor may have a shorter formula for exp(x) g.
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (cay x, (1 - x/2)^-1 u).
+        """Return (cay y, (1 - y/2)^-1 u) for x = (y, u).
 
-        The group has this map if rho(g) is the matrix of g. Then (1 - x/2)^-1 = (1 + rho(cay x))/2.
+        The product has a Cayley map if rho(g) is the matrix of g. Then (1 - y/2)^-1 = (1 + rho(cay y))/2.
         """
         y, u = self._split(x)
         half: S = d.rational(1, 2)
@@ -154,10 +154,10 @@ class Semidirect(
         return g + tuple(half * a for a in _sum(u, turned))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (dcay^{-1}_x y, v - (x.v - y.u)/2 - x.(y.u)/4)."""
+        """Return (dcay^{-1}_a b, v - (a.v - b.u)/2 - a.(b.u)/4) for x = (a, u) and y = (b, v)."""
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # Horner's rule: v + y.u/2 - x.(v + y.u/2)/2.
+        # Horner's rule: v + b.u/2 - a.(v + b.u/2)/2.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)
@@ -165,75 +165,76 @@ class Semidirect(
         return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (x y x, x.(y.u))."""
+        """Return (a b a, a.(b.u)) for x = (a, u) and y = (b, v)."""
         (a, u), b = self._split(x), self._split(y)[0]
         inner = self.point_velocity(d, y, u, translated=False)
         tail = self.point_velocity(d, x, inner, translated=False)
         return self.linear.require(CayleyMap).sandwich(d, a, b) + tail
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (g exp x, a + rho(g) phi(x) u)."""
+        """Return (q exp y, a + rho(q) phi(y) u) for g = (q, a) and x = (y, u)."""
         (q, a), (y, u) = self._element(g), self._split(x)
         moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
         ahead = self._each(lambda v: self.representation.act(d, self.linear, q, v), moved)
         return self.linear.require(BodyFrame).mulexp(d, q, y) + _sum(a, ahead)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return ([x, y], x.v - y.u)."""
+        """Return ([a, b], a.v - b.u) for x = (a, u) and y = (b, v)."""
         (a, u), (b, v) = self._split(x), self._split(y)
         turned = self._each(lambda p, q: self._difference(d, a, q, b, p), u, v)
         return self.linear.ad(d, a, b) + turned
 
     def _difference(self, d: Domain, a: Vector[S], v: Vector[S], b: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return a.v - b.u."""
+        """Return a.v - b.u for elements a, b of the algebra and vectors v, u of one copy of the space."""
         velocity = self.representation.velocity
         pairs = zip(velocity(d, self.linear, a, v), velocity(d, self.linear, b, u), strict=True)
         return tuple(p - q for p, q in pairs)
 
     def _momentum(self, d: Domain, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return J(v, p), the sum over all copies."""
+        """Return the sum of the momentum maps J(v, p) over all copies of the space."""
         parts = zip(self._copies(v), self._copies(p), strict=True)
         return _sum(*(self.representation.momentum(d, self.linear, a, b) for a, b in parts))
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return (ad*_x m - J(u, p), x^T p)."""
+        """Return (ad*_y m - J(u, p), y^T p) for x = (y, u) and mu = (m, p), with the momentum map J."""
         (y, u), (m, p) = self._split(x), self._split(mu)
         turned = self._each(lambda a: self.representation.dual_velocity(d, self.linear, y, a), p)
         return _difference(self.linear.adt(d, y, m), self._momentum(d, u, p)) + turned
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (Ad_g x, rho(g) u - (Ad_g x).a)."""
+        """Return (Ad_q y, rho(q) u - (Ad_q y).a) for g = (q, a) and x = (y, u)."""
         (q, a), (y, u) = self._element(g), self._split(x)
         turned = self.linear.Ad(d, q, y)
         moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), u)
         return turned + _difference(moved, self.point_velocity(d, turned, a, translated=False))
 
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (Ad_{g^-1} x, rho(g)^-1 (u + x.a))."""
+        """Return (Ad_{q^-1} y, rho(q)^-1 (u + y.a)) for g = (q, a) and x = (y, u)."""
         (q, a), (y, _) = self._element(g), self._split(x)
         back = self.linear.require(LeftTranslation).Adinv(d, q, y)
         velocity = self.point_velocity(d, x, a)
         return back + self._each(lambda v: self.representation.inverse(d, self.linear, q, v), velocity)
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return (Ad*_g (m - J(a, p)), rho(g)^T p)."""
+        """Return (Ad*_q (m - J(a, p)), rho(q)^T p) for g = (q, a), mu = (m, p) and the momentum map J."""
         (q, a), (m, p) = self._element(g), self._split(mu)
         central = _difference(m, self._momentum(d, a, p))
         turned = self._each(lambda v: self.representation.dual(d, self.linear, q, v), p)
         return self.linear.Adt(d, q, central) + turned
 
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return (Ad*_{g^-1} m + J(a, p'), p') with p' = rho(g)^-T p."""
+        """Return (Ad*_{q^-1} m + J(a, p'), p') with p' = rho(q)^-T p, for g = (q, a), mu = (m, p) and the
+        momentum map J."""
         (q, a), (m, p) = self._element(g), self._split(mu)
         turned = self._each(lambda v: self.representation.dual_inverse(d, self.linear, q, v), p)
         return _sum(self.linear.Adtinv(d, q, m), self._momentum(d, a, turned)) + turned
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_(x, u) (m, p).
+        """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        With t = phi(x) u, dexp_(x, u) maps (y, 0) to the pair of dexp_x y and D phi(x)[y] u - (dexp_x y).t.
-        Without a closed form, the result is therefore the pair of dexp*_x (m - J(t, p)) + D_x <p, t> and D_u
-        <p, t>.
+        With t = phi(y) u, dexp_x maps (z, 0) to the pair of dexp_y z and D phi(y)[z] u - (dexp_y z).t. Let
+        D_y and D_u be the derivatives with respect to y and u. Without a closed form, the result is therefore
+        the pair of dexp*_y (m - J(t, p)) + D_y <p, t> and D_u <p, t>, where J is the momentum map.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -245,16 +246,16 @@ class Semidirect(
         return _sum(central, *(first for first, _ in slopes)) + tuple(q for _, part in slopes for q in part)
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of the functions of ad_(x, u) in ``word`` applied to v; with ``dual``, ad*
-        replaces ad."""
+        """Return the product ``word`` of functions of ad_x, applied to v. If ``dual`` is true, the functions
+        are functions of ad*_x."""
         rule = self.representation.dual_series if dual else self.representation.series
         (y, u), (w, vectors) = self._split(x), self._split(v)
         none: Vector[S] = tuple(d.rational(0) for _ in w)
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # On the dual, ``head`` is added over all copies. Only the first copy gets w, because otherwise w
-            # would be counted once for each copy.
+            # On the dual, the first part of the result is the sum of ``head`` over all copies. Only the first
+            # copy gets w, because otherwise w would be counted once for each copy.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -269,63 +270,64 @@ class Semidirect(
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_(x, u)) v over terms (f, W, v), term by term."""
+        """Return the sum of f W(ad_x) v over the terms (f, W, v), where W is a product of functions. If
+        ``dual`` is true, ad*_x replaces ad_x. The argument ``total`` is not used."""
         values = [self.series(d, word, dual, x, tuple(f * a for a in v)) for f, word, v in terms]
         return _sum(*values)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (x.g, x.a + u)."""
+        """Return (y.q, y.a + u) for x = (y, u) and g = (q, a)."""
         q, a = self._element(g)
         return self.linear.velocity(d, self._split(x)[0], q) + self.point_velocity(d, x, a)
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (g.x, rho(g) u)."""
+        """Return (q.y, rho(q) u) for g = (q, a) and x = (y, u)."""
         q, (y, u) = self._element(g)[0], self._split(x)
         turned = self._each(lambda v: self.representation.act(d, self.linear, q, v), u)
         return self.linear.require(LeftTranslation).left_velocity(d, q, y) + turned
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (x, w - x.a) for the tangent vector (x.g, w)."""
+        """Return (x, w - x.a) for the tangent vector v = (x.q, w) at g = (q, a)."""
         (q, a), (first, w) = self._element(g), self._element(v)
         x = self.linear.require(RightTrivialisation).rate(d, first, q)
         return x + _difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the relations of the linear factor."""
+        """Return the relations of the linear factor: the vector satisfies no equation."""
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pair (g, a), where g is projected onto the linear factor."""
+        """Return g = (q, a) with q projected onto the linear factor; a is not changed."""
         q, a = self._element(g)
         return self.linear.require(Projection).project(d, q) + a
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the linear factor."""
+        """Return the equations of the linear factor: the vector satisfies no equation."""
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return rho(g) z + a."""
+        """Return rho(q) z + a for g = (q, a)."""
         q, a = self._element(g)
         return _sum(self._each(lambda v: self.representation.act(d, self.linear, q, v), z), a)
 
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S], *, translated: bool = True) -> Vector[S]:
-        """Return x.z + u; without ``translated`` return x.z."""
+        """Return y.z + u for x = (y, u); if ``translated`` is false, return y.z."""
         y, u = self._split(x)
         turned = self._each(lambda v: self.representation.velocity(d, self.linear, y, v), z)
         return _sum(turned, u) if translated else turned
 
     @property
     def order(self) -> int:
-        """The number of rows of the matrices [[rho(g), a], [0, 1]]."""
+        """The number of rows of the matrix [[rho(q), a], [0, 1]] of an element (q, a)."""
         return self.width + self.representation.copies
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the matrix with the blocks rho(g), the copies of a as columns, 0 and 1."""
+        """Return the matrix [[rho(q), a], [0, 1]] for g = (q, a), where each copy in a is a column."""
         q, a = self._element(g)
         return self._bordered(d, self._matrices().matrix(d, q), a, d.rational(1))
 
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix with the blocks of x, the copies of u as columns, and zeros."""
+        """Return the matrix [[y, u], [0, 0]] for x = (y, u), where each copy in u is a column."""
         y, u = self._split(x)
         return self._bordered(d, self._matrices().hat(d, y), u, d.rational(0))
 
@@ -356,7 +358,7 @@ class Semidirect(
 
     @property
     def cover(self) -> LeftTranslation:
-        """The semidirect product of the cover of the linear factor with the same vectors."""
+        """The semidirect product of the cover of the linear factor and the same vector space."""
         return Semidirect(self._covered().cover, self.representation)
 
     def _covered(self) -> Covered:
@@ -368,8 +370,8 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of q: the covering map of the linear factor is applied to the linear part of q,
-        and the vector of q is not changed."""
+        """Return the image of q = (r, a): the covering map of the linear factor is applied to r, and a is not
+        changed."""
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 
@@ -380,22 +382,24 @@ class Semidirect(
         return self._covered().projected_covering(d, g) + a
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the pair of the lifted velocity of the linear factor and the unchanged vector u."""
+        """Return the velocity x = (y, u) with y lifted to the cover of the linear factor; u is unchanged."""
         y, u = self._split(x)
         return self._covered().lifted_velocity(d, y) + u
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pivots of the linear factor."""
+        """Return the pivots of the linear factor: a formula of :meth:`lift` is valid where its pivot is
+        positive."""
         return self._covered().pivots(d, self._element(g)[0])
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return the pair of a lift of the linear part of g to the cover and the unchanged vector of g."""
+        """Return an element of the cover whose image is g = (q, a): q is lifted by the formula with the index
+        ``formula``, and a is unchanged."""
         q, a = self._element(g)
         return self._covered().lift(d, q, formula) + a
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of the linear factor, and, for each component of a, the symbol ``name`` followed
-        by an index.
+        """Return the symbols of the linear factor, and then, for each component of the vector, the symbol
+        ``name`` followed by an index.
 
         If the linear factor has one of these symbols, the letter v precedes the index.
         """

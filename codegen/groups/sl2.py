@@ -25,14 +25,14 @@ class SL2(CubicAd, MatrixGroup, Projection):
         super().__init__("SL(2)", [[[0, 1], [0, 0]], [[0, 0], [1, 0]], [[1, 0], [0, -1]]])
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return c_0 + c_1 A for the matrix A of x."""
+        """Return c_0(z) + c_1(z) A with z = det A, for the matrix A of x and the Stumpff functions c_k."""
         z = _determinant(x)
         c0, c1 = d.call("signed_stumpff0", z), d.call("signed_stumpff1", z)
         diagonal = c1 * x[2]
         return (c0 + diagonal, c1 * x[0], c1 * x[1], c0 - diagonal)
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return 4 det A."""
+        """Return 4 det A for the matrix A of x."""
         four: S = d.rational(4)
         return four * _determinant(x)
 
@@ -51,7 +51,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return self.Adt(d, _adjugate(g), mu)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the adjugate matrix."""
+        """Return the adjugate matrix of g, which is the inverse because det g = 1."""
         return _adjugate(g)
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -65,7 +65,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return Coadjoint.cotangent_expmul(self, d, x, n, q, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g; the error of the determinant is then O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g; the determinant of the result is 1 + O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:

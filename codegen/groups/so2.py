@@ -39,59 +39,59 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (d.rational(1), d.rational(0))
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the product of two complex numbers c + i s."""
+        """Return the product of g and k as complex numbers, where (c, s) is the number c + i s."""
         return (g[0] * k[0] - g[1] * k[1], g[1] * k[0] + g[0] * k[1])
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (c, -s)."""
+        """Return (c, -s) for g = (c, s)."""
         return (g[0], -g[1])
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (1 - w^2/4, w)/(1 + w^2/4)."""
+        """Return (1 - w^2/4, w)/(1 + w^2/4) for x = (w,)."""
         quarter, one = d.rational(1, 4) * (x[0] * x[0]), d.rational(1)
         factor = one / (one + quarter)
         return ((one - quarter) * factor, x[0] * factor)
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (1 + w^2/4) y."""
+        """Return (1 + w^2/4) y for x = (w,)."""
         return ((d.rational(1) + d.rational(1, 4) * (x[0] * x[0])) * y[0],)
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return -w^2 y."""
+        """Return x y x = -w^2 y for x = (w,)."""
         return (-(x[0] * x[0] * y[0]),)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (cos w, sin w)."""
+        """Return (cos w, sin w) for x = (w,)."""
         z = x[0] * x[0]
         return (d.call("stumpff0", z), x[0] * d.call("stumpff1", z))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return w (-s, c)."""
+        """Return w (-s, c) for x = (w,) and g = (c, s)."""
         return (-(x[0] * g[1]), x[0] * g[0])
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return c v_1 - s v_0."""
+        """Return the angular velocity c v_1 - s v_0 of the tangent vector v at g = (c, s)."""
         return (g[0] * v[1] - g[1] * v[0],)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return c^2 + s^2 = 1 as a replacement of c^2."""
+        """Return one rule: it replaces c^2 by 1 - s^2."""
         terms = ((Number.rational(1), ()), (Number.rational(-1), (q[1], q[1])))
         return (((q[0], q[0]), terms),)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - c^2 - s^2; the error of the length is then O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - c^2 - s^2; the length of the result is 1 + O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[0] + g[1] * g[1]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return c^2 + s^2 = 1."""
+        """Return one equation, c^2 + s^2 = 1, as the pair of its text and the residual c^2 + s^2 - 1."""
         return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return the rotated point."""
+        """Return the point z, rotated by g."""
         return matvec(self.matrix(d, g), z)
 
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return w (-z_1, z_0)."""
+        """Return w (-z_1, z_0) for x = (w,)."""
         return (-(x[0] * z[1]), x[0] * z[0])
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -99,16 +99,16 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (g[0], -g[1], g[1], g[0])
 
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the first column."""
+        """Return the first column (c, s) of a rotation matrix."""
         return (matrix[0], matrix[2])
 
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the skew matrix of w."""
+        """Return the skew matrix [[0, -w], [w, 0]], row by row, for x = (w,)."""
         zero = d.rational(0)
         return (zero, -x[0], x[0], zero)
 
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the entry below the diagonal."""
+        """Return the entry w below the diagonal of a skew matrix."""
         return (matrix[2],)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:

@@ -21,7 +21,7 @@ class SU2(S3):
     name = "SU(2)"
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return x.x."""
+        """Return x.x, the square of the angle of the rotation exp(x)."""
         return dot(x, x)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -29,15 +29,15 @@ class SU2(S3):
         return S3.exp(self, d, _half(d, x))
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the Cayley map of the quaternion x/2."""
+        """Return the Cayley map of S^3 at the quaternion x/2."""
         return S3.cay(self, d, _half(d, x))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dcay^{-1}_x y: twice the result for the quaternions x/2 and y/2."""
+        """Return dcay^{-1}_x y: twice the result of S^3 for the quaternions x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.dcayinv(self, d, _half(d, x), _half(d, y)))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x: twice the result for the quaternions x/2 and y/2."""
+        """Return x y x: twice the result of S^3 for the quaternions x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.sandwich(self, d, _half(d, x), _half(d, y)))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -49,7 +49,7 @@ class SU2(S3):
         return cross(mu, x)
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu."""
+        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu with the Stumpff functions of x.x."""
         return self.series(d, DEXP, True, x, mu)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

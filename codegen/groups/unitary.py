@@ -55,7 +55,7 @@ class SU(Unitary):
         self._generate(f"SU({n})", n, [{(j, j): 1, (j + 1, j + 1): -1} for j in range(n - 1)])
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix exponential; for three rows, by the Cayley-Hamilton theorem."""
+        """Return the matrix exponential. For SU(3) it is computed by the Cayley-Hamilton theorem."""
         if self.rows != ROWS:
             return super().exp(d, x)
         parts = d.vector(f"expsu{ROWS}", x)

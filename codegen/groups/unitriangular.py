@@ -32,8 +32,8 @@ class Heisenberg(Unitriangular):
     """The Heisenberg group of dimension 2 n + 1: unitriangular (n + 2) x (n + 2) matrices whose entries above
     the diagonal are in the first row and in the last column.
 
-    The basis of the algebra: the elementary matrices of the first row without the corner, of the last column
-    without the corner, and of the corner.
+    The basis of the algebra: the elementary matrices E_1j of the first row with 1 < j < n + 2, then E_i(n+2)
+    of the last column with 1 < i < n + 2, then E_1(n+2).
     """
 
     def __init__(self, n: int) -> None:

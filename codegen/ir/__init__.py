@@ -1,1 +1,2 @@
-"""The intermediate representations: step programs over Lie group types, kernels over scalars."""
+"""The two intermediate representations: step programs, whose variables are elements of Lie groups and Lie
+algebras, and kernels, whose variables are scalars."""

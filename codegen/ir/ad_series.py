@@ -44,9 +44,9 @@ UNIT = Fraction(1)
 
 
 def simplified(word: Word) -> Word:
-    """Return a word with its exponentials joined and without factors that cancel.
+    """Return an equal word with at most one exponential and without factors that cancel.
 
-    The rule exp(-s t) dexp(s t) = dexp(-s t) is also applied.
+    The rule exp(-s t) dexp(s t) = dexp(-s t) is applied, too.
 
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
@@ -62,8 +62,8 @@ def simplified(word: Word) -> Word:
         else:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
-    # The loop runs over a copy of the table, because the rule adds keys to the table. The rule is applied at
-    # most once, because it removes the only exponential.
+    # ``list`` copies the entries, because the rule adds keys to the table during the loop. The rule is
+    # applied at most once, because it removes the only exponential.
     for (function, scale, order), n in list(powers.items()):
         # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function replaces two.
         if function == "dexp" and n > 0 and rate == -scale:
@@ -73,6 +73,6 @@ def simplified(word: Word) -> Word:
     # Factors are sorted, so that equal products become equal words, whatever the order of their factors.
     factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
-        # Higher powers become repeated factors, because the evaluation of a word supports only phi and 1/phi.
+        # A higher power becomes repeated factors, because words are evaluated only for the powers 1 and -1.
         factors += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
     return tuple(factors)

@@ -14,7 +14,7 @@ from codegen.ir.kernel import Kernel, Let
 
 
 def chain(kernel: Kernel) -> int:
-    """Return the largest number of nested Stumpff functions, at least 1.
+    """Return the depth of a kernel: the largest number of nested Stumpff functions, but at least 1.
 
     A kernel with implicit equations has depth 1, because the solution of the equations does not multiply
     earlier rounding errors. A kernel with deferred flows also has depth 1, because a flow does not multiply
@@ -28,7 +28,7 @@ def chain(kernel: Kernel) -> int:
     2
     """
     # A loop repeats until its equations hold to rounding accuracy, so its solution does not multiply earlier
-    # rounding errors.
+    # rounding errors. Deferred flows do not multiply them either.
     if kernel.loops or kernel.deferred is not None:
         return 1
     # In a kernel each name is assigned once and before it is read, so the depth of a name is known when the

@@ -16,7 +16,8 @@ from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
 
 ROW, COLUMN = "row.index", "column.index"
-"""The symbols for the indices of an entry. They contain a dot, so they differ from every name in a scene."""
+"""The symbols for the row and the column of an entry. Their names contain a dot, so they differ from every
+name in a scene."""
 
 Arrays = MutableMapping[str, list[Scalar]]
 """The entries of arrays, row by row, by the names of the arrays."""
@@ -38,7 +39,7 @@ class Matrix:
 
     @property
     def step(self) -> int:
-        """The number of places from one row to the next."""
+        """The number of places in the array from the start of one row to the start of the next row."""
         return self.stride or self.columns
 
     def place(self, row: int, column: int) -> int:
@@ -46,7 +47,8 @@ class Matrix:
         return self.start + row * self.step + column
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
-        """Return the part of this matrix whose first entry is in this row and column."""
+        """Return the part of this matrix with the given numbers of rows and columns, whose first entry is at
+        (``row``, ``column``)."""
         return Matrix(self.name, rows, columns, self.place(row, column), self.step)
 
     @property
@@ -145,7 +147,7 @@ class Multiplication:
 
     @property
     def inner(self) -> int:
-        """The number of products in an entry of the result."""
+        """The number of products whose sum is one entry of the result."""
         return self.left.rows if self.left_transposed else self.left.columns
 
 
@@ -171,7 +173,7 @@ class Term:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """The numbers of rows and columns of the term."""
+        """The numbers of rows and columns of the term, after transposition."""
         m = self.matrix
         return (m.columns, m.rows) if self.transposed else (m.rows, m.columns)
 

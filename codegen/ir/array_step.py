@@ -7,8 +7,9 @@ the cores. The first k columns of B are the state X_0. Each evaluation of the fi
     [B S B^T, B T B^T] = B (S G T - T G S) B^T,
     exp(B S B^T) B C = B (C + S phi(G S) G C),   phi(z) = (exp(z) - 1)/z.
 
-A point of the step is X_0 + B D with a small r x k matrix D, its displacement. The generator at X is
-W X^T - X W^T with W = V - X (X^T V)/2, so with X = B C and W = B E it has the core E C^T - C E^T.
+A point of the step is X_0 + B D with a small r x k matrix D, its displacement. Let V be the value of the
+field at X, a tangent vector. The generator at X is W X^T - X W^T with W = V - X (X^T V)/2. If X = B C and
+W = B E, its core is E C^T - C E^T.
 """
 
 from __future__ import annotations
@@ -27,12 +28,12 @@ from codegen.ir.array_program import (
 from codegen.ir.expr import Expr
 
 TERMS = 8
-"""The typical number of terms of phi, which is used to count operations. In a run the number of terms depends
-on the norm of the argument."""
+"""The number of terms of phi(z) = (exp(z) - 1)/z that is assumed when operations are counted. In a run the
+number of terms depends on the norm of z."""
 
 MOST_TERMS = 18
-"""The number of terms of phi at which the remainder of the series is below the rounding errors, for arguments
-whose norm is at most 1."""
+"""The number of terms of phi(z) = (exp(z) - 1)/z after which the remainder of the series is below the
+rounding errors, if the norm of z is at most 1."""
 
 
 @dataclass(frozen=True)
@@ -45,9 +46,10 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """target = the displacement of exp(B S B^T) X. ``start`` is the displacement of X, or None if it is zero.
+    """target = the displacement of exp(B S B^T) X, that is, D with exp(B S B^T) X = X_0 + B D.
 
-    ``core`` is S, ``gram`` the Gram matrix of the whole basis. ``start`` has at most as many rows as target.
+    B is the basis of the step, ``core`` is S, and ``gram`` is B^T B. ``start`` is the displacement of X, or
+    None if it is zero. ``start`` has at most as many rows as ``target``.
     """
 
     target: Matrix

@@ -1,7 +1,7 @@
 """Numbers of many digits as Arb balls: a faster replacement for :class:`codegen.ir.domain.PreciseDomain`.
 
 An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers.
-Therefore steps with 60 digits, of which a report needs thousands, are evaluated in this domain. A ball is a
+A report needs thousands of steps with 60 digits. Therefore they are evaluated in this domain. A ball is a
 midpoint with an error radius. In an iteration the radii would grow without bound. Therefore each result of an
 operation of a step program is replaced by its midpoint, and the radii of the final result are not error
 bounds.
@@ -57,8 +57,8 @@ class BallDomain:
         with self.precision():
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
-        # As in :class:`codegen.ir.domain.PreciseDomain`, Newton's method replaces a fixed-point iteration
-        # after three sweeps for each digit.
+        # A fixed-point iteration that has not converged after this number of sweeps is replaced by Newton's
+        # method, as in :class:`codegen.ir.domain.PreciseDomain`.
         self.patience = 3 * digits
 
     def precision(self) -> precision:
@@ -79,7 +79,7 @@ class BallDomain:
         return arb((-int(mantissa) if sign else int(mantissa), int(exponent)))
 
     def mpf(self, x: arb, context: mpmath.ctx_mp.MPContext) -> mpmath.mpf:
-        """Return a scalar as a number of an mpmath context."""
+        """Return a scalar as an mpmath number that belongs to ``context``."""
         if not x.is_finite():
             return context.nan
         mantissa, exponent = x.mid().man_exp()
@@ -141,8 +141,8 @@ class BallDomain:
                     "expected a matrix with finite entries of at most 2^40 for an exponential"
                 )
             # The exponential may be smaller than the terms of its series by a factor exp(-2 norm). This
-            # cancellation loses about 3 bits for each unit of the norm, so the working precision is increased
-            # by this number of bits.
+            # cancellation loses about 3 bits for each unit of the norm. The working precision is therefore
+            # increased by 64 + 3 norm bits, but by at most 64 + 2^13 bits.
             norm = float(called.n * max(abs(x) for x in first))
             with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
                 result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
@@ -186,7 +186,7 @@ class BallDomain:
         return total
 
     def _slope(self, k: int, z: arb) -> arb:
-        """Return c_k'(z): by its series for abs(z) up to 1, else by c_{k-1} and c_k."""
+        """Return c_k'(z): by its series for abs(z) up to 1, else by a formula in c_{k-1} and c_k."""
         if abs(z) > 1:
             return (self._stumpff(k - 1, z) - k * self._stumpff(k, z)) / (2 * z)
         total, j, term = arb(0), 1, -arb(1) / math.factorial(k + 2)
@@ -198,7 +198,7 @@ class BallDomain:
         return total
 
     def _curvature(self, k: int, z: arb) -> arb:
-        """Return c_k''(z): by its series for abs(z) up to 1, else by c_{k-2}, c_{k-1} and c_k."""
+        """Return c_k''(z): by its series for abs(z) up to 1, else by a formula in c_{k-2}, ..., c_k."""
         if abs(z) > 1:
             a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
@@ -225,7 +225,7 @@ class BallDomain:
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: arb) -> arb:
-        """Return the step of a difference quotient at x."""
+        """Return d for the difference quotient (f(x + d) - f(x))/d."""
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
 
 

@@ -53,7 +53,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
 
 def _bare(node: Expr) -> Expr:
-    """Return a node without its sign and its numeric factors."""
+    """Return a node without its minus signs and its numeric factors: x for -(3 x)."""
     # A constant is always the first factor of a product (Space.mul).
     while node.op == "neg" or (node.op == "mul" and node.args[0].op == "const"):
         node = node.args[-1]
@@ -68,7 +68,7 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return the powers (1/sqrt x)^n to rewrite.
+    """Return the powers (1/sqrt x)^n that are rewritten as quotients.
 
     The powers of an inverse root 1/sqrt x are rewritten only if each power that other expressions read has an
     odd exponent n >= 3. The result maps the node number of a power to the pair (node number of 1/sqrt x,
@@ -92,7 +92,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
     # A power of y counts only if an expression that is not a power of y reads it: y^2 inside y^3 is an
     # intermediate value.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If y = 1/sqrt(x) itself is read, it must be computed anyway, and all its powers share its division.
+    # If y = 1/sqrt(x) itself is read, it must be computed anyway, and all its powers share its division. The
+    # powers of y are also kept if an even power is read.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -140,9 +141,9 @@ class _Gathering:
         term that reads 1/y. Return any other term unchanged."""
         if not _is_inverse(atom):
             return c, atom
-        # A division with a numerator other than 1 costs no more than 1/y, and the first term that reads 1/y
-        # then needs no product. Later terms use the same division and multiply it by d, the ratio of their
-        # coefficient to ``numerator``, which is often 1.
+        # The division e/y costs no more than 1/y, and the first term that reads 1/y then needs no product.
+        # Later terms use the same quotient e/y and multiply it by d = c/e, where c is their own coefficient.
+        # Often d is 1 or -1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
@@ -161,8 +162,8 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
-            # Terms that cancel are removed. If one term remains, the combination is a multiple of an
-            # expression, and its coefficient can be moved out of a product.
+            # Terms that cancel are removed. If one term c x remains, a product that contains the sum can move
+            # the number c out.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)
@@ -183,7 +184,7 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # The methods of Space are not called, because they would simplify the node again, and the result
+        # Methods such as Space.div are not called, because they would simplify the new node, and the result
         # might no longer be an atom.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
@@ -206,8 +207,8 @@ class _Gathering:
         return {atom.id: (c, atom)}
 
     def _content(self, node: Expr) -> tuple[Number, Expr]:
-        """Return (c, x) such that the node equals c x; c is 1 unless the node is a multiple of one
-        expression."""
+        """Return (c, x) such that the node equals c x. If the linear combination of the node does
+        not have exactly one term, c is 1."""
         total = self.sums[node.id]
         # A common factor of a sum is not taken out, because other expressions may also contain the sum.
         if len(total) != 1:

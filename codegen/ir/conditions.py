@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     import sympy
 
 Condition = Callable[[Expr, Expr], Expr]
-"""A condition is a function of two expressions: the result equals the first expression where the condition is
-true, and the second expression elsewhere."""
+"""A condition as a function (yes, no) -> expression. The resulting expression equals ``yes`` where the
+condition is true, and ``no`` elsewhere."""
 
 EXPECTED = "comparisons of formulas (<, <=, >, >=, Eq, Ne) joined by And, Or and Not"
 
@@ -40,7 +40,7 @@ def both(a: Condition, b: Condition) -> Condition:
 
 
 def always(yes: Expr, no: Expr) -> Expr:
-    """The condition that is always true: return the first expression."""
+    """Return ``yes``: this function is the condition that is always true."""
     return yes
 
 

@@ -1,6 +1,6 @@
 """Floats in formulas: a float is read as the shortest decimal that rounds to it, so 0.1 is 1/10.
 
-The binary value of a float is never used, because with it 0.1 would be 3602879701896397/36028797018963968.
+The exact binary value of a float is never used: for 0.1 it is 3602879701896397/36028797018963968.
 """
 
 from __future__ import annotations

@@ -44,10 +44,10 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
-    If ``moving`` is given, it contains the ids of all nodes that are not constant. Derivatives of a vector
-    function with respect to constant arguments are then set to zero instead of being computed. The
-    derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is raised
-    for second derivatives of Stumpff functions.
+    If ``moving`` is given, it contains the ids of all nodes that depend on the variables; all other nodes are
+    constant. Derivatives of a vector function with respect to constant arguments are then set to zero instead
+    of being computed. The derivatives of the function ``quotient`` are valid where its divisor is not zero.
+    :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
     space, args = node.space, node.args
     match node.op:
@@ -138,7 +138,7 @@ def _selection(node: Expr) -> list[Expr]:
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # A branch that is a constant needs no adjoint, so the derivative with respect to it is set to zero.
+    # The derivative with respect to a constant branch is never used, so it is set to zero.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

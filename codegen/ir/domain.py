@@ -66,7 +66,7 @@ class Differenced(Domain, Protocol):
     """A domain in which Newton's method can use difference quotients in place of derivatives."""
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the step of a difference quotient at x."""
+        """Return d for the difference quotient (f(x + d) - f(x))/d."""
 
 
 def stumpff(k: int, z: float) -> float:
@@ -160,7 +160,7 @@ class FloatDomain:
         return float(value)
 
     def rational(self, p: int, q: int = 1) -> float:
-        """Return p/q rounded once."""
+        """Return p/q, rounded once, as a double."""
         return float(Fraction(p, q))
 
     def call(self, function: str, *args: float) -> float:
@@ -203,7 +203,7 @@ class FloatDomain:
         return change == 0.0 or 0 < before <= change <= 2.0**-44 * max(1.0, scale), change
 
     def increment(self, x: float) -> float:
-        """Return the step of a difference quotient at x."""
+        """Return d for the difference quotient (f(x + d) - f(x))/d."""
         # The square root of the rounding unit balances the rounding and the truncation error of a forward
         # difference.
         return math.ldexp(max(1.0, abs(x)), -26)
@@ -231,7 +231,7 @@ class PreciseDomain:
         self.h = (
             self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
         )
-        # Newton's method replaces a fixed-point iteration after three sweeps for each digit.
+        # Newton's method replaces a fixed-point iteration that has not converged after this number of sweeps.
         self.patience = 3 * digits
 
     def number(self, value: Number) -> Scalar:
@@ -262,7 +262,8 @@ class PreciseDomain:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
         if z > 1:
-            # For z > 1 the closed forms lose at most three bits, in the term 1 - sin 1 = 0.16 of c_3(1).
+            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3 near
+            # z = 1: it contains sqrt z - sin sqrt z, which is 1 - sin 1 = 0.16 there.
             root = self.context.sqrt(z)
             sine = self.context.sin(root)
             closed = (self.context.cos(root), sine / root, 2 * (self.context.sin(root / 2) / root) ** 2)
@@ -282,7 +283,7 @@ class PreciseDomain:
         return named(function).in_digits(self.context, self.digits, args)
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
-        """Return c_k'(z): by its series for abs(z) up to 1, else by c_{k-1} and c_k."""
+        """Return c_k'(z): by its series for abs(z) up to 1, else by a formula in c_{k-1} and c_k."""
         if abs(z) > 1:
             return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
         total, j = self.context.mpf(0), 1
@@ -294,7 +295,7 @@ class PreciseDomain:
         return total
 
     def _curvature(self, k: int, z: Scalar) -> Scalar:
-        """Return c_k''(z): by its series for abs(z) up to 1, else by c_{k-2}, c_{k-1} and c_k."""
+        """Return c_k''(z): by its series for abs(z) up to 1, else by a formula in c_{k-2}, ..., c_k."""
         if abs(z) > 1:
             a, b, c = (self.call(f"stumpff{i}", z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
@@ -316,7 +317,7 @@ class PreciseDomain:
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the step of a difference quotient at x."""
+        """Return d for the difference quotient (f(x + d) - f(x))/d."""
         return self.context.sqrt(self.context.eps) * max(1, abs(x))
 
 
@@ -326,7 +327,7 @@ class SeriesDomain:
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
-        # The coefficients are exact: a local error without terms up to h^p proves the order p.
+        # The coefficients are exact. If all terms of a local error up to h^p are zero, the order p is proved.
         self.ring = PowerSeries(base, order)
         self.h = self.ring.h
 
@@ -342,12 +343,12 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a function at a series. ArithmeticError is raised if its coefficients cannot be
-        computed exactly.
+        """Return the value of a function at a series. ArithmeticError is raised if the coefficients of the
+        value cannot be computed exactly.
 
         Sine, cosine, exponential and similar functions require a series without constant term. The function
-        ``quotient`` divides two series. If the divisor begins with the power h^v, the last v coefficients of
-        the quotient cannot be known and are set to zero.
+        ``quotient`` divides two series. If the lowest power of h in the divisor is h^v, the truncation makes
+        the last v coefficients of the quotient unknown; they are set to zero.
         """
         z = args[0]
         if function == "quotient":
@@ -369,7 +370,7 @@ class SeriesDomain:
             raise ArithmeticError(f"{function} of a series with a constant term cannot be computed exactly")
         if "slope" in function:
             k = int(function[-1])
-            # c_k' = (k c_{k+2} - c_{k+1})/2: the series below are valid for every k.
+            # c_k' = (k c_{k+2} - c_{k+1})/2. The series of c_k below are valid for every k, also for k > 3.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
         if "curvature" in function:
@@ -401,8 +402,8 @@ class SeriesDomain:
         return -1 if self.base.approximate(start).startswith("-") else 1
 
     def _angle(self, y: Scalar, x: Scalar) -> Scalar:
-        """Return atan2(y, x) if (x, y) is on the positive x-axis at h = 0; all other angles are
-        transcendental."""
+        """Return atan2(y, x) if (x, y) is on the positive x-axis at h = 0. Otherwise raise an error, because
+        the angle at h = 0 is not an algebraic number."""
         if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
             raise ArithmeticError("atan2 is exact only at a point of the positive x-axis")
         return self._arc("atan", y / x)
@@ -422,9 +423,9 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return a/b, or 0 if b is zero. The lowest power of h in a must be at least the lowest power in
-        b."""
-        # If both series vanish at h = 0, their quotient may have a limit at h = 0.
+        """Return a/b, or 0 if all coefficients of b are zero. ArithmeticError is raised if a begins with a
+        lower power of h than b."""
+        # Both series may vanish at h = 0. Their quotient may still have a limit at h = 0.
         power = self.ring.valuation(b)
         if power > self.order:
             return self.ring.zero
@@ -450,13 +451,14 @@ class SeriesDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return two values: True if no unknown has changed, and None. Other domains return the size of the
-        change, which an exact comparison does not need."""
-        # Each sweep of a contraction by O(h) determines one further coefficient, so order + 1 sweeps suffice.
+        change as the second value. An exact comparison does not need it."""
+        # Each sweep multiplies the error by O(h): it gives one more coefficient, so order + 1 sweeps suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
 class ExprDomain:
-    """Expressions of one space; ``h`` is a symbol. Implicit blocks become loops of the emitted code."""
+    """Expressions of one space; the step size ``h`` is a symbol. Iterations are not executed in this domain:
+    they become loops of the emitted code."""
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
@@ -478,7 +480,8 @@ class ExprDomain:
         return self.space.call(function, *args)
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return a call node for each result, or the results themselves if they are short."""
+        """Return the results of a vector function as expressions. If the function has no expanded form for
+        these arguments, each result is a call node."""
         expanded = named(function).expanded(args)
         return self.space.vector(function, args) if expanded is None else expanded
 

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 HALVINGS = 13
-"""The largest number of halvings. If a matrix needs more, the result is NaN, because the computation would
-take too long."""
+"""The largest number s of halvings. If a matrix needs more, every result is NaN: the Taylor polynomial would
+have to be applied 2^s times, which takes too long."""
 
 SPARSE = 12
 """The largest number of rows for which the arguments of a call are y and only those entries of A that are not
@@ -94,8 +94,8 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each row of the matrix, a pair for each entry that is an argument: its index among the
-        arguments, and its column."""
+        """For each row of the matrix, the pairs (index among the arguments, column) of those entries that are
+        arguments."""
         entries = list(enumerate(self.places))
         return tuple(
             tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)
@@ -108,7 +108,7 @@ class ExponentialAction(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The number of operations for a polynomial of degree 18, without halvings."""
+        """The number of operations of exp(A) y with a polynomial of degree 18. No halvings are counted."""
         products = 18 * (len(self.places) + self.n)
         return {"add": products, "mul": products}
 
@@ -120,8 +120,8 @@ class ExponentialAction(VectorFunction):
         return result
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of the results: exp([[A, A'], [0, A]]) (y', y) is the pair of the derivative
-        and exp(A) y."""
+        """Return the derivative of exp(A) y, if ``args`` are A and y, and ``rates`` are their derivatives A'
+        and y': exp([[A, A'], [0, A]]) (y', y) is the pair of this derivative and exp(A) y."""
         space, n, entries = args[0].space, self.n, len(self.places)
         a, e = (self.matrix(x[:entries], space.zero) for x in (args, rates))
         y, v = args[entries:], rates[entries:]
@@ -135,8 +135,9 @@ class ExponentialAction(VectorFunction):
         return tuple(results[:n])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return y if A is zero. For a small matrix, return a call whose arguments are only the non-zero
-        entries of A, and y. Otherwise return None."""
+        """Return y if A is zero. If A has at most :data:`SPARSE` rows, return the results of a call whose
+        arguments are only y and the non-zero entries of A. Otherwise, or if ``pattern`` is not zero, return
+        None."""
         if self.pattern:
             return None
         size = self.n**2
@@ -214,7 +215,7 @@ class ExponentialAction(VectorFunction):
 def _product(
     rows: Sequence[Sequence[tuple[int, int]]], a: Sequence[Scalar], y: Sequence[Scalar], zero: Scalar = 0.0
 ) -> list[Scalar]:
-    """Return A y."""
+    """Return A y. Row by row, ``rows`` contains the pairs (index in ``a``, column) of the entries of A."""
     result = []
     for row in rows:
         terms = [a[k] * y[j] for k, j in row]

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""The data of a node besides its arguments: a number for ``const``, a name for ``sym`` and ``call``, an
-exponent for ``pow``, and None for all other operations."""
+"""The data of a node besides its arguments: a number for ``const``, a name for ``sym``, a name or a table for
+``call``, an exponent for ``pow``, and None for all other operations."""
 
 FUNCTIONS = (
     *MATHEMATICAL,
@@ -271,8 +271,8 @@ class Space:
         return self._make("pow", (a,), n)
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return function(args) for a function of :data:`FUNCTIONS`, a table, or a result of a vector
-        function."""
+        """Return the node function(args). ``function`` is a name in :data:`FUNCTIONS`, the name of a result
+        of a vector function, or a table, that is, an object :class:`PiecewisePolynomial`."""
         known = _folded(function, args)
         if known is not None:
             return known
@@ -290,7 +290,8 @@ class Space:
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return the value of a selection if it is known which formula is selected, otherwise None."""
+    """Return a simpler expression for a selection or an absolute value, for example if the sign of its first
+    argument is known. Return None if there is none."""
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
@@ -308,7 +309,8 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Return True if two constants have a common ring, so that their sum and product are elements of it."""
+    """Return True if two constants have a common ring. Their sum and product are then elements of this
+    ring."""
     # Rational numbers are elements of every ring. Two different rings, neither of them QQ, have no known
     # common ring.
     x, y = a.payload, b.payload

@@ -31,9 +31,8 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""For each function that may be infinite or undefined, an argument at which it is finite. If the function
-occurs in a branch of a Piecewise formula, it is evaluated at this argument where the branch is not
-selected."""
+"""For each function that may be infinite or undefined, an argument at which its value is finite. In a branch
+of a Piecewise formula, the function is evaluated at this argument wherever the branch is not selected."""
 
 
 def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
@@ -54,7 +53,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
 
 @dataclass
 class _Reader:
-    """Reads one formula; equal subexpressions are read once.
+    """Converts one formula; each subexpression is converted once, even if it occurs several times.
 
     Inside a branch of a Piecewise formula, ``guard`` is positive exactly where the branch is selected.
     """
@@ -123,17 +122,17 @@ class _Reader:
         return self.space.const(Number.rational(*value.as_integer_ratio()))
 
     def guarded(self, x: Expr, safe: int) -> Expr:
-        """Return an expression that is x where the branch that contains x is selected, and the number
-        ``safe`` elsewhere."""
+        """Return an expression that equals x where the present branch of a Piecewise formula is selected, and
+        the number ``safe`` elsewhere. Outside such a branch, and for a constant x, return x."""
         # A branch is evaluated even where it is not selected. There a root or a quotient could raise an
-        # exception in Python or be a NaN. The derivative of the branch is multiplied by zero there, but it
-        # may be a NaN, and zero times NaN is NaN.
+        # exception in Python or be a NaN. Also the derivative of the branch could be a NaN there. It is
+        # multiplied by zero, but zero times NaN is NaN.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
 
     def _selection(self, name: str, e: sympy.Basic) -> Expr:
-        """Return a formula that selects one of several formulas."""
+        """Return a function in :data:`SELECTIONS`, such as Max, as a node."""
         space = self.space
         match name:
             case "Abs":

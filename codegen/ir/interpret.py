@@ -40,7 +40,7 @@ def interpret(
     solutions: Env | None = None,
     near: list[list[Scalar]] | None = None,
 ) -> State:
-    """Return the new state after one step, by input name.
+    """Return the new state after one step, as a table from the names of its parts (such as q) to values.
 
     ``inputs`` has a value for each input: a scalar of the domain for a Real, else a flat tuple of scalars
     (group elements row by row). Blocks are solved by fixed-point iteration until the domain reports
@@ -202,8 +202,9 @@ def _correct(
 ) -> list[Scalar]:
     """Solve a block by Newton's method with difference quotients: no formula is differentiated.
 
-    The iteration for u = g(u) begins at ``near``, by default at the block's starts. The result is the list of
-    the values of the unknowns u. If the domain has a method ``rounded``, this method rounds the values g(u).
+    The iteration for u = g(u) begins at ``near``. Without ``near`` it begins at the block's starts. The
+    result is the list of the values of the unknowns u. If the domain has a method ``rounded``, this method
+    rounds the values g(u).
     """
     kinds = [u.kind for u in block.unknowns]
     # All unknowns of a block form one vector, because their equations depend on one another.
@@ -221,8 +222,7 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
-    # ``sharp`` becomes true when the corrections have converged. After that, one further correction is
-    # computed.
+    # ``sharp`` is true after the corrections have converged. Then one further correction is computed.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)
@@ -239,8 +239,9 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # A change below the increment of the difference quotients is sufficient. The increment is about
-            # the square root of the rounding unit, and the next correction squares the error.
+            # One further correction follows, and it about squares the error. Therefore a change below the
+            # increment of the difference quotients, which is about the square root of the rounding unit, is
+            # small enough.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
@@ -261,7 +262,8 @@ def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
 
 
 def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
-    """Solve a linear system by elimination with row exchanges; the matrix is given by columns."""
+    """Return the solution of a linear system by elimination with row exchanges. ``columns`` are the columns
+    of the matrix, and ``right`` is the right-hand side."""
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):

@@ -48,8 +48,8 @@ class _Graph:
     """The linearised expressions: ``before[v][u]`` and ``after[u][v]`` both hold the label of the edge from u
     to v.
 
-    Vertices are the ids of nodes that depend on a variable. Results are the vertices -1, -2, ..., so that a
-    node may be both a result and an argument of another node.
+    Vertices are the ids of nodes that depend on a variable. Results are the vertices -1, -2, .... A node may
+    therefore be both a result and an argument of another node.
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:
@@ -78,8 +78,8 @@ class _Graph:
         old = self.before[v].get(u)
         # Parallel edges are merged: the contributions of all paths to a derivative are added.
         total = factor if old is None else old + factor
-        # An edge whose label cancels must be removed, or the costs below would count paths that contribute
-        # nothing.
+        # An edge whose label has become zero must be removed. Otherwise the costs would count paths that
+        # contribute nothing.
         if total.is_zero:
             self.before[v].pop(u, None)
             self.after[u].pop(v, None)
@@ -87,8 +87,8 @@ class _Graph:
             self.before[v][u] = self.after[u][v] = total
 
     def _cost(self, v: int) -> int:
-        """Return the number of products that the elimination of v takes: incoming edges times outgoing
-        edges."""
+        """Return the number of products in the elimination of v: the number of incoming edges times the
+        number of outgoing edges."""
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
@@ -99,8 +99,8 @@ class _Graph:
         # first: it is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
-        # A vertex may have several entries in the queue. Only one entry is used: the first one whose cost is
-        # not too low.
+        # A vertex may have several entries in the queue. The vertex is eliminated by the first entry whose
+        # cost is not too low; its other entries are skipped.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)

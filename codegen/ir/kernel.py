@@ -50,10 +50,10 @@ LOST = 2.0**-47
 errors."""
 
 VARIATION = "variation"
-"""The name of the state field that holds a variation."""
+"""The name of the state field that holds a variation, that is, a derivative of the state."""
 
 VARIED = "the variation of "
-"""The labels of loops that solve the equations for variations begin with this prefix."""
+"""The prefix of the labels of those loops that solve equations for a variation, a derivative of the state."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class Newton:
     If ``residuals`` is true, the images of the loop are residuals, which are zero at the solution. The matrix
     is then minus their derivative to first order in h, and its inverse is used for ``period`` steps.
     ``changes`` contains the names of the last changes of the unknowns. Values of the body that are read after
-    the loop may be corrected by these changes.
+    the loop were computed before these changes, and may be corrected by them.
     """
 
     body: tuple[Let, ...]
@@ -97,8 +97,8 @@ class Newton:
         the inverse is computed in fewer steps. But it is then older and less accurate, so a step takes more
         sweeps.
         """
-        # With n = len(matrix), an inverse is used in about n/2 steps, so its cost of order n^3 adds a cost of
-        # order n^2 to each step.
+        # For an n x n matrix, an inverse is used in about n/2 steps. Its cost of order n^3 therefore adds a
+        # cost of order n^2 to each step.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -148,8 +148,8 @@ class Loop:
         of simplified Newton is (h L)^2. If this rate is small enough to end the loop, h L is small, too, and
         a larger last change is permitted.
         """
-        # If only the unknowns are read after the loop, their error is the rate of convergence times the last
-        # change, so the last change may be larger.
+        # If only the unknowns are read after the loop, only their error matters. It is the rate of
+        # convergence times the last change, so the last change may be larger.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
@@ -206,11 +206,11 @@ class Field:
 class Deferred:
     """The flows that a run of several steps applies only once, before its first step or after its last step.
 
-    A single step calls ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with
-    :data:`ELAPSED` = h. A run of several steps calls ``begin`` once, the kernel once for each step, and
-    ``finish`` once. In the last step of the run LEAD = ``last`` h, in all other steps LEAD = ``later`` h.
-    ELAPSED is the duration of the whole run. A long run is divided into runs of at most :data:`LONGEST`
-    steps.
+    A single step calls ``begin``, the kernel, and ``finish``. A run of several steps calls ``begin`` once,
+    the kernel once for each step, and ``finish`` once. The symbol :data:`LEAD` is ``last`` times h in a
+    single step and in the last step of a run, and ``later`` times h in all other steps. The symbol
+    :data:`ELAPSED` is the duration of the single step or of the whole run. A long run is divided into runs of
+    at most :data:`LONGEST` steps.
     """
 
     begin: Kernel | None
@@ -252,8 +252,8 @@ class Sample:
 class Estimate:
     """An error estimate: the new state minus an embedded solution of lower order, component by component.
 
-    After one step from the same state, both solutions differ from the exact flow by O(h^order). There are no
-    ``errors`` if the kernel computes with whole matrices.
+    After one step from the same state, both solutions differ from the exact flow by O(h^order). ``errors``
+    are the components of the estimate. They are empty if the kernel computes with whole matrices.
     """
 
     errors: tuple[Expr, ...]
@@ -273,8 +273,9 @@ class Expansion:
     With ``following`` the coefficients are computed in a loop over their order n
     (:class:`codegen.ir.taylor_loop.OrderLoop`). ``coefficients`` has then two groups of outputs: values of
     order 0 that all later orders read, and the coefficients of order 1. ``following`` has three groups of
-    outputs: the left operands of the inner sums, their right operands, and the coefficients of order n + 1.
-    The number of inner sums is ``sums``. If ``controlled`` is true, emitted code has a run with step control.
+    outputs: the values a_n and the values b_n of the inner sums a_1 b_(n-1) + ... + a_(n-1) b_1, and the
+    coefficients of order n + 1. The number of inner sums is ``sums``. If ``controlled`` is true, emitted code
+    has a run with step control.
     """
 
     degree: int
@@ -302,9 +303,9 @@ class Continuous:
 
 @dataclass(frozen=True)
 class Observed:
-    """The request for a run to a given end time. The run writes the states at given times, and finds the
-    zeros of event functions. ``events`` is the number of these functions, which the caller supplies. States
-    at output times are computed by the ``extension``; without an extension, by shorter steps."""
+    """The request for a run to a given end time. The run writes the states at given output times, and finds
+    the zeros of event functions. The caller supplies these functions; ``events`` is their number. The
+    ``extension`` computes the states at output times. Without it, the run takes shorter steps."""
 
     events: int = 0
     extension: Continuous | None = None
@@ -312,11 +313,11 @@ class Observed:
 
 @dataclass(frozen=True)
 class Function:
-    """A function that a kernel calls in several places: it evaluates ``body`` and returns ``outputs``, both
-    from ``inputs`` alone.
+    """A function that a kernel calls in several places. It evaluates ``body`` and returns ``outputs``; it
+    reads only its ``inputs``.
 
-    In expressions, a call of ``NAME.k`` returns the k-th result of the function called NAME. ``about``
-    describes the function by operations of a program.
+    In expressions, a call of ``NAME.k`` returns the k-th result of the function called NAME. ``about`` is a
+    text that describes what the function computes.
     """
 
     name: str

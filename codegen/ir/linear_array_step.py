@@ -1,8 +1,8 @@
 """A step of a large linear problem y' = A(t) y, by products of A and vectors.
 
 The step evaluates the matrices a_i = h A(t_i) at its nodes. Its exponents are sums of letters and
-commutators. A letter is a linear combination of the a_i, and a commutator [X, Y] of two elements is applied
-to a vector as X (Y v) - Y (X v). So no product of matrices and no exponential of a matrix is formed.
+commutators. A letter is a linear combination of the a_i. A commutator [X, Y] is applied to a vector v as
+X (Y v) - Y (X v). So no product of matrices and no exponential of a matrix is formed.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 TERMS = 14
-"""The degree of the Taylor polynomials that is assumed when operations are counted. It is a typical value:
-the actual degree depends on the norm."""
+"""The degree of the Taylor polynomials that is assumed when operations are counted. It is a typical value: in
+a run the degree depends on the norm of the exponent."""
 
 Letter = tuple[tuple[int, Number], ...]
 """A linear combination of the matrices a_i, as pairs (i, coefficient of a_i)."""
@@ -56,7 +56,8 @@ class TimeMatrix:
         return tuple(dict.fromkeys(matrix for _, matrix in self.terms))
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the coefficients of the terms, and those entries of the matrices that are expressions."""
+        """Yield the coefficients of the terms, and the formulas of those matrices whose entries are given by
+        formulas."""
         for coefficient, matrix in self.terms:
             yield coefficient
             entries: tuple[Entry, ...] = matrix.entries

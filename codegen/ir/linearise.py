@@ -60,8 +60,8 @@ class FirstOrder:
 
         :class:`NotLinearised` is raised for a root that the rules of this module cannot expand at h = 0.
         """
-        # The symbol h is taken from the space of the roots. This line returns early without roots, because
-        # there is then no space.
+        # The symbol h is taken from the space of the roots. Without roots there is no space, and the Jacobian
+        # has no rows.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
@@ -156,7 +156,7 @@ def _inverse(space: Space, a: _Dual) -> _Dual:
 
 
 def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
-    """Return the expansion of the formula that is selected at h = 0."""
+    """Return the expansion of a selection: ``a`` if ``test`` is positive at h = 0, and ``b`` otherwise."""
     none = (space.zero, space.zero)
 
     def pair(x: Pair, y: Pair) -> Pair:
@@ -169,12 +169,13 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
 
 
 def _called(space: Space, function: str, a: _Dual) -> _Dual:
-    """Return the value of a function at v_0 + v_1 h to first order in h, with its derivatives."""
+    """Return the expansion of function(v_0 + v_1 h), where ``a`` is the expansion v_0 + v_1 h, with the
+    derivatives with respect to the unknowns."""
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])
-        # c_k is expanded at 0 only, where its derivatives are rational numbers. This suffices for steps whose
-        # arguments of Stumpff functions tend to 0 with h.
+        # c_k is expanded at 0 only, where its derivatives are rational numbers. This suffices for steps in
+        # which the arguments of Stumpff functions tend to 0 with h.
         if not low.is_zero:
             raise NotLinearised("the argument of a Stumpff function does not vanish at h = 0")
         # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so c_k''(0) is twice the coefficient of z^2.

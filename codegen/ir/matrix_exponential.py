@@ -24,19 +24,20 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Scalar
 
 DEGREES = (4, 8, 12, 16)
-"""The degrees of the Taylor polynomials; degree 4 g takes g + 2 products of matrices."""
+"""The degrees of the Taylor polynomials. Evaluating a polynomial of degree 4 g takes g + 2 products of
+matrices."""
 
 LEAST_DIGITS = 10
-"""The exponential is NaN if the bound of its relative error exceeds 2^-LEAST_DIGITS: fewer than three decimal
-digits would be correct."""
+"""The least number of correct binary digits, about three decimal digits. If the bound of the relative error
+of the exponential exceeds 2^-LEAST_DIGITS, all results are NaN."""
 
 Pairs = tuple[tuple[tuple[int, int], ...], ...]
 
 
 @cache
 def pairs(level: int) -> Pairs:
-    """Return, for each matrix of the product of two jets A and B, the index pairs (j, k) for which the
-    product of A_j and B_k is a term of this matrix.
+    """Return, for each index m < 2^level, the pairs (j, k) such that matrix number m of the product of two
+    jets A and B contains the term A_j B_k.
 
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
@@ -47,10 +48,11 @@ def pairs(level: int) -> Pairs:
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return the largest norm for each degree m: (m! 2^-(bits + 2))^(1/m), rounded to three digits.
+    """Return, for each degree m of :data:`DEGREES`, the largest norm for which the Taylor polynomial of
+    degree m is accurate: (m! 2^-(bits + 2))^(1/m), rounded to three digits.
 
-    For matrices of a smaller norm, the remainders of the Taylor polynomial and of its derivative are below a
-    quarter of the unit roundoff.
+    For matrices of a smaller norm, the remainders of the polynomial and of its derivative are below a quarter
+    of the unit roundoff 2^-bits.
 
     >>> largest_norms(53)
     (0.000161, 0.0321, 0.221, 0.628)
@@ -61,7 +63,8 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
 
 def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
-    """Return the exponential of a jet; all results are NaN if fewer than three digits would be correct."""
+    """Return the exponential of the jet ``a`` of n x n matrices. All results are NaN if fewer than three
+    digits would be correct."""
     size = n * n
     scale, squarings, norm = _halvings(_norm(a[:size]))
     total = _polynomial(n, level, [x * scale for x in a], norm)
@@ -114,8 +117,8 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
 
 
 def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]:
-    """Return the Taylor polynomial of the least degree that is accurate for matrices of norm at most
-    ``norm``."""
+    """Return the Taylor polynomial of the exponential at the jet ``b1``. The degree is the least one that is
+    accurate for matrices of norm at most ``norm``."""
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     b2 = product(n, level, b1, b1)
@@ -154,12 +157,12 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Return the jet total^(2^squarings); all entries are NaN if its first matrix has fewer than three
-    correct digits.
+    """Return the jet total^(2^squarings). All entries are NaN if the first matrix of the result may have
+    fewer than three correct digits.
 
-    Let u be the unit roundoff. If the computed E has the error e, the computed square E^2 has an error of at
-    most about 2 |E| e + n^2 u |E|^2, in the Frobenius norm. The spectral norm |E| is bounded by ``growth``
-    and by the Frobenius norm.
+    Let u be the unit roundoff, and E the first matrix before a squaring, with an error e in the Frobenius
+    norm. The computed square has an error of at most about 2 |E| e + n^2 u |E|^2. Here |E| is the spectral
+    norm, which is bounded by ``growth`` and by the Frobenius norm.
     """
     size, unit = n * n, 2.0**-53
     error = (n + 8) * unit * n
@@ -177,11 +180,11 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     """Return the exponential of a jet of mpmath numbers, with an error of about 10^-``digits`` times the norm
     of the exponential.
 
-    :class:`OverflowError` is raised for a norm above 2^40.
+    :class:`OverflowError` is raised if a bound of the norm of the matrix is not below 2^40.
     """
     size = max((abs(x) for x in a[: n * n]), default=0) * n
     if not size < 2**40:
-        raise OverflowError("the norm of the matrix is too large for its exponential")
+        raise OverflowError("the matrix exponential is not computed for a matrix with a norm above 2^40")
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
     # The working precision includes the digits that the squarings lose: at most log10(|exp(A)| |exp(-A)|)
     # digits, and one bit for each squaring.
@@ -203,9 +206,9 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exponential of a jet of power series, exactly.
 
-    The exponential is a finite sum if the constant terms of the first matrix form a nilpotent matrix.
-    ArithmeticError is raised if the sum has more than ``longest`` terms, because this matrix is then not
-    nilpotent.
+    The exponential is a finite sum if the constant terms of the first matrix of the jet form a nilpotent
+    matrix. ``longest`` is the largest possible number of terms in this case. ArithmeticError is raised if the
+    sum has more terms.
     """
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total
@@ -215,4 +218,4 @@ def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]
         if all(ring.is_zero(x) is True for x in term):
             return tuple(total)
         total = [x + y for x, y in zip(total, term, strict=True)]
-    raise ArithmeticError(f"an exponential series does not end within {longest} terms")
+    raise ArithmeticError(f"the series of a matrix exponential does not end within {longest} terms")

@@ -44,12 +44,13 @@ class MatrixExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """A typical number of operations: a Taylor polynomial of degree 12 is assumed, without squarings."""
+        """A typical number of operations of a call: those of a Taylor polynomial of degree 12, without
+        squarings."""
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the rates of the results: the second half of the results of the next level."""
+        """Return the rates of change of the results: the second half of the results of level + 1."""
         space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
@@ -63,8 +64,8 @@ class MatrixExponential(VectorFunction):
         if not is_nilpotent(self.n, pattern):
             return None
         count = 1
-        # The powers are first computed for a pattern of zeros and ones, so that no long expressions are
-        # created in vain.
+        # The powers of the pattern of zeros are computed first. They show whether the sum is short, before
+        # long expressions are created.
         while any(power):
             count += 1
             if count > EXPANDED:
@@ -115,7 +116,7 @@ class MatrixInverse(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The number of operations of an elimination."""
+        """The number of operations of Gauss-Jordan elimination."""
         return {"add": self.n**3, "mul": self.n**3}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
@@ -133,12 +134,12 @@ class MatrixInverse(VectorFunction):
         return matrix_inverse.inverse(self.n, args, 1.0, abs) or (math.nan,) * self.size
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the inverse for mpmath numbers; ZeroDivisionError for a singular matrix."""
+        """Return the inverse for mpmath numbers; raise ZeroDivisionError for a singular matrix."""
         return self._invertible(matrix_inverse.inverse(self.n, args, context.mpf(1), abs))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the inverse of a matrix of power series; ZeroDivisionError if the matrix of their constant
-        terms is singular."""
+        """Return the inverse of a matrix of power series. ZeroDivisionError is raised if the constant terms
+        of the entries form a singular matrix."""
 
         def size(x: Scalar) -> int:
             return int(ring.valuation(x) == 0)
@@ -147,7 +148,7 @@ class MatrixInverse(VectorFunction):
 
     def _invertible(self, result: tuple[Scalar, ...] | None) -> tuple[Scalar, ...]:
         if result is None:
-            raise ZeroDivisionError("a singular matrix has no inverse")
+            raise ZeroDivisionError("the matrix is singular, so it has no inverse")
         return result
 
 

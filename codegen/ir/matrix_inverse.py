@@ -14,8 +14,9 @@ def inverse(
 ) -> tuple[Scalar, ...] | None:
     """Return the inverse of a matrix, row by row; None for a singular matrix.
 
-    The pivot of a column is the entry with the largest ``size``; an entry of size 0 cannot be a pivot.
-    Emitted code executes the same operations in the same order, so that doubles agree in every bit.
+    ``one`` is the number 1 as a scalar of the same type as the entries. The pivot of a column is the entry x
+    with the largest ``size(x)``; an entry of size 0 cannot be a pivot. Emitted code executes the same
+    operations in the same order, so its results in doubles agree in every bit.
     """
     rows = [list(a[n * i : n * i + n]) for i in range(n)]
     order: list[int] = []

@@ -27,7 +27,7 @@ class BilinearFunction(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the two matrices."""
+        """The numbers of entries of the two matrices."""
         return (self.n**2, self.n**2)
 
     @abstractmethod
@@ -46,9 +46,9 @@ class BilinearFunction(VectorFunction):
         return total
 
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
-        """Return the derivatives of the results with respect to one argument.
+        """Return the derivatives of the results with respect to the scalar with the index ``argument``.
 
-        They are linear in the entries of the matrix that does not contain the argument.
+        This scalar is an entry of one matrix; the derivatives are linear in the entries of the other matrix.
         """
         space = args[0].space
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
@@ -58,7 +58,7 @@ class BilinearFunction(VectorFunction):
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return zeros if one matrix is zero, otherwise None."""
+        """Return zeros if one of the two matrices is zero. Otherwise return None: the call is kept."""
         if all(x.is_zero for x in args[: self.size]) or all(x.is_zero for x in args[self.size :]):
             return (args[0].space.zero,) * self.size
         return None

@@ -55,7 +55,7 @@ ONE = Number.rational(1)
 
 @dataclass(frozen=True)
 class Multiplier:
-    """A sum of products of factors with exact coefficients, as a polynomial in the factors."""
+    """A function of z: a polynomial in factors (:class:`Factor`) with exact coefficients."""
 
     terms: Mapping[Monomial, Number] = field(default_factory=dict)
 
@@ -97,7 +97,7 @@ class Multiplier:
 
     @property
     def key(self) -> tuple[tuple[Monomial, Number], ...]:
-        """A value that identifies the multiplier."""
+        """The terms in a fixed order; equal multipliers have equal keys."""
         return tuple(sorted(self.terms.items(), key=lambda term: [(f.order, n) for f, n in term[0]]))
 
     @property
@@ -143,14 +143,14 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
 
 @dataclass(frozen=True)
 class Table:
-    """The values of h^``power`` times a multiplier at all modes, which emitted code stores for one step
-    size."""
+    """The function h^``power`` times a multiplier. Emitted code computes its values at all modes once for
+    each step size, and stores them."""
 
     multiplier: Multiplier
     power: int
 
     def text(self) -> str:
-        """Return the text of the formula."""
+        """Return the function as text, for example ``h phi1(1/2 z)``."""
         inner = self.multiplier.text()
         several = len(self.multiplier.terms) > 1
         return (
@@ -160,8 +160,9 @@ class Table:
 
 @dataclass(frozen=True)
 class Term:
-    """One term of a linear combination: the values of a table times the old state (:data:`STATE`) or times
-    value number ``source`` of N. If there is no ``table``, the factor is 1."""
+    """One term of a linear combination: a factor times the old state if ``source`` is :data:`STATE`, else a
+    factor times value number ``source`` of N. The factor is the table with the index ``table``; it is 1 if
+    ``table`` is None."""
 
     source: int
     table: int | None
@@ -231,8 +232,8 @@ class ModeStep:
 
     @property
     def backwards(self) -> bool:
-        """True if the step contains exp(c h L) with c < 0, which integrates a dissipative L backwards in
-        time."""
+        """True if a table contains exp(c z) or phi_1(c z) with c < 0. For a dissipative L, these functions
+        grow exponentially with h."""
         return any(f.function in (EXP, PHI) and float(f.scale) < 0 for f in self.factors)
 
     @property
@@ -250,7 +251,8 @@ class ModeStep:
         return self.symbol, self.length, self.nonlinearity.formulas, self.initial
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield every expression that the run of emitted code evaluates."""
+        """Yield every expression that emitted code evaluates during a run. The formula of the initial state
+        is not included."""
         for kernel in (self.symbol, self.length, self.nonlinearity.formulas):
             yield from kernel.expressions()
 
@@ -281,7 +283,8 @@ class ModeStep:
         return "all are bounded"
 
     def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:
-        """Return the formula of a linear combination, on one line if it is short, else term by term."""
+        """Return the lines of the formula ``name`` = sum of ``terms``, followed by ``remark``. A long formula
+        has one line for each term."""
         words = []
         for term in terms:
             source = "u" if term.source == STATE else f"N{term.source + 1}"

@@ -1,9 +1,9 @@
-"""Normal forms: expressions as polynomials in their symbols and irrational parts, reduced by relations.
+"""Normal forms: expressions as polynomials in symbols, function calls and inverses, reduced by relations.
 
 Two different expressions may have equal values wherever the coordinates satisfy the laws of a group, such as
 g^T g = 1. Here an expression is rewritten with these laws. First the arguments of functions and the divisors
-in the expression are brought to normal form. Then the expression is expanded as a polynomial, and the leading
-product of each law is replaced by the other terms of the law. Many such formulas then become equal
+in the expression are brought to normal form. Then the expression is expanded as a polynomial, and one product
+of each law is replaced by the sum that equals it. Many formulas with equal values then become equal
 expressions: |g y|^2 becomes |y|^2. The result equals the given expression wherever the laws hold. It is not
 canonical, and need not be shorter.
 """
@@ -16,7 +16,8 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""Pairs (node, exponent), sorted; a node is given by its number in the space."""
+"""A product of powers: sorted pairs (node, exponent). A node is given by its number in the expression
+space."""
 
 Polynomial = dict[Monomial, Number]
 
@@ -33,14 +34,14 @@ the number and run ``orderconds regenerate --check``).
 
 
 class TooLong(ArithmeticError):
-    """An expression whose expansion has too many terms."""
+    """The error for an expression whose expansion has too many terms."""
 
 
 class NormalForms:
     """Brings expressions of one space to normal form.
 
-    ``relations`` map a product of two symbols to an equal sum; repeated replacement must terminate. ``whole``
-    contains expressions that are not expanded.
+    Each of ``relations`` replaces a product of two symbols by an equal sum. Repeated replacement must end.
+    The expressions in ``whole`` are not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
@@ -61,8 +62,8 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # The right sides of rules are not reduced in advance, because _reduced also applies the rules to
-            # the terms that a right side inserts.
+            # The right side is not reduced here: when _reduced inserts its terms, it applies the rules to
+            # them.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
@@ -71,8 +72,7 @@ class NormalForms:
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # The only condition on the result is that it equals ``root`` wherever the relations hold, so
-            # ``root`` itself is a valid result.
+            # The result must only equal ``root`` wherever the relations hold, so ``root`` itself is valid.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
@@ -119,7 +119,7 @@ class NormalForms:
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
         """Return a polynomial as an expression; the most frequent factor is taken out first."""
-        # The terms are copied, because the loop removes terms, and the polynomial may be needed again.
+        # A copy is used, so that the given polynomial is not changed.
         terms = dict(polynomial)
         count: dict[int, int] = {}
         for monomial in terms:
@@ -197,8 +197,7 @@ class NormalForms:
                     powers[j] -= 1
                     rest = {tuple(sorted((a, n) for a, n in powers.items() if n)): c}
                     waiting = _plus(waiting, self._times(rest, right))
-                    # The terms of the right side may contain left sides of other rules, so they are appended
-                    # to the terms that are still to be reduced.
+                    # The new terms may contain left sides of other rules, so they are added to ``waiting``.
                     break
             else:
                 done = _add(done, monomial, c)

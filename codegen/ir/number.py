@@ -26,8 +26,8 @@ _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 
 
 def is_normal(value: Fraction) -> bool:
-    """Return True if a double represents this number to the full precision of doubles: the number is neither
-    too large nor denormal.
+    """Return True if a double represents this number to the full precision of doubles. This is the case for
+    zero and for numbers in the range of normal doubles.
 
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
@@ -69,8 +69,9 @@ class Number:
     def read(cls, text: str) -> Number:
         """Return the rational number that a person typed: ``1/2``, ``0.25``, ``-3e-2``.
 
-        A ValueError states the expected form for any other text and for numbers outside the range of doubles.
-        The length of the text and its exponent are checked before the number is built.
+        ValueError is raised for any other text, and for numbers outside the range of doubles. Its message is
+        the expected form. The lengths of the digits and of the exponent are checked before the number is
+        built.
 
         >>> Number.read("-3e-2") == Number.rational(-3, 100)
         True

@@ -1,9 +1,11 @@
 """The operations of step programs: one small class for each operation.
 
 A class defines how the operation is printed, which kinds its arguments and results have, and how it is
-evaluated in a problem over any domain. ``dual`` operations act on the dual of the Lie algebra. Conventions:
-[x, y] = AB - BA for the matrices A and B of x and y; ad*_x and Ad*_g are the dual maps of ad_x and Ad_g,
-without a change of sign and without an inverse.
+evaluated. If an operation has the attribute ``dual`` and it is true, the operation acts on the dual of the
+Lie algebra.
+
+Conventions: [x, y] = AB - BA for the matrices A and B of x and y; ad*_x and Ad*_g are the dual maps of ad_x
+and Ad_g, without a change of sign and without an inverse.
 """
 
 from __future__ import annotations
@@ -28,15 +30,15 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 
 
 class Problem(Protocol):
-    """A problem: the group, its action, and the field or Hamiltonian of a scene, all evaluated over any
-    domain."""
+    """A problem: the group, its action, and the field or Hamiltonian of a scene. All of them can be evaluated
+    over any domain, that is, for scalars such as doubles, power series or expressions."""
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
         """Return the results of the function called ``name``, which the group, its action or the scene
         provides.
 
-        ``order`` is the number of brackets after which dexp^{-1} is truncated, and None for all other
-        operations.
+        ``order`` is a parameter of the function, such as the number of brackets after which dexp^{-1} is
+        truncated. It is None for functions without a parameter.
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
@@ -52,15 +54,14 @@ class Problem(Protocol):
 
 
 class Operation(ABC):
-    """The right-hand side of an assignment, without its arguments."""
+    """The operation on the right-hand side of an assignment; the assignment stores the arguments."""
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
     """The kinds of the arguments and of the results, if these kinds do not depend on the parameters of the
     operation.
     """
-    # Passes use linearity to move factors and sums out of an operation, for example ad_x(c v + w) = c ad_x v
-    # + ad_x w.
+    # Passes use linearity to move factors and sums out of an operation: ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
     """True if the result is linear in the last argument."""
     # The cost of a method is measured by two numbers: its evaluations of the scene, and its exponentials.
@@ -86,18 +87,18 @@ class Operation(ABC):
 
     @abstractmethod
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if an assignment of these kinds is well-formed."""
+        """Return True if the operation maps arguments of these kinds to results of these kinds."""
         return (arguments, results) == self.signature()
 
     def text(self) -> str:
-        """Return the name with its parameters, as ``dexpinv(2)``."""
+        """Return the name with its parameters, for example ``dexpinv(2)``."""
         return self.name
 
     def applied(self, args: Sequence[str]) -> str:
-        """Return the text of the operation applied to arguments."""
+        """Return the text of the operation applied to the arguments with the names ``args``."""
         return f"{self.text()}({', '.join(args)})"
 
 
@@ -113,12 +114,12 @@ class Zero(Operation):
         return NONE, (self.kind,)
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if an assignment of these kinds is well-formed."""
+        """Return True if the operation maps arguments of these kinds to results of these kinds."""
         # A group and a manifold have no zero.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
         # The components are zeros of the domain, because a plain 0 would have another type than other
         # scalars.
         return ((domain.rational(0),) * problem.dimension(),)
@@ -146,7 +147,7 @@ class Linear(Operation):
         return alike and len(arguments) == len(self.coefficients)
 
     def applied(self, args: Sequence[str]) -> str:
-        """Return the text of the operation applied to arguments."""
+        """Return the text of the operation applied to the arguments with the names ``args``."""
         # The verifier also prints ill-formed programs, which may have more coefficients than arguments, or
         # fewer.
         terms = zip_longest([f"({c.text()})" for c in self.coefficients], args)
@@ -183,11 +184,11 @@ class Advance(Operation):
     noun = "stage time{s}"
 
     def applied(self, args: Sequence[str]) -> str:
-        """Return the text of the operation applied to arguments."""
+        """Return the text of the operation applied to the arguments with the names ``args``."""
         return super().applied([*args, self.coefficient.text()])
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
         return (args[0] + self.coefficient.evaluate(domain),)
 
 
@@ -201,7 +202,7 @@ class OfGroup(Operation):
         return self.name
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
         return problem.apply(domain, self.function, None, args)
 
 
@@ -237,7 +238,7 @@ class ElementAt(OfGroup):
 @dataclass(frozen=True)
 class InverseDifferential(OfGroup):
     """The element dtau^{-1}_x y of the Lie algebra for the coordinate map tau of the scene, without
-    truncation."""
+    truncation. If x' = dtau^{-1}_x y, then tau(x)' = y.tau(x)."""
 
     linear_in_last = True
     name = "inverse_differential"
@@ -247,7 +248,7 @@ class InverseDifferential(OfGroup):
 
 @dataclass(frozen=True)
 class Multiply(OfGroup):
-    """The group product g k; applied to a point, k acts first."""
+    """The group product g k. If the product acts on a point, k acts first: (g k).y = g.(k.y)."""
 
     name = "mul"
     takes, gives = G + G, G
@@ -256,7 +257,7 @@ class Multiply(OfGroup):
 
 @dataclass(frozen=True)
 class MultiplyExp(OfGroup):
-    """The group element g exp(x), computed row by row for a matrix g."""
+    """The group element g exp(x). Row i of the result depends only on x and on row i of the matrix g."""
 
     name = "mulexp"
     takes, gives = G + A, G
@@ -307,7 +308,7 @@ class Adjoint(OfGroup):
         return G + own, own
 
     def opposite(self) -> Adjoint:
-        """Return the inverse operation, with the same g."""
+        """Return the operation whose linear map is the inverse of this one, for the same g."""
         # Ad_g Ad_{g^-1} = 1. The same holds for the duals, although they reverse the order of products:
         # Ad*_{gk} = Ad*_k Ad*_g.
         return Adjoint(self.dual, not self.inverse)
@@ -339,7 +340,8 @@ class Bracket(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDexp(Operation):
-    """The truncated dexp^{-1}: the sum over k <= order of B_k/k! ad_x^k y, or of B_k/k! (ad*_x)^k mu."""
+    """The truncated dexp^{-1}: the sum over k <= order of B_k/k! ad_x^k y, or of B_k/k! (ad*_x)^k mu if
+    ``dual`` is true. B_k are the Bernoulli numbers."""
 
     order: int
     dual: bool = False
@@ -353,7 +355,7 @@ class InverseDexp(Operation):
 
     @property
     def word(self) -> Word:
-        """The operation, written as a function of ad_x."""
+        """The operation as a word of one factor, the truncated function dexp^{-1} of ad_x."""
         # If further functions of the same ad_x are applied to the result, a pass joins all these functions in
         # one word.
         return (Factor("dexpinv", UNIT, self.order),)
@@ -368,9 +370,8 @@ class InverseDexp(Operation):
         return A + own, own
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
-        # The order is passed to the group, because the number of brackets depends on the method and not on
-        # the group.
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        # The group computes the series. The order is an argument, because it depends on the method.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
@@ -393,7 +394,7 @@ class InverseDexpSlope(Operation):
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
         return problem.apply(domain, "P", self.order, args)
 
 
@@ -409,13 +410,14 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """The operation, written as a function of ad_x."""
+        """The operation as a word of one factor, the function dexp of ad_x."""
         return (Factor("dexp", UNIT),)
 
 
 @dataclass(frozen=True)
 class AdSeries(Operation):
-    """A word, which is a product of functions of ad_x or of ad*_x, applied to the last argument."""
+    """A product of functions of ad_x, applied to the last argument; x is the first argument. ``word`` lists
+    the functions. If ``dual`` is true, ad*_x replaces ad_x."""
 
     word: Word
     dual: bool = False
@@ -437,11 +439,11 @@ class AdSeries(Operation):
         return A + own, own
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if an assignment of these kinds is well-formed; the empty word is not allowed."""
-        # An empty word is the identity, which needs no assignment: the pass that simplifies words removes
-        # such assignments.
+        """Return True if the operation maps arguments of these kinds to results of these kinds, and its word
+        is not empty."""
+        # An empty word is the identity. The pass that simplifies words removes assignments with empty words.
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
         return (problem.series(domain, self.word, self.dual, *args),)

@@ -16,7 +16,7 @@ from codegen.ir.number import Number
 from orderconds.errors import InputError, UnknownName
 
 SUBNORMAL = {24: -149, 53: -1074}
-"""The binary exponent of the least positive number of a format; the key is the number of bits of its
+"""The binary exponent of the smallest positive number of a format. A key is the number of bits of the
 significand."""
 
 
@@ -58,7 +58,7 @@ class Precision:
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format, rounded once; InputError if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # The comparison with a NaN is false, so the negated condition refuses a NaN, too.
+        # A comparison with a NaN is false. The condition is negated, so that a NaN is also refused.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -100,7 +100,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         return 0.0
     # The value is not rounded to a double first, because after two roundings a tie may be decided wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The bit lengths give two candidates for the exponent; this comparison decides between these two.
+    # The bit lengths determine the exponent up to one; this comparison adds one if necessary.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
     exponent = max(exponent, SUBNORMAL[bits])

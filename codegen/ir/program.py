@@ -49,7 +49,7 @@ class Assign:
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # Passes that move the coefficient of c x out of a linear map, L(c x) = c L(x), use this test.
+    # Passes use this test to move a coefficient out of a linear map: L(c x) = c L(x).
     @property
     def is_multiple(self) -> bool:
         """True if the operation is a combination of one term: one coefficient times one value."""
@@ -72,11 +72,11 @@ class Solve:
     """The equations unknowns = images, which are solved for the unknowns. The body computes the images from
     the unknowns.
 
-    Statements after the block may read values of the body, which are then evaluated at the solution.
-    ``starts`` are the first values of the unknowns: they have the kinds of the unknowns and are known before
-    the block. ``residuals`` may be empty. Otherwise there is one residual for each unknown. The residual must
-    be about as large as the error of the unknown. All residuals are zero if and only if all unknowns equal
-    their images.
+    Statements after the block may read values of the body. They read the values at the solution. ``starts``
+    are the first values of the unknowns: they have the kinds of the unknowns and are known before the block.
+    ``residuals`` may be empty. Otherwise there is one residual for each unknown. The residual must be about
+    as large as the error of the unknown. All residuals are zero if and only if all unknowns equal their
+    images.
     """
 
     label: str
@@ -98,12 +98,14 @@ estimated."""
 
 
 POWERS = "power"
-"""The outputs of a program for a continuous extension are POWERS1, POWERS2, ...: the coefficients of theta,
-theta^2, ... of the coordinates of the solution."""
+"""The outputs of a program for a continuous extension are called ``power1``, ``power2``, ...: the
+coefficients of theta, theta^2, ... in a polynomial sigma(theta). The solution at the time t + theta h is
+exp(sigma(theta)).y."""
 
 
 SPACE, BODY = "space", "body"
-"""The possible frames of the momentum that the statements of a program read and return."""
+"""The possible values of :attr:`Program.frame`: the frame of the momentum that the statements of a program
+read and return."""
 
 
 @dataclass(frozen=True)
@@ -118,10 +120,9 @@ class Substep:
 class Program:
     """One step: inputs, statements, and the new state. An output has the name of the input that it replaces.
 
-    With ``substeps`` a step executes the statements once for each substep, in order. In the ``frame``
-    :data:`BODY` the statements read m = Ad*_q mu in place of mu, and return the new m'. A step then begins
-    with the computation of m. It ends with the computation of the new momentum mu + Ad*_{q'^-1} m' -
-    Ad*_{q^-1} m, where q' is the new q.
+    With ``substeps`` a step executes the statements once for each substep, in order. If ``frame`` is
+    :data:`BODY`, the statements read m = Ad*_q mu in place of mu, and return the new values q' and m'. The
+    step then first computes m. At its end it computes the new momentum mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
     """
 
     name: str
@@ -180,8 +181,7 @@ class Builder:
 
     def fresh(self, name: str, kind: Kind) -> Var:
         """Return a variable called ``name``; a number is appended if this name is taken."""
-        # A number is appended to the given name, so that people who read printed programs still recognise the
-        # name.
+        # Only a number is appended, so that the name is still recognised in printed programs.
         candidate, n = name, 1
         while candidate in self.taken:
             n += 1
@@ -236,8 +236,8 @@ class Builder:
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable; an empty sum becomes the operation ``zero``."""
         var = self.fresh(target, kind)
-        # Terms with coefficient zero are omitted, because passes assume that a stage depends on all arguments
-        # of its sums.
+        # Terms with coefficient zero are omitted, because passes assume that a sum depends on each of its
+        # arguments.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))
@@ -254,7 +254,7 @@ class Builder:
         return targets
 
     def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
-        """Append (q, mu) = the exact flow of a part for a time ``duration``."""
+        """Append (q, mu) = the state after the exact flow of the part ``part`` for the time ``duration``."""
         number = 1 + len(self.body)
         targets = (self.fresh(f"q{number}", Kind.GROUP), self.fresh(f"mu{number}", Kind.DUAL))
         self.body.append(Assign(targets, FlowOf(part, duration, bool(time)), (q, mu, *time)))

@@ -25,7 +25,8 @@ class OfScene(OfGroup):
 
     def at(self, arguments: Kinds) -> Kinds:
         """Return the kinds of the arguments, followed by the kind of the time if ``timed`` is true."""
-        # The time is the last argument, so that the state has the same positions with and without time.
+        # The time is the last argument, so that the positions of the other arguments do not depend on
+        # ``timed``.
         return arguments + R if self.timed else arguments
 
 
@@ -59,7 +60,7 @@ class HamiltonianDerivatives(OfScene):
 class BodyVelocity(OfScene):
     """W(q, P), the velocity in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
 
-    # Velocity and force are separate operations, because passes may remove one and keep the other.
+    # Velocity and force are separate operations, so that passes can remove one of them and keep the other.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -113,8 +114,8 @@ class Differential(OfGroup):
 
 @dataclass(frozen=True)
 class Secant(OfGroup):
-    """A discrete gradient: among all covectors whose pairing with x is H1 - H0, the covector nearest to g.
-    The arguments are g, x, H0, H1."""
+    """A discrete gradient for the arguments g, x, H0, H1: among all covectors whose pairing with x is H1 -
+    H0, the covector nearest to g. For x = 0 it is g."""
 
     # The formula contains a quotient that is 0/0 at x = 0 and must be set to 0 there, so the whole formula is
     # one operation.
@@ -155,7 +156,7 @@ class TaylorStep(Operation):
         return P + R if self.timed else P, P
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
         return problem.apply(domain, self.name, self.degree, args)
 
 
@@ -209,7 +210,7 @@ class FlowOf(Operation):
         return f"{self.name}[{self.part}]"
 
     def applied(self, args: Sequence[str]) -> str:
-        """Return the text of the operation applied to arguments."""
+        """Return the text of the operation applied to the arguments with the names ``args``."""
         return super().applied([*args, self.duration.text()])
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -217,7 +218,7 @@ class FlowOf(Operation):
         return G + D + (R if self.timed else NONE), G + D
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
         return problem.flow(domain, self.part, self.duration.evaluate(domain), args)
 
 
@@ -237,7 +238,7 @@ class SiteFlowOf(Operation):
         return f"{self.name}[{self.part}]"
 
     def applied(self, args: Sequence[str]) -> str:
-        """Return the text of the operation applied to arguments."""
+        """Return the text of the operation applied to the arguments with the names ``args``."""
         return super().applied([*args, self.duration.text()])
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -245,8 +246,8 @@ class SiteFlowOf(Operation):
         return P, P
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Raise ArithmeticError: the flow moves all sites."""
-        raise ArithmeticError("a flow of a lattice moves all sites")
+        """Raise ArithmeticError, because the flow cannot be evaluated for a single site."""
+        raise ArithmeticError("the flow of a lattice moves all sites and cannot be evaluated for one site")
 
 
 @dataclass(frozen=True)
@@ -268,7 +269,7 @@ class FlowFor(Operation):
         return G + D + (R if self.timed else NONE) + R, G + D
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
         # The duration is the last argument, so that state and time have the same positions as in FlowOf.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 

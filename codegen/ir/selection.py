@@ -1,7 +1,7 @@
 """Functions that select one of several formulas by a comparison, in every domain.
 
 ``choose(x, a, b)`` is a for x > 0, b for x <= 0, and NaN if x is NaN. Every comparison and every
-condition of a formula is a combination of this function. ``fabs`` is the absolute value, and a
+condition in a formula is written with calls of this function. ``fabs`` is the absolute value, and a
 :class:`codegen.ir.table.PiecewisePolynomial` selects a polynomial. At points where a selection changes, the
 formulas are not smooth, and a domain of power series raises an error.
 """
@@ -23,7 +23,7 @@ this list."""
 
 
 class Kink(ArithmeticError):
-    """The error of a power series at a point where the selected formula changes."""
+    """The error for power series at a point where the selected formula changes."""
 
 
 def selects(function: str) -> bool:
@@ -32,7 +32,8 @@ def selects(function: str) -> bool:
 
 
 def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign) -> Scalar:
-    """Return the value of a function for which :func:`selects` is true."""
+    """Return the value of a function for which :func:`selects` is true. If ``sign`` returns None, for example
+    for a NaN, the first argument is returned."""
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
         return function.value(domain, x, sign)

@@ -6,7 +6,7 @@ neighbours that earlier sweeps have stored for all sites. The number of sites is
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -37,8 +37,9 @@ class Row:
 
 @dataclass(frozen=True)
 class Load:
-    """A number that a sweep reads: ``symbol`` is its symbol, and ``row`` the row that contains it. It is read
-    at the site itself, or at the neighbour whose offset has the index ``neighbour``."""
+    """A number that a sweep reads: ``symbol`` is its symbol in the formulas, and ``row`` the row that
+    contains it. The number belongs to the site itself if ``neighbour`` is :data:`OWN`, else to the neighbour
+    whose offset has the index ``neighbour``."""
 
     symbol: str
     row: Row
@@ -49,7 +50,7 @@ class Load:
 class Sweep:
     """One loop over all sites: output k of ``kernel`` is stored in row k of ``stores``.
 
-    ``about`` describes the sweep by operations of the program. If a neighbour lies outside the lattice,
+    ``about`` names the operations of the program in the sweep. If a neighbour lies outside the lattice,
     output k of ``outside`` replaces the number that load k of ``read_outside`` would read there. ``outside``
     is None if nothing has to be replaced, as in a periodic lattice. A sweep over pairs of neighbours has an
     ``axis``. For such a sweep, neighbour 0 is the other site of the pair, and the second half of ``stores``
@@ -70,12 +71,12 @@ class Sweep:
 
     @property
     def neighbours(self) -> tuple[int, ...]:
-        """The indices of the offsets at which the sweep reads, sorted."""
+        """The indices of the neighbours whose numbers the sweep reads, sorted."""
         return tuple(sorted({load.neighbour for load in self.loads} - {OWN}))
 
     @property
     def read_outside(self) -> tuple[Load, ...]:
-        """The loads from neighbours."""
+        """The loads of the sweep that read numbers of neighbours."""
         return tuple(load for load in self.loads if load.neighbour != OWN)
 
     @property
@@ -109,6 +110,30 @@ class SiteNewton:
     border: int
     matrix: int
 
+    def moved_once(self, periodic: bool) -> tuple[int, int]:
+        """Return the numbers that a step reads and writes for each site to compute and factor the matrix."""
+        n = self.size
+        read, written = len({load.row for load in self.loads}) + 3 * n * n, 6 * n * n
+        if periodic:
+            # Each of the n columns for the last site is a right-hand side.
+            solved = self._substituted()
+            read, written = read + n * solved[0], written + n * n + n * solved[1]
+        return read, written
+
+    def moved_in_a_sweep(self, periodic: bool) -> tuple[int, int]:
+        """Return the numbers that a sweep reads and writes for each site to solve for the residuals and to
+        correct the unknowns."""
+        n = self.size
+        read, written = self._substituted()
+        read, written = read + 2 * n, written + n
+        return (read + n * n + n, written + n) if periodic else (read, written)
+
+    def _substituted(self) -> tuple[int, int]:
+        """Return the numbers that forward and back substitution read and write for each site: all blocks
+        once, and the right-hand side in both loops."""
+        n = self.size
+        return 3 * n * n + 2 * n, 2 * n
+
 
 @dataclass(frozen=True)
 class SiteBlock:
@@ -126,9 +151,9 @@ class SiteBlock:
 
 @dataclass(frozen=True)
 class SiteFlow:
-    """One flow of a step that composes flows. ``sweep`` is the index of the sweep, and ``duration`` is in
-    units of h. In a sweep over pairs, ``colour`` (0 or 1) selects the pairs: it is the parity of the index of
-    the first site of each pair."""
+    """One flow of a splitting step. ``sweep`` is the index of the sweep that computes it, and ``duration`` is
+    in units of h. In a sweep over pairs, ``colour`` (0 or 1) selects the pairs: it is the parity of the index
+    of the first site of each pair."""
 
     sweep: int
     colour: int
@@ -160,7 +185,7 @@ class SiteStep:
 
     @property
     def passes(self) -> tuple[Sweep, ...]:
-        """The sweeps of a step, in the order in which they are executed."""
+        """The sweeps of a step in the order of execution. A sweep occurs once for each flow that uses it."""
         return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
 
     def expressions(self) -> Iterator[Expr]:
@@ -184,6 +209,23 @@ class SiteStep:
         """Return the sweeps of one iteration of a block."""
         return self.sweeps[block.first : block.last + 1]
 
+    @property
+    def moved_once(self) -> tuple[int, int]:
+        """The numbers that a step reads and writes for each site outside of the iterations."""
+        matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
+        return _added([traffic(self.unrepeated), *matrices])
+
+    def moved_in_a_sweep(self, block: SiteBlock) -> tuple[int, int]:
+        """Return the numbers that one iteration of a block reads and writes for each site."""
+        newton = [] if block.newton is None else [block.newton.moved_in_a_sweep(self.periodic)]
+        return _added([traffic(self.repeated(block)), *newton])
+
+    def numbers_moved(self, sweeps: Sequence[float]) -> float:
+        """Return the number of numbers that a step reads and writes for each site. ``sweeps`` contains the
+        number of repetitions of each block."""
+        repeated = (n * sum(self.moved_in_a_sweep(b)) for n, b in zip(sweeps, self.blocks, strict=True))
+        return sum(self.moved_once) + sum(repeated)
+
     def explanation(self) -> list[str]:
         """Return lines that describe the loops, the stored values and the memory traffic."""
         lines = []
@@ -204,18 +246,19 @@ class SiteStep:
         if self.flows:
             lines.append(f"a step: {len(self.flows)} passes through these loops")
         lines.append(f"workspace: {self.workspace} numbers for each site, {BYTES * self.workspace} bytes")
-        moved = f"memory traffic: {_moved(self.unrepeated)} for each site and step"
+        moved = f"memory traffic: {_moved(self.moved_once)} for each site and step"
         for block in self.blocks:
-            moved += f", and {_moved(self.repeated(block))} in each sweep of {block.label}"
+            moved += f", and {_moved(self.moved_in_a_sweep(block))} in each sweep of {block.label}"
         return [*lines, moved]
 
 
 def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     """Return the numbers of doubles that sweeps read and write for each site. A number that a sweep reads at
-    several sites is counted once, because the other reads find it in the cache."""
+    several sites is counted once, because the other reads find it in the cache. The numbers that describe an
+    iteration are read once more, for their maxima over all sites."""
     listed = list(sweeps)
     # A sweep over pairs is counted in the same way, because its pairs contain each site at most once.
-    read = sum(len(sweep.rows_read) for sweep in listed)
+    read = sum(len(sweep.rows_read) + len(sweep.measured) for sweep in listed)
     return read, sum(map(_stored, listed))
 
 
@@ -224,6 +267,11 @@ def _stored(sweep: Sweep) -> int:
     return len({*sweep.stores, *sweep.measured})
 
 
-def _moved(sweeps: Iterable[Sweep]) -> str:
-    read, written = traffic(sweeps)
+def _added(pairs: Iterable[tuple[int, int]]) -> tuple[int, int]:
+    read, written = zip(*pairs, strict=True)
+    return sum(read), sum(written)
+
+
+def _moved(numbers: tuple[int, int]) -> str:
+    read, written = numbers
     return f"{BYTES * read} bytes read and {BYTES * written} bytes written"

@@ -28,8 +28,9 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 
 
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
-    """Return the formulas for given sides of all selections, and expressions called margins. The selections
-    have these sides where all margins are positive.
+    """Return the expressions ``roots`` in which each selection is replaced by the formula of its given side,
+    and expressions called margins. ``nodes`` are the selections, and ``sides`` their sides. Where all margins
+    are positive, the selections have these sides.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -52,7 +53,8 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return the formula of a selection for one side, and the margins of this side."""
+    """Return the formula that a selection uses on one side, and the margins, which are positive on this
+    side."""
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
         knots = function.knots

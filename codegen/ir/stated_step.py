@@ -1,5 +1,5 @@
-"""The operation of step programs for a stated step, that is, a step for which the scene contains a formula of
-matrices."""
+"""The operation of step programs for a stated step y -> M y, where the scene contains a formula for the
+matrix M."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class StatedStep(Operation):
         return f"{self.name}({self.step})"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
         y, t = args
         scene = cast("Problem", problem)
         return (scene.stated_step(domain, self.step, y, t),)

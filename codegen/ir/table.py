@@ -1,4 +1,4 @@
-"""Piecewise polynomials of one variable: a table of numbers in a formula defines such a function.
+"""Piecewise polynomials of one variable, which are defined by tables of numbers in formulas.
 
 Expressions call a piecewise polynomial like any named function, for example ``sin``. The object that serves
 as the name also contains the data, so expressions and domains need no further kind of node. The name is a
@@ -25,8 +25,9 @@ PREFIX = "table_"
 class PiecewisePolynomial(str):
     """A piecewise polynomial; between knots[k - 1] and knots[k] it is sum_j rows[k][j] (x - bases[k])^j.
 
-    ``knots`` increase; there is one more row than knots. The value at a knot is the value of the polynomial
-    above the knot. The text of the object is its name in emitted code.
+    The numbers ``knots`` increase. There is one row more than there are knots, because the first and the last
+    interval are unbounded. The value at a knot is the value of the polynomial above the knot. The string
+    value of the object is its name in emitted code.
 
     >>> zero, one = Fraction(0), Fraction(1)
     >>> ramp = PiecewisePolynomial((zero,), (zero, zero), ((zero,), (zero, one)))
@@ -46,7 +47,8 @@ class PiecewisePolynomial(str):
         bases: tuple[Fraction, ...],
         rows: tuple[tuple[Fraction, ...], ...],
     ) -> PiecewisePolynomial:
-        """Return the function; all rows are extended by zeros to the same length, which is at least two."""
+        """Return the piecewise polynomial. All rows are extended by zeros to the same length, which is at
+        least two."""
         # Each row has at least two columns, so that the value at NaN is NaN: c_0 + c_1 NaN.
         width = max(2, *map(len, rows))
         rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
@@ -69,7 +71,8 @@ class PiecewisePolynomial(str):
         return PiecewisePolynomial(self.knots, self.bases, rows)
 
     def value(self, domain: Domain, x: Scalar, sign: Sign) -> Scalar:
-        """Return the value at x in any domain; ``sign`` compares x with the knots."""
+        """Return the value at x in any domain. ``sign`` compares x with the knots; if it returns None, for
+        example for a NaN, x itself is returned."""
         first, last = 0, len(self.knots)
         while first < last:
             middle = (first + last) // 2
@@ -80,7 +83,7 @@ class PiecewisePolynomial(str):
         return self.on_interval(domain, x, first)
 
     def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
-        """Return the value at x of the polynomial of one interval."""
+        """Return the value at x of the polynomial of interval number ``place``."""
         *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
         step = x - domain.rational(*self.bases[place].as_integer_ratio())
         for c in reversed(rest):

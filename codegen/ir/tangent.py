@@ -44,8 +44,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 together[key] = function.tangent(node.args, rates)
             known[node.id] = together[key][index]
             continue
-        # Derivatives are formed only after this test: a function without a derivative may occur in an
-        # expression that is constant.
+        # ``partials`` raises an error for a function without a derivative. It is not called for constant
+        # nodes, so such functions may occur in constant expressions.
         slopes = partials(node)
         total = node.space.zero
         # All seeds together are one direction, so the chain rule takes only one product for each argument

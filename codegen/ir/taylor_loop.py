@@ -1,8 +1,9 @@
 """The recurrence of Taylor coefficients as a loop over their order, for fields whose unrolled code is long.
 
-Coefficient n of a product is a_0 b_n + a_n b_0 and the sum of a_j b_{n-j} over 0 < j < n. These inner sums
-contain only coefficients of lower orders. The loop first computes the inner sums of all operations together,
-and then coefficient n of one expression after the other. The same code is executed for every order n.
+Coefficient n of the product of two series a and b is a_0 b_n + a_n b_0 plus the inner sum, which is the sum
+of a_j b_{n-j} over 0 < j < n. Inner sums contain only coefficients of lower orders. The loop first computes
+the inner sums of all operations, and then coefficient n of one expression after the other. The same code is
+executed for every order n.
 """
 
 from __future__ import annotations
@@ -64,7 +65,8 @@ class OrderLoop:
 
 
 def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
-    """Return the loop of a recurrence over expressions of ``space`` in powers of the time."""
+    """Return the loop that computes the coefficients of a recurrence. The scalars of the recurrence must be
+    expressions of ``space``, and its scale must be 1."""
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     scale = space.sym(NEXT)
@@ -97,14 +99,14 @@ def coordinate_names(count: int) -> tuple[str, ...]:
 
 
 def _known(x: Expr | None) -> Expr:
-    assert x is not None, "an inner sum of a series that is constant in time"
+    assert x is not None, "coefficient n is needed of a series that is constant in time"
     return x
 
 
 @dataclass
 class _Loop:
-    """Computes coefficient n of each series; ``pairs`` are the operands of inner sums, ``first`` the values
-    of order 0."""
+    """Computes coefficient n of each series. ``pairs`` are the pairs of series whose inner sums are needed,
+    and ``first`` are the values of order 0 that the code of order n reads."""
 
     recurrence: Recurrence
     space: Space
@@ -121,7 +123,7 @@ class _Loop:
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
-        """Return coefficient n of a series, None for a series that is constant in time."""
+        """Return coefficient n of a series; None if the series is constant in time."""
         waiting = [root]
         while waiting:
             series = waiting[-1]
@@ -141,8 +143,8 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return the symbol by which the code of order n reads a value of order 0. A number is returned
-        unchanged."""
+        """Return the symbol with which the code of order n reads the value ``x`` of order 0. If ``x`` is a
+        number, it is returned unchanged."""
         if x.op == "const":
             return x
         if x.id not in self.positions:
@@ -167,7 +169,8 @@ class _Loop:
         return self.inner(a, b) + (self.value(a.term(0)) * y + x * self.value(b.term(0)))
 
     def beyond(self, a: Series, b: Series) -> Expr:
-        """Return the sum of a_j b_{n-j} over 0 < j <= n, for a series b whose coefficient n is not known."""
+        """Return the sum of a_j b_{n-j} over 0 < j <= n. It does not contain coefficient n of b, which may be
+        unknown."""
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
     def built(self, series: Series) -> Expr:

@@ -1,7 +1,8 @@
 """Taylor coefficients of the solution of y' = F(y, t): the series of the expressions of F.
 
-Each product of two series costs a convolution. Therefore products, quotients and roots of powers of one
-expression are written as a single power of this expression, and numeric factors are moved out of products.
+Each product of two series costs a convolution. To save convolutions, a product of powers of the same
+expression is written as one power, for example x sqrt(x) as x^(3/2). Quotients and roots of powers are
+treated in the same way, and numeric factors are moved out of products.
 """
 
 from __future__ import annotations
@@ -71,7 +72,7 @@ class _Builder:
         return self.known[root.id]
 
     def operands(self, node: Expr) -> tuple[Expr, ...]:
-        """Return the expressions whose series are needed for the series of a node."""
+        """Return the expressions whose series must exist before the series of ``node`` can be built."""
         _, base, _ = self.monomial(node)
         if base is not node:
             return (base,)
@@ -172,7 +173,8 @@ class _Builder:
         return a if number.is_one else Multiple(self.domain, number, a)
 
     def power(self, a: Series, base: Expr, exponent: Fraction) -> Series:
-        """Return the series of a power; equal powers of one expression share one series."""
+        """Return the series of base^exponent, where ``a`` is the series of ``base``. Equal powers of one
+        expression share one series."""
         if exponent == 1:
             return a
         key = "power", base.id, exponent
@@ -197,7 +199,8 @@ class _Builder:
         return result
 
     def function(self, name: str, argument: Expr, a: Series) -> Series:
-        """Return the series of a function of an expression."""
+        """Return the series of the function ``name`` of ``argument``, where ``a`` is the series of
+        ``argument``. SceneError is raised if no recurrence is known for the function."""
         key = name, argument.id, Fraction(1)
         if key in self.shared:
             return self.shared[key]
@@ -245,7 +248,7 @@ class _Builder:
 
 
 class Recurrence:
-    """The series of the coordinates of y(t + s scale), in powers of s, and of their derivatives.
+    """The series, in powers of s, of the coordinates of the solution y(t + s scale) and of their derivatives.
 
     ``roots`` are the derivatives of the coordinates called ``symbols``; ``values`` are the values of all
     other symbols, including the time ``t``. Each derivative is stored as a pair: a numeric factor, and a

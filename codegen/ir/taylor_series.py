@@ -31,8 +31,8 @@ Coefficient: TypeAlias = Scalar
 
 
 class Series(ABC):
-    """The Taylor coefficients of one expression; ``terms`` contains the coefficients that are already
-    known."""
+    """The Taylor coefficients of one expression. ``terms`` contains the coefficients that have been
+    computed or given so far."""
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
@@ -60,7 +60,8 @@ class Given(Series):
         self.closed = closed
 
     def following(self, n: int) -> Coefficient:
-        """Return None for a coefficient that was not given: all further coefficients are zero."""
+        """Return None, because all coefficients that were not given are zero. If ``closed`` is false, the
+        caller must append coefficient n first."""
         assert self.closed, f"coefficient {n} is not known yet"
         return None
 
@@ -154,7 +155,7 @@ class Power(Series):
             return self._first(self.a.term(0))
         terms = []
         for j in _late_last(n, range(1, n + 1)):
-            # The factor 1/n is multiplied into the number before a_j, so it costs no further product.
+            # The numeric factor of a_j includes 1/n, so the division by n costs no further product.
             factor = (self.exponent * j - (n - j)) / n
             if factor and self.a.term(j) is not None:
                 a = _scaled(self.domain, Number.rational(*factor.as_integer_ratio()), self.a.term(j))
@@ -179,7 +180,8 @@ class Square(Series):
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_j a_j a_{n-j}; the product of each pair is computed once."""
+        """Return sum_j a_j a_{n-j}. The products a_j a_{n-j} and a_{n-j} a_j are computed once and
+        doubled."""
         return _square(self.domain, self.a, n)
 
 
@@ -246,8 +248,8 @@ class Antiderivative(Series):
 
 
 class Circular(Series):
-    """The sine or the cosine of a series a, according to ``name``; ``other`` is the other one of these two
-    series."""
+    """The sine or the cosine of a series a, according to ``name``. ``other`` is the cosine of a if this
+    series is the sine, and the sine of a if this series is the cosine."""
 
     other: Circular
 
@@ -283,15 +285,15 @@ class Angle(Series):
 
 
 class Chosen(Series):
-    """The series a or the series b: the sign of the series ``test`` at the beginning of the step decides
-    which of the two."""
+    """The series a if the series ``test`` is positive at the beginning of the step, otherwise the series
+    b."""
 
     def __init__(self, domain: Domain, test: Series, a: Series, b: Series) -> None:
         super().__init__(domain)
         self.test, self.a, self.b = test, a, b
 
     def following(self, n: int) -> Coefficient:
-        """Return a_n or b_n, as the sign decides."""
+        """Return a_n or b_n, as the sign of ``test`` decides; None if a_n and b_n are None."""
         a, b = self.a.term(n), self.b.term(n)
         if a is None and b is None:
             return None
@@ -340,7 +342,7 @@ def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
 
 
 def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
-    """Return sum_j a_j a_{n-j} for first <= j <= n - first; each pair is computed once."""
+    """Return the sum of a_j a_{n-j} over first <= j <= n - first. Two equal products are computed once."""
     pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
     twice = _scaled(domain, Number.rational(2), pairs)
     middle = a.term(n // 2) if n % 2 == 0 and n // 2 >= first else None
@@ -348,16 +350,16 @@ def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
 
 
 def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
-    """Return sum_{j>0} slope_j factor_{n-j}/n."""
+    """Return sum_{0<j<=n} slope_j factor_{n-j}/n."""
     total = _total(multiplied(slope.term(j), factor.term(n - j)) for j in _late_last(n, range(1, n + 1)))
     return _scaled(domain, Number.rational(1, n), total)
 
 
 def _late_last(n: int, indices: range) -> list[int]:
-    """Return the indices j of the products a_j b_{n-j}; products that contain the newest coefficients come
+    """Return ``indices``, sorted such that the products a_j b_{n-j} that contain the newest coefficients come
     last.
 
-    A processor then computes the first products of a sum before the newest coefficients are known.
+    A processor can then compute the first products of a sum before the newest coefficients are known.
     """
     return sorted(indices, key=lambda j: max(j, n - j))
 
@@ -379,7 +381,7 @@ def _subtract(a: Coefficient, b: Coefficient) -> Coefficient:
 
 
 def multiplied(a: Coefficient, b: Coefficient) -> Coefficient:
-    """Return a b."""
+    """Return a b; None if a or b is None."""
     return None if a is None or b is None else a * b
 
 

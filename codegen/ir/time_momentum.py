@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeMomentum(Operation):
-    """The point (Y, u + Y^T J Y'/2), where Y' is the derivative of Y with respect to t for fixed y and h.
+    """The point (Y, u + Y^T J Y'/2), where Y' is the derivative of Y with respect to t for fixed y and h, and
+    Y^T J Y' = Q.P' - P.Q' for Y = (Q, P).
 
     The arguments are the points (y, u) and (Y, u) before and after the step, and the time t. ``step`` is the
     program that computes (Y, u) from the inputs (y, u) and t. If the domain consists of expressions, Y is
@@ -35,7 +36,7 @@ class TimeMomentum(Operation):
     noun = "momentum{s} of the time"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the results; arguments and results are values of ``domain``."""
+        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
         start, end, t = args
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)

@@ -39,8 +39,8 @@ PLACES = ((0, 1), (0, 2), (1, 2))
 """The places (j, k) above the diagonal, in the order of the coordinates."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real matrices of twice the size. It defines exp X in many digits and over power series,
-and its derivatives."""
+"""The exponential of real 6 x 6 matrices. With it, exp X is computed in many digits and over power series,
+and the derivatives of exp X are computed."""
 
 
 def most_squarings(bits: int) -> int:
@@ -98,7 +98,7 @@ class SpecialUnitaryExponential(VectorFunction):
         return tuple(space.one if k in range(0, SIZE, ROWS + 1) else space.zero for k in range(2 * SIZE))
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the exponential in doubles, with the operations of emitted code."""
+        """Return the exponential in doubles, computed by the same operations as in emitted code."""
         return in_doubles(args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -106,12 +106,13 @@ class SpecialUnitaryExponential(VectorFunction):
         return first_columns(GENERAL.in_digits(context, digits, embedded(args, context.mpf(0))))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential of power series without constant terms."""
+        """Return the exponential if the coordinates are power series without constant terms."""
         return first_columns(GENERAL.over_series(ring, embedded(args, ring.zero)))
 
 
 def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
-    """Return X = A + i B as the real 6 x 6 matrix with the rows (A, -B) and (B, A)."""
+    """Return the real 6 x 6 matrix with the block rows (A, -B) and (B, A), for the matrix X = A + i B with
+    the coordinates ``x``."""
     width = 2 * ROWS
     result = [zero] * width**2
 
@@ -129,13 +130,15 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
 
 
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
-    """Return A, then B, for the real matrix with the rows (A, -B) and (B, A)."""
+    """Return the entries of A, then those of B, from the real matrix with the block rows (A, -B) and (B,
+    A)."""
     width = 2 * ROWS
     return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
 
 
 def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
-    """Return the exponential; all results are NaN if fewer than three digits may be correct."""
+    """Return the exponential of the matrix with the coordinates ``x``. All results are NaN if fewer than
+    three digits might be correct."""
     scale, squarings, norm = _halvings(_bound(x))
     total = _polynomial([a * scale for a in x], norm)
     for _ in range(squarings):
@@ -146,12 +149,12 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
 
 
 def _bound(x: Sequence[float]) -> float:
-    """Return 2 (p/3)^(1/2), a bound of the eigenvalues of H."""
+    """Return 2 (p/3)^(1/2), where p = tr(H^2)/2: a bound of the absolute eigenvalues of H."""
     return math.sqrt(1.3333333333333333 * half_trace(x))
 
 
 def _halvings(norm: float) -> tuple[float, int, float]:
-    """Return the scale 2^-s, the number s of halvings, and the bound for the halved matrix."""
+    """Return the scale 2^-s, the number s of halvings, and the bound 2^-s ``norm`` of the scaled matrix."""
     scale, squarings = 1.0, 0
     while norm * scale > largest_norms(53)[-1] and squarings < most_squarings(53):
         scale *= 0.5
@@ -160,7 +163,7 @@ def _halvings(norm: float) -> tuple[float, int, float]:
 
 
 def half_trace(x: Sequence[Any]) -> Any:
-    """Return p = tr(H^2)/2."""
+    """Return p = tr(H^2)/2 for the matrix i H with the coordinates ``x``."""
     total = x[6] * x[6] + x[7] * (x[7] - x[6])
     for a in x[:6]:
         total = total + a * a
@@ -168,7 +171,7 @@ def half_trace(x: Sequence[Any]) -> Any:
 
 
 def determinant(x: Sequence[Any]) -> Any:
-    """Return q = det H."""
+    """Return q = det H for the matrix i H with the coordinates ``x``."""
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
@@ -178,10 +181,10 @@ def determinant(x: Sequence[Any]) -> Any:
 
 
 def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
-    """Return H^2: its diagonal, then real and imaginary part of the entries above the diagonal.
+    """Return the diagonal of H^2, then the real and the imaginary part of each entry above the diagonal.
 
-    For j < k, the entry (j, k) of H is b - i a, where a and b are the two coordinates of X for this pair (j,
-    k).
+    X = i H is the matrix with the coordinates ``x``. For j < k, the entry (j, k) of H is b - i a, where a and
+    b are the two coordinates for this pair (j, k).
     """
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
@@ -196,8 +199,8 @@ def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Sequence[Any]) -> list[Any]:
-    """Return (u_0 + u_1 H + u_2 H^2) + i (v_0 + v_1 H + v_2 H^2): the real parts of all entries, then the
-    imaginary parts."""
+    """Return the matrix (u_0 + u_1 H + u_2 H^2) + i (v_0 + v_1 H + v_2 H^2): the real parts of all entries,
+    then the imaginary parts. i H has the coordinates ``x``, and ``square`` is H^2."""
     real, imaginary = [None] * SIZE, [None] * SIZE
     for j, h in enumerate((x[6], x[7] - x[6], -x[7])):
         real[(ROWS + 1) * j] = (u[2] * square[j] + u[1] * h) + u[0]
@@ -214,8 +217,8 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
 
 
 def _polynomial(y: list[float], norm: float) -> list[float]:
-    """Return the Taylor polynomial of the least degree that is accurate for matrices of norm at most
-    ``norm``."""
+    """Return the Taylor polynomial of the exponential for the coordinates ``y``. The degree is the least one
+    that is accurate for matrices of norm at most ``norm``."""
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     p, q = half_trace(y), determinant(y)

@@ -12,7 +12,8 @@ from codegen.ir.number import Number
 # The dual of the algebra is a separate kind, because Ad and Ad* differ, and because a pairing needs an
 # element of each space.
 class Kind(StrEnum):
-    """The type of a value: ``Alg`` is the Lie algebra, ``Dual`` its dual, ``Point`` the manifold acted on."""
+    """The space that contains a value: the real numbers, the Lie algebra (``Alg``), its dual, the group, or
+    the manifold on which the group acts (``Point``)."""
 
     REAL = "Real"
     ALG = "Alg"
@@ -36,11 +37,11 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # A ball that contains 0 or 1 may represent another number. Therefore the two properties are true only if
-    # the value is proved to be 0 or 1.
+    # The value may be known only as a ball. A ball that contains 0 or 1 may represent another number, so the
+    # two properties are true only if the value is proved to be 0 or 1.
     @property
     def is_zero(self) -> bool:
-        """True if the number is provably zero."""
+        """True if the coefficient is provably zero."""
         return self.value.is_zero
 
     @property

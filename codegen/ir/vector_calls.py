@@ -59,7 +59,8 @@ def named(name: str) -> VectorFunction:
 
 @cache
 def component(payload: str) -> tuple[VectorFunction, int] | None:
-    """Return the vector function and the index of the result that a call node denotes; None for other calls.
+    """Return the vector function and the index of its result for a call node with the name ``payload``. None
+    is returned if the name is not of the form NAME.INDEX with the name of a vector function.
 
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)
@@ -70,7 +71,8 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
 
 
 def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
-    """Return the derivative of the result with this index with respect to one argument."""
+    """Return the derivative of result ``index`` of ``function`` with respect to the argument with the index
+    ``argument``. ``node`` is a call of the function."""
     # The derivatives of all results of a call are computed together.
     key = function.name, tuple(a.id for a in node.args), argument
     known = node.space.derivatives

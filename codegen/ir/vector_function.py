@@ -45,19 +45,19 @@ class VectorFunction(ABC):
         """Return the derivative of the results if the arguments change at these rates."""
 
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
-        """Return the derivatives of the results with respect to one argument."""
+        """Return the derivatives of the results with respect to the argument with the index ``argument``."""
         space = args[0].space
         return self.tangent(args, [space.one if k == argument else space.zero for k in range(len(args))])
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return expressions that replace the results of a call with these arguments; None if the call is
-        kept."""
+        not replaced."""
 
     @abstractmethod
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the results in doubles, with the operations of emitted code; NaN if a result has no correct
-        digits."""
+        """Return the results in doubles, computed by the same operations as in emitted code. A result without
+        correct digits is NaN."""
 
     @abstractmethod
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

@@ -28,7 +28,8 @@ class _Verifier:
 
     def run(self) -> None:
         """Check the whole program; raise :class:`IllFormed` for the first rule that it breaks."""
-        # Inputs, body and outputs are read in this order, which is the order of execution.
+        # Inputs, body and outputs are checked in the order of execution, so that a use before the definition
+        # is found.
         for var in self.program.inputs:
             self.define(var, "the inputs")
         for statement in self.program.body:
@@ -98,7 +99,7 @@ def _place(at: str | Assign) -> str:
 def _shape(name: str, block: Solve) -> None:
     kinds = [tuple(v.kind for v in vs) for vs in (block.unknowns, block.starts, block.images)]
     if not block.unknowns or kinds[0] != kinds[1] or kinds[0] != kinds[2]:
-        raise IllFormed(f"{name}: unknowns, starts and images of {block.label} differ in kind")
+        raise IllFormed(f"{name}: {block.label} has no unknowns, or its starts or images differ in kind")
     if block.residuals and len(block.residuals) != len(block.unknowns):
         raise IllFormed(f"{name}: {block.label} needs one residual for each unknown")
 
@@ -106,4 +107,4 @@ def _shape(name: str, block: Solve) -> None:
 def _types(name: str, assign: Assign) -> None:
     arguments, results = tuple(a.kind for a in assign.args), tuple(t.kind for t in assign.targets)
     if not assign.operation.accepts(arguments, results):
-        raise IllFormed(f"{name}: wrong types in {assign.text()}")
+        raise IllFormed(f"{name}: wrong types of arguments or results in {assign.text()}")

@@ -1,4 +1,5 @@
-"""From programs to kernels that compute with whole matrices (:mod:`codegen.ir.array_step`)."""
+"""The translation of step programs to kernels that compute with whole matrices
+(:mod:`codegen.ir.array_step`)."""
 
 from __future__ import annotations
 
@@ -42,7 +43,8 @@ STATE, NEW, BASIS, GRAM, ERROR = "state", "new state", "basis", "gram", "error"
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error for a method whose step cannot be computed by loops over arrays."""
+    """Return the error, with the message ``what``, for a method whose step cannot be computed by loops over
+    arrays."""
     hint = "use an explicit method of the family rkmk, cf or cg, for example rkmk:rk4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
@@ -73,9 +75,10 @@ def compiled(
     kernel: Callable[[Program, Problem], Kernel],
     refusal: Callable[[Problem, str, str], MethodError],
 ) -> ArrayMethod:
-    """Return a method whose passes are verified on a small scene ``model`` in place of ``scene``.
+    """Return the compiled method. Its passes are verified on the small scene ``model`` in place of ``scene``.
 
-    ``kernel`` translates the program for ``scene``. The error of ``refusal`` is raised for implicit stages.
+    ``kernel`` translates the program for ``scene``. If the method has implicit stages, the error that
+    ``refusal`` returns is raised.
     """
     lowered = lower(model, method)
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
@@ -207,15 +210,15 @@ class _Builder:
         return target
 
     def displaced(self, target: Matrix, displacement: Matrix | None) -> None:
-        """Append target = X_0 + B D, where D is the displacement; without a displacement, append target =
-        X_0."""
+        """Append target = X_0 + B D, where X_0 is the old state, B the basis and D the displacement. If the
+        displacement is None, append target = X_0."""
         self.sum(target, (self.one, self.argument))
         if displacement is not None:
             columns = self.basis.part(0, 0, self.matrices.rows, displacement.rows)
             self.body.append(Multiplication(target, columns, displacement, added=True))
 
     def evaluated(self, target: Var, point: Var, *time: Var) -> Matrix:
-        """Append the evaluation of the field; return its core."""
+        """Append the evaluation of the field at ``point``; return the core of the result."""
         n, k, name = self.matrices.rows, self.k, target.name
         displacement, x = self.points[point], self.argument
         if displacement is not None:
@@ -251,8 +254,8 @@ class _Builder:
         return core
 
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
-        """Return a statement of the field in which the values of the parameters and of the time replace their
-        symbols."""
+        """Return ``statement`` with the symbols of the time and of the parameters replaced by their
+        values."""
         values = {**self.scene.scalars(self.domain, t)}
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 
@@ -306,7 +309,8 @@ class _Builder:
         return self.combination(name, terms)
 
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
-        """Append the action of an exponential; return the displacement of the new point."""
+        """Append the action of the exponential with the core ``core`` on the point with the displacement
+        ``start``; return the displacement of the new point."""
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)
         self.body.append(Move(target, core, self.gram, start))

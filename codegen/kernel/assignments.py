@@ -1,4 +1,5 @@
-"""Expressions in order: assignments for shared or long expressions, loops for blocks of equations.
+"""From expressions to ordered statements: an assignment for each shared or long expression, and a loop for
+each block of equations.
 
 A loop contains the expressions that depend on its unknowns and that a sweep needs. Expressions that do not
 depend on the unknowns are assigned before the loop. Statements after a loop read the values of the last
@@ -24,6 +25,20 @@ give 265, 199 and 187 assignments, counted by ``len(list(compile_method("heavy_t
 "vcg:triple_jump").kernel.lets()))``."""
 
 
+def unique_name(base: str, taken: set[str]) -> str:
+    """Return ``base`` with the fewest underscores appended that make it differ from all names in ``taken``.
+    The result is added to ``taken``.
+
+    >>> taken = {"x"}
+    >>> unique_name("x", taken), unique_name("x", taken)
+    ('x_', 'x__')
+    """
+    while base in taken:
+        base += "_"
+    taken.add(base)
+    return base
+
+
 @dataclass
 class Assignments:
     """Converts expressions into ordered assignments and loops; shared and long expressions get names."""
@@ -39,8 +54,8 @@ class Assignments:
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the kernel's body and set ``outputs``."""
-        # Uses and levels are computed for all roots together, because a value that two blocks share must get
-        # a single name.
+        # The uses of each node are counted in all blocks together, because a value that two blocks share must
+        # get a single name.
         self._prepare()
         if self.blocks and self.remembers:
             self.body.append(self._start())
@@ -63,9 +78,9 @@ class Assignments:
                     inside.append(Let(name, value))
             # An exact matrix depends on the unknowns and reads body values, so it comes after the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # In the last sweep, Newton's method corrects the unknowns after the body has been computed. If
-            # the block has residuals, or if little work is needed, body values that are read later are
-            # therefore computed again from the corrected unknowns.
+            # In the last sweep, Newton's method corrects the unknowns after the body has been computed. Body
+            # values that are read later are computed again from the corrected unknowns, if the block has
+            # residuals or if this takes little work.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -87,7 +102,7 @@ class Assignments:
         """Find for each node the number of its uses, and the last block on whose unknowns the node
         depends."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
-        # Entries of Newton's matrix count as readers, so a body value that a matrix reads gets a name.
+        # The entries of Newton's matrix are included, so a body value that a matrix reads gets a name.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
@@ -117,8 +132,8 @@ class Assignments:
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a starting value depends on the unknowns of a block")
         for node in walk(values):
-            # Later statements of the step read this value, too. The start can be skipped, so the value is
-            # assigned before the start.
+            # Later statements of the step read this value, too. It is assigned before the start, because the
+            # start may be skipped.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
@@ -141,14 +156,16 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if the values of block k that are read after the loop should be computed again."""
+        """Return True if computing the values of block k that are read after its loop takes less than half of
+        the work of a sweep."""
         rest = [*self._later(k), *self.roots]
-        # The values are computed again from the final unknowns if this costs less than half of a sweep.
+        # If so, the values are computed again from the final unknowns.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
         """Return the cost of the operations in ``roots`` that depend on block k and on no later block."""
-        # All other nodes are computed once, whether or not the values of block k are computed again.
+        # Other nodes are not counted, because their cost does not depend on whether the values of block k are
+        # computed again.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
@@ -171,12 +188,12 @@ class Assignments:
             # inside the loop.
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
-            # The node is built without simplification, so that the named subexpressions do not change its
-            # rounding error.
+            # The node is built without simplification: names for subexpressions must not change its rounding
+            # error.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
-            # A value from outside the loop needs a name even if it has one reader. Without a name it would be
-            # computed inside the loop.
+            # A value that does not depend on the unknowns of the loop gets a name even if it is read once.
+            # Without a name it would be computed again in every sweep.
 
             crosses = loop >= 0 and target is outer
             shared = self.uses[node.id] > 1 or size >= INLINE or crosses

@@ -1,8 +1,8 @@
 """From splittings of a Hamiltonian lattice to sweeps.
 
 Flows that move each site without its neighbours form one sweep if they follow one another in a step. The
-state is then read and written once for all of them. A kick reads the elements q of neighbours but changes
-only the momenta, so the sweep of a kick can overwrite the state.
+state is then read and written once for all of them. A kick changes only momenta, and reads only the group
+elements q of neighbours. Therefore the sweep of a kick can overwrite the state.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from codegen.ir.kernel import Field as StateBlock
 from codegen.ir.kernel import Kernel, Let
 from codegen.ir.number import Number
 from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteFlow, SiteStep, Sweep
-from codegen.kernel.assignments import Assignments
+from codegen.kernel.assignments import Assignments, unique_name
 from codegen.kernel.shared_angles import SharedArguments
 from codegen.scene.flow import Flow
 from codegen.scene.problem import TIME, Problem
@@ -33,7 +33,8 @@ copy is added where a flow of pairs or a kick would be first or last."""
 
 
 def canonical_kernel(scene: Problem, label: str, word: Sequence[tuple[Summand, Number]]) -> Kernel:
-    """Return the kernel of a splitting of a Hamiltonian lattice."""
+    """Return the kernel of a splitting of a Hamiltonian lattice. ``word`` lists the flows of a step with
+    their durations."""
     listed = [(name, flow, duration) for summand, duration in word for name, flow in summand.flows]
     sweeps: list[Sweep] = []
     index: dict[tuple[object, ...], int] = {}
@@ -118,8 +119,8 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 
 
 def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> list[Expr]:
-    """Return the coordinates of a site after the flows of ``run``, as functions of the coordinates before
-    them."""
+    """Return the coordinates of a site after the flows of ``run``, as functions of its coordinates before
+    these flows."""
     assert scene.sites is not None
     group, size = scene.group.require(Coadjoint), len(scene.state[0].symbols)
     fixed = {s: domain.space.sym(s) for s in scene.sites.names} | scene.scalars(domain)
@@ -138,14 +139,7 @@ def _scheduled(scene: Problem, label: str, ends: list[Expr]) -> Kernel:
     symbols = (*scene.symbols, *scene.sites.names)
     taken = {*symbols, *scene.runtime, "h", TIME}
 
-    def fresh(base: str) -> str:
-        name = base
-        while name in taken:
-            name += "_"
-        taken.add(name)
-        return name
-
-    schedule = Assignments((), ends, {}, fresh)
+    schedule = Assignments((), ends, {}, lambda base: unique_name(base, taken))
     body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
     block = StateBlock("site", symbols, "the numbers that the sweep reads")
     return Kernel(label, (block,), ("h", *scene.runtime), body, schedule.outputs)

@@ -47,8 +47,8 @@ class Frames:
             return state
         q, mu = state[: self._size], state[self._size :]
         if self.scene.body_group is not None:
-            # The state contains the momentum in the body frame, the program uses the space frame: apply
-            # Ad*_{q^-1}.
+            # The state contains the momentum in the body frame, but the program uses the space frame. The map
+            # Ad*_{q^-1} transforms the momentum to the space frame.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
         # If the kernel is not ``whole``, the run has transformed the momentum before the first step.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
@@ -56,8 +56,8 @@ class Frames:
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
         """Return the kernel's new state, computed from the new state of the program; ``start`` is the
         program's initial state, which ``begin`` computed from ``state``."""
-        # This function also converts the embedded solution, which is empty for a method without an embedded
-        # solution.
+        # The embedded solution is converted by this function, too. For a method without an embedded
+        # solution, ``new`` is then empty.
         if self._alike or not new:
             return new
         q = new[: self._size]
@@ -83,8 +83,8 @@ class Frames:
         )
 
     def carried(self, domain: ExprDomain) -> Carried | None:
-        """Return how a run transforms the momentum at its beginning and end; None if a run does not transform
-        it.
+        """Return the kernels that transform the momentum at the beginning and at the end of a run; None if a
+        run does not transform it.
         """
         # A run transforms nothing if the state contains momenta in the body frame, or if each step transforms
         # the momenta.

@@ -37,27 +37,27 @@ as for :data:`CALL`."""
 
 
 def fastest(program: Program, scene: Problem) -> Kernel:
-    """Return a program's kernel, compiled for the variant of the group that gives the shortest step.
+    """Return a program's kernel for the variant of the group with the shortest estimated time of a step.
 
     Variants are compared only for explicit programs that contain flows or integrate a field on T*G.
     """
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # In a program without flows all variants of the group give the same kernel. Therefore only two orders of
-    # the products with constant factors are compared.
+    # If the program has no flows and the group is no cotangent bundle, all variants of the group give the
+    # same kernel. Therefore only two orders of the products with constant factors are compared.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # If flows are deferred, only the core of the step, without its deferred flows, is computed in every step,
-    # so only cores are compared. Run-time inputs must be sampled in every step, so flows of scenes with
-    # run-time inputs are not deferred.
+    # If flows are deferred, each step computes only the core, which consists of the other flows. Therefore
+    # cores are compared. In a scene with run-time inputs no flows are deferred, because the inputs must be
+    # sampled in every step.
     parted = None if scene.inputs else part(program, scene)
     core = program if parted is None else parted.core
     # The shortest variant depends on subexpressions that the group's formulas share with the scene, so all
     # variants are compiled.
     candidates: list[tuple[Kernel, Problem, int]] = []
-    # Each variant is compiled twice: once with only the order of products and assignments changed, and once
-    # with a shortened critical path.
+    # Each variant is compiled twice. In one kernel only the order of products and assignments is changed; in
+    # the other kernel the critical path is also shortened.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):
@@ -69,8 +69,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
 
 
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:
-    """Return the kernel with the shortest step; if kernels with outlined functions exist, only these are
-    compared."""
+    """Return the kernel whose step has the shortest estimated time. If some of the kernels contain outlined
+    functions, only these kernels are compared."""
     # The time of a step that is long enough for outlining is limited by the instruction cache, not by
     # latency.
     return min([kernel for kernel in kernels if kernel.outlined] or kernels, key=time)

@@ -1,11 +1,11 @@
 """Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
 
-A step y1 = y0 + d rounds the sum to the last bit of y0, even if d is small. Compensation adds this rounding
-error, called the carry, to the increment d of the next step: with s = d + carry, y1 = y0 + s and carry' = s -
-(y1 - y0). The remaining errors are the rounding errors of d, which are smaller by the factor d/y0. A step
-exp(x) y0 of a group action also has an increment: it is y0 + (exp(x) - 1) y0, and the entries of exp(x) - 1
-are computed without cancellation. The formulas of the increments are derived from the compiled step of any
-method.
+In a step y1 = y0 + d, the rounding error of the sum is as large as the last bit of y0, even if d is small.
+Compensation stores this rounding error, called the carry, and adds it to the increment d of the next step:
+with s = d + carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining errors are the rounding errors of d,
+which are smaller by the factor d/y0. A step exp(x) y0 of a group action also has an increment: it is y0 +
+(exp(x) - 1) y0, and the entries of exp(x) - 1 are computed without cancellation. The formulas of the
+increments are derived from the compiled step of any method.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ def with_carries(kernel: Kernel) -> Kernel:
 
 
 def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement, ...]:
-    """Return a body without the assignments whose values are not used."""
+    """Return a body without the assignments whose values are not needed for ``outputs``."""
     needed = {n.payload for n in walk(outputs) if n.op == "sym"}
     kept: list[Statement] = []
     for statement in reversed(body):
@@ -106,9 +106,10 @@ _EMPTY = Kernel("", (), (), (), ())
 
 
 class Increments:
-    """Expressions for the differences e - x and f - 1 that avoid the cancellation of leading digits.
+    """Computes the differences e - x and f - 1 without cancellation of leading digits, for expressions e and
+    f and a symbol x.
 
-    Such an expression exists only if e has the form x + increment, or f the form 1 + increment.
+    This is possible only if e has the form x + increment, or f the form 1 + increment.
     """
 
     def __init__(self, kernel: Kernel) -> None:

@@ -54,8 +54,8 @@ def chain(kernel: Kernel) -> int:
 
 
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
-    """Return assignments sorted by the time at which they are ready. Times are rounded down to multiples
-    of the latency of a function.
+    """Return assignments sorted by the time at which their values are ready. Times are rounded down to
+    multiples of the latency of a function.
 
     A processor reorders only the next few hundred instructions, so operations that can run in parallel with
     the longest chain must be near it in the code. Sorting by the exact times would separate operations that
@@ -84,8 +84,8 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
     """Return the roots with their longest chains shortened.
 
     ``invariant`` names the symbols that do not change from step to step: products of these symbols cost
-    nothing. With ``spread`` false, such products are formed first, but products with sums of late values are
-    not expanded.
+    nothing. In every case these products are formed first. If ``spread`` is false, products with sums of the
+    results of slow operations are not expanded.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
@@ -151,13 +151,13 @@ class _Chains:
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the nodes on a long chain at which sums over late values end: the next operation on the
-        chain is not linear in the late values of such a node."""
+        """Return the nodes on long chains that may be rewritten as sums over late values: those for which the
+        next operation on the chain is not linear in the late values."""
         ends = set()
         for node in self.nodes:
             for arg in node.args:
-                # The chain through this argument is much shorter than the longest chain, so shortening it
-                # would gain nothing.
+                # If the chain through this argument is shorter than the longest chain by more than ``SLACK``,
+                # shortening it would gain nothing.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
                 others = [a for a in node.args if a is not arg]
@@ -172,7 +172,8 @@ class _Chains:
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum over the late values of a level; expand each shared node once."""
+        """Return an expression as a sum over the late values of a level. A node that occurs several times is
+        expanded once."""
         # The rewritten node is part of the key, because rewriting a node's arguments changes its expansion.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
@@ -194,7 +195,7 @@ class _Chains:
             return total
         if node.op == "mul":
             a, b = node.args
-            # Only one factor may be late, else the product is not linear in the late values.
+            # Only one factor may contain late values, else the product is not linear in them.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:

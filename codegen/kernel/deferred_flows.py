@@ -52,8 +52,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # Only flows of duration h without a stage time are applied once for all steps.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
-    # The flow of a free part commutes with all other flows, so it can be removed from the step and applied
-    # later.
+    # The flow of a part in ``free`` commutes with all other flows, so it can be applied after the last step.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
@@ -61,15 +60,14 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # ``_joined`` returns only flows with equal durations, so the durations of the first joined flow are those
-    # of all joined flows.
+    # All pairs that ``_joined`` returns have equal durations, so the durations of the first pair are used.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
     # The free flows of all steps are joined: exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
-    # The new programs are checked by ``verify``, as every program that a pass returns.
+    # ``verify`` checks the new programs, as it checks every program that a pass returns.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -80,7 +78,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
 
 
 def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = AS_WRITTEN) -> Kernel:
-    """Return the kernel of a program's core with its deferred flows."""
+    """Return ``kernel`` with the kernels of the deferred flows added; ``kernel`` is compiled from the core of
+    ``parted``."""
     begin, finish = (
         None if program is None else to_kernel(program, scene, chains=chains)
         for program in (parted.begin, parted.finish)
@@ -107,8 +106,8 @@ def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
     """Return the pairs of a leading and a final flow of one part that are joined across steps."""
-    # The time t + h of a step is the time t of the next step, so a flow at t + h can be joined with a flow at
-    # t.
+    # The time t + h of a step is the time t of the next step. Therefore a final flow at the time t + h can be
+    # joined with a leading flow at the time t.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
     pairs: list[JoinedFlows] = []
@@ -119,15 +118,15 @@ def _joined(
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    # All joined flows share the one variable for their duration, so only pairs with the durations of the
-    # first pair are kept.
+    # One variable contains the duration of all joined flows, so only pairs with the durations of the first
+    # pair are kept.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
     """Return the largest n such that the first n flows belong to different parts and commute pairwise."""
     n = 0
-    # Because these n flows commute, each of them can be moved to the beginning of the step.
+    # Because these n flows commute, each of them can be moved to the beginning of the list.
     while n < len(letters) and all(
         x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
     ):

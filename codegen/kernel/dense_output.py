@@ -2,7 +2,7 @@
 
 The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is a polynomial in theta with values
 in the Lie algebra. One kernel computes the coefficients of sigma from the state at the beginning of the step.
-The other kernel moves the state by exp of given coordinates.
+The other kernel reads the coordinates of an element x of the Lie algebra, and computes the point exp(x).y.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
 
 
 def _moved(kernel: Kernel, problem: Problem) -> Kernel:
-    """Return the kernel that moves a point by exp of coordinates."""
+    """Return the kernel that computes the point exp(x).y from the coordinates of x in the Lie algebra and
+    from the point y."""
     domain = SharedArguments()
     names = tuple(f"{COORDINATES}.{k}" for k in range(problem.group.dim))
     x, y = (tuple(map(domain.space.sym, symbols)) for symbols in (names, problem.symbols))

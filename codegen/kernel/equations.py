@@ -61,7 +61,7 @@ class Block:
     kept: tuple[tuple[str, Expr], ...] = ()
 
     def targets(self) -> tuple[Expr, ...]:
-        """The results of a sweep."""
+        """The expressions that each sweep computes: the images, and the body values that are read later."""
         return (*self.images, *(x for _, x in self.kept))
 
 
@@ -72,8 +72,8 @@ def compared(
 
     The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
     has no residuals, or if the residuals have no such derivative. The last change of the unknowns also
-    changes body values that are read later. Such a value is corrected to first order if the correction takes
-    less than half as many operations as the value.
+    changes body values that are read later. Such a value is corrected to first order in this change, if the
+    correction takes less than half as many operations as computing the value again.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -141,9 +141,8 @@ def _read_after(block: Solve, program: Program) -> frozenset[Var]:
 
 
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
-    """Return the values that depend neither on unknowns nor on h, and so are constant in an expansion in
-    h."""
-    # A value that contains neither h nor an unknown is its own expansion in h.
+    """Return the values that depend neither on the unknowns nor on h."""
+    # These values are constants in an expansion in h, so they need not be expanded.
     moving = {*unknowns, "h"}
     depends: dict[int, bool] = {}
     for node in walk(values):
@@ -157,7 +156,8 @@ def _operations(roots: Iterable[Expr]) -> int:
 
 
 def with_matrix(block: Block, solver: str) -> Block:
-    """Return the block with the matrix of Newton's method, exact or to first order."""
+    """Return the block with the matrix of Newton's method. The matrix is expanded to first order in h if
+    ``solver`` is SIMPLIFIED_NEWTON, or if the exact matrix is too long."""
     leading = solver == SIMPLIFIED_NEWTON
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
     # An exact matrix that is too long is replaced by the first-order matrix. The iteration then needs more
@@ -172,7 +172,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
     """Return the number of operations of a matrix, without the operations that also occur in the images."""
-    # The images are computed anyway, so subexpressions that the matrix shares with the images cost nothing.
+    # Every sweep computes the images, so subexpressions that occur in them cost the matrix nothing.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 

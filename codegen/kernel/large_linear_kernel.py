@@ -32,11 +32,13 @@ from codegen.scene.linear_scene import LinearScene
 from codegen.scene.problem import TIME, Problem
 
 LARGE_SUM = 1e-6
-"""A sum of the coefficients of a letter counts as zero if its absolute value is below this number."""
+"""The limit below which a sum of coefficients counts as zero. The sum is that of the coefficients of a linear
+combination of the matrices h A(t_i)."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error for a method whose step cannot be computed by products of A and vectors."""
+    """Return the error, with the message ``what``, for a method whose step cannot be computed by products of
+    A and vectors."""
     hint = "use a method of the family magnus, cf_magnus or fer, for example cf_magnus4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
@@ -79,8 +81,8 @@ def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass(frozen=True)
 class _Value:
-    """A value of the algebra: h^-``power`` times the sum of a combination of the matrices h A(t_i) at the
-    nodes t_i and a combination of commutators."""
+    """A value of the algebra: h^-``power`` times the sum of two linear combinations. ``nodes`` contains the
+    coefficients of the matrices h A(t_i), and ``commutators`` those of commutators, each by index."""
 
     power: int
     nodes: dict[int, Number] = field(default_factory=dict)
@@ -182,7 +184,7 @@ class _Builder:
         return self.times.index(time)
 
     def sum(self, terms: Iterable[tuple[Coefficient, _Value]]) -> _Value:
-        """Return a linear combination; all terms have the same power of h."""
+        """Return a linear combination. All terms must have the same power of h."""
         given = [(c, x) for c, x in terms if not x.is_zero]
         powers = {x.power - c.power for c, x in given}
         if len(powers) > 1:
@@ -199,9 +201,9 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        For letters x and y, [x - c y, y] = [x, y]. If possible, c is chosen such that the coefficients of x -
-        c y add up to zero. Then x - c y is a combination of differences of values of A. These differences are
-        small, and so is the bound of the norm of the commutator.
+        If x and y contain no commutators, [x - c y, y] = [x, y] is used. If possible, the number c is chosen
+        such that the coefficients of x - c y add up to zero. Then x - c y is a combination of differences of
+        values of A. These differences are small, and so is the bound of the norm of the commutator.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -224,7 +226,8 @@ class _Builder:
         return self.sum(terms)
 
     def element(self, value: _Value) -> Element:
-        """Return a value as an element; the combination of matrices at the nodes becomes a letter."""
+        """Return a value as an element. The linear combination of the matrices h A(t_i) becomes a letter of
+        the step."""
         letter = None
         if value.nodes:
             key = tuple(sorted(value.nodes.items(), key=lambda item: item[0]))
@@ -273,8 +276,8 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 
 
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
-    """Return two letters whose commutator equals [x, y]. If possible, the coefficients of one of these
-    letters add up to zero."""
+    """Return two values whose commutator equals [x, y], for x and y without commutators. If possible, the
+    coefficients of the first value add up to zero."""
     totals = [_total(x), _total(y)]
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y

@@ -55,7 +55,7 @@ from codegen.ir.operations import (
 from codegen.ir.program import Assign, Program
 from codegen.ir.scene_operations import Field
 from codegen.ir.values import Kind, Var
-from codegen.kernel.assignments import Assignments
+from codegen.kernel.assignments import Assignments, unique_name
 from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.passes import PassReport, optimise
@@ -94,7 +94,7 @@ class _Map:
 @dataclass(frozen=True)
 class ModeMethod:
     """A method on a semilinear scene: the model problem of one mode, the program before and after each pass,
-    the kernel."""
+    and the kernel."""
 
     problem: Problem
     lowered: Program
@@ -125,10 +125,10 @@ def mode_method(scene: Problem, method: Method) -> ModeMethod:
 
 
 def _refused(scene: Problem, what: str) -> MethodError:
-    """Return the error for a method whose step is not a sequence of explicit affine maps."""
+    """Return the error for a method that needs ``what``, which is not possible on semilinear scenes."""
     hint = "explicit methods of the families rkmk, cf and cg are possible, for example cf:cf4"
     return MethodError(
-        f"{what} on a semilinear scene", where=scene.name, expected="an explicit method", hint=hint
+        f"semilinear scenes do not support {what}", where=scene.name, expected="an explicit method", hint=hint
     )
 
 
@@ -192,13 +192,7 @@ class _Execution:
         read = tuple(sorted({n.payload for n in walk(roots) if n.op == "sym"}))
         taken = set(read)
 
-        def fresh(name: str) -> str:
-            while name in taken:
-                name += "_"
-            taken.add(name)
-            return name
-
-        schedule = Assignments((), roots, {}, fresh)
+        schedule = Assignments((), roots, {}, lambda base: unique_name(base, taken))
         body = schedule.run()
         return Kernel("formulas", (), read, body, schedule.outputs)
 

@@ -60,7 +60,7 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     """
     space = images[0].space
     h = space.sym("h")
-    # g = g(0) + h g'(0) + O(h^2): these two terms are differentiated with respect to the unknowns.
+    # ``slopes`` are the derivatives g'(h); both g and g' are then evaluated at h = 0.
     slopes = [row[0] for row in jacobian(images, ["h"])]
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
@@ -71,7 +71,8 @@ class _AtZero(ExprDomain):
     """Expressions in which a function call with argument zero is replaced by its value, a constant."""
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return the call of a function: a constant if the argument is zero, otherwise a call node."""
+        """Return the call of a function: its value if the argument is zero and :data:`AT_ZERO` contains the
+        function, otherwise a call node. ZeroDivisionError is raised if the function has a pole at zero."""
         # The closed forms of Stumpff functions are 0/0 at zero. Their values at zero are the first
         # coefficients of their series, which :data:`AT_ZERO` contains.
         if args[0].is_zero and function in AT_ZERO:
@@ -84,8 +85,8 @@ class _AtZero(ExprDomain):
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the roots at h = 0."""
-    # The roots are evaluated at h = 0, because a mere substitution would not simplify expressions that become
-    # constant.
+    # The roots are evaluated again with h = 0. A substitution without evaluation would not simplify
+    # expressions that become constant.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
     # The names are sorted, so that the numbers of new nodes do not depend on the order of a set.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}

@@ -19,22 +19,24 @@ from codegen.kernel.schedule import (
 )
 
 STEP = "step"
-"""The key of the operations of each step outside loops."""
+"""The key under which the operations outside loops are counted. Every step executes these operations."""
 
 START = "start"
-"""The key of the additional operations of a first step, which computes starting values."""
+"""The key under which the operations of starting values are counted. Only the first step of a run executes
+these operations."""
 
 
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
-    """Return the number of each operation: ``add`` (and subtract), ``mul``, ``div``, and calls.
+    """Count the operations of a step by name: ``add`` (with subtractions), ``mul``, ``div``, and calls.
 
-    The key ``step`` counts operations of each step, ``start`` the additional operations of a first step.
-    Further keys count, for each block, the operations of one sweep and, with Newton's method, the operations
-    that compute the entries of its matrix. The inversion of the matrix is not counted. Changes of sign,
-    comparisons, extrapolation and the stopping rule are not counted.
+    The key ``step`` contains the operations of every step outside loops, and ``start`` the additional
+    operations of a first step. The label of a block is the key of one sweep of its loop. With Newton's
+    method, a second key of the block contains the operations that compute the entries of its matrix. The
+    inversion of the matrix, changes of sign, comparisons, extrapolation and the stopping rule are not
+    counted.
     """
-    # The operations of an outlined function are counted at each call, because steps with and without outlined
-    # functions must be comparable.
+    # The operations of an outlined function are counted at each call, so that the counts of steps with and
+    # without outlined functions are comparable.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -58,7 +60,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
-        # A step executes its substeps one after the other; sweeps and matrices are counted for one substep.
+        # A step executes the operations outside loops once for each substep. Sweeps and matrices are counted
+        # for one substep only.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
@@ -89,7 +92,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
         last = expansion.degree - 1
         each = operations(arrange(expansion.following))[STEP]
         total = _plus(total, {name: n * last for name, n in each.items()})
-        # The inner sum of order n has n - 1 terms.
+        # Coefficient n of a product contains the inner sum of a_j b_{n-j} over 0 < j < n, with n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
     for part in (expansion.enter, expansion.leave):
@@ -137,14 +140,16 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 
 
 def costs(kernel: Kernel) -> list[str]:
-    """Format the costs of a step, of each block's sweep, and of the beginning and end of a run."""
+    """Format the costs of a step, of one sweep of each block, and of the beginning and the end of a run."""
     lines = sentences(step_operations(kernel))
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # Only the increment is transformed: mu + (after - before) takes two additions for each component.
+        # The end of a run adds the change of the momentum: mu + (after - before) takes two additions for each
+        # component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # At its beginning a run computes m and outward(q, m), at its end outward(q', m') (see class Carried).
+        # At its beginning a run computes m = inward(q, mu) and outward(q, m), where mu is the momentum of the
+        # state. At its end it computes outward(q', m') from the new state; see class Carried.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")
@@ -179,7 +184,8 @@ def _counted(
 
 
 def _operations_in_text(root: Expr) -> dict[str, int]:
-    """Count the operations in the text of one expression; the text repeats a shared node for each reader."""
+    """Count the operations in the printed text of one expression. A shared subexpression is printed, and
+    counted, once for each use."""
     counts: dict[int, dict[str, int]] = {}
     for node in walk([root]):
         match node.op:

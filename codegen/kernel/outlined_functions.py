@@ -3,7 +3,7 @@ several times.
 
 The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. If an
 input or a coefficient is the same constant in every call, it is not an argument. A function computes only
-those results of the tree that are read.
+those results of the tree that the step reads.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ LETTER = {Kind.REAL: "r", Kind.ALG: "x", Kind.DUAL: "m", Kind.GROUP: "g", Kind.P
 
 
 class _Inputs:
-    """The inputs of a function, in order: symbols, or constants that are the same in every call."""
+    """The inputs of a function, in order. An input is a symbol, or a constant if every call passes the same
+    constant."""
 
     def __init__(self, name: str, space: Space, fixed: Sequence[Expr | None]) -> None:
         self.name, self.space, self.fixed = name, space, fixed
@@ -39,7 +40,8 @@ class _Inputs:
         return tuple(self.symbols[first:])
 
     def text_of(self, x: Expr, c: Coefficient) -> str:
-        """Format the coefficient of a term: its symbol, or its value."""
+        """Format the coefficient ``c`` of a term: the name of its symbol ``x``, or its value if ``x`` is a
+        constant. A factor h follows for each power of h."""
         # The header of emitted code shows the name of the argument without the prefix, which is the
         # function's name.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
@@ -54,9 +56,10 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int], list[str]]:
-    """Return the function for a tree, and its arguments: positions of inputs of the tree, then parameters.
+    """Return the function that computes a tree, and two lists that describe its arguments.
 
-    The parameters are the scene's parameters that operations of the tree read at run time. ``read`` are the
+    The first list contains the positions of those inputs of the tree that are arguments. The second list
+    contains the scene's parameters that the function reads at run time. ``read`` are the
     indices of the results that the function computes. ``fixed`` contains, for each input
     (:meth:`codegen.kernel.repeated_trees.Trees.inputs`), the constant that is the same in every call, or
     None.
@@ -140,7 +143,8 @@ class WithFunctions:
         return getattr(self.domain, name)
 
     def call(self, callee: str, *args: Value) -> Value:
-        """Return one result of an outlined function, or the value of a library function."""
+        """Return result k of an outlined function if ``callee`` is ``name.k``; otherwise return the value of
+        the library function ``callee``."""
         name, dot, k = callee.partition(".")
         if not dot:
             return self.domain.call(callee, *args)
@@ -173,8 +177,8 @@ def _sum(
 def rewritten(
     roots: Sequence[Expr], calls: Mapping[int, tuple[str, int, list[Expr]]], space: Space
 ) -> list[Expr]:
-    """Return the roots, in which each node with an entry in ``calls`` is replaced by a call. The arguments of
-    the calls are rewritten in the same way."""
+    """Return the roots with calls in place of some nodes. ``calls`` maps the id of such a node to the name of
+    a function, the index of a result, and the arguments. The arguments are rewritten in the same way."""
     new: dict[int, Expr] = {}
     for root in roots:
         # Arguments of replaced nodes are rewritten as well. The traversal uses an explicit stack, because

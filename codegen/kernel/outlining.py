@@ -31,8 +31,8 @@ LONG, LONG_EXPLICIT = 700, 500
 outlined.
 
 An explicit step has no loop, so its code fills the instruction cache sooner: with outlining, a step of cg:cg5
-on the dipole has 545 lines instead of 2345, and takes a third less time. If either limit is doubled, the
-kernels of nine methods of the gallery do not change. To choose the limits again, set both to 0 and run
+on the dipole has 545 lines instead of 2345, and takes a third less time. In a test with nine methods of the
+gallery, no kernel changed when either limit was doubled. To choose the limits again, set both to 0 and run
 ``orderconds bench dipole`` for methods whose steps have lengths near the limits."""
 
 WORTH = 0.85
@@ -77,8 +77,8 @@ class Outline:
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
-        # The level of a value is the last block on which the value depends. The levels are computed first,
-        # because the loop of a call is chosen by the levels of its operands and results.
+        # The level of a value is the last block on which the value depends. A tree is outlined only if its
+        # inputs and results belong to the same loop, and the levels decide this (``_even``).
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -204,9 +204,10 @@ class Outline:
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
     def _verify(self, before: Sequence[Expr], after: Sequence[Expr]) -> None:
-        """Raise :class:`codegen.ir.verify.IllFormed` if the calls give different values."""
-        # The values are sines of fixed arguments and the names are sorted, so every verification uses the
-        # same points.
+        """Raise :class:`codegen.ir.verify.IllFormed` if the expressions ``after``, which contain calls, have
+        other values than ``before``. Raise MethodError if ``before`` is not finite at any test point."""
+        # The test values are sines of fixed arguments and the names are sorted, so every verification of the
+        # same step uses the same points.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}

@@ -1,10 +1,10 @@
 """Repeated trees: groups of assignments that occur several times. Each of these groups becomes one outlined
 function.
 
-If only one operation reads a value, a single function can compute the value and the result of the operation
-that reads the value. The two operations then form a tree. Pairs of trees that occur often are joined to
-larger trees. The first pairs to be joined are those for which this saves the most lines. Trees with equal
-keys have the same operations, but may have different operands and different coefficients in their sums.
+If only one operation reads a value, one function can execute both the operation that computes the value and
+the operation that reads it. The two operations then form a tree. Pairs of trees that occur often are joined
+to larger trees. Pairs whose joining saves the most lines are joined first. Trees with equal keys have the
+same operations, but may have different operands and different coefficients in their sums.
 """
 
 from __future__ import annotations
@@ -21,8 +21,7 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are never outlined: operations of almost no cost, and flows, which are scheduled together.
-"""
+"""Operations that are never outlined: operations that cost almost nothing, and exact flows of a part."""
 
 NODES = 3
 """The average number of operations on a line of emitted code, over the gallery.
@@ -43,7 +42,8 @@ PairKey = tuple[Key, Key, Key]
 
 @dataclass(frozen=True)
 class Execution:
-    """One executed assignment: the values of its arguments, its results, and the number of its block."""
+    """One executed assignment with the values of its arguments and of its results. ``place`` is the number of
+    its block, or -1 outside blocks. If ``joined`` is false, it is not joined with other assignments."""
 
     assign: Assign
     args: tuple[Values, ...]
@@ -53,20 +53,20 @@ class Execution:
 
     @property
     def may_join(self) -> bool:
-        """True if a function may compute this assignment."""
+        """True if an outlined function may execute this assignment."""
         return self.joined and not isinstance(self.assign.operation, NEVER)
 
 
 @dataclass
 class Tree:
-    """Assignments that are computed together, in order; the last assignment depends on the results of all
-    others."""
+    """Assignments that one function can execute. ``members`` are their indices in the order of execution. The
+    last assignment depends, directly or indirectly, on all others."""
 
     members: list[int]
 
     @property
     def root(self) -> int:
-        """The assignment whose results are the results of the tree."""
+        """The index of the assignment whose results are the results of the tree."""
         return self.members[-1]
 
 
@@ -108,7 +108,8 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """Return a multiple c (d v) as (c d) v, so that the assignment reads v and not d v."""
+        """Return an assignment of c (d v) as an assignment of (c d) v, which reads v and not d v. Return any
+        other assignment unchanged."""
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
@@ -179,7 +180,7 @@ class Trees:
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
-        """Estimate the number of lines of the last operation of a tree."""
+        """Estimate the number of lines of the operation with index ``i``, the last operation of a tree."""
         # The estimate depends on the name of the operation only, because the number of lines hardly depends
         # on the operands, and walking through the operands is slow.
         name = self.executions[i].assign.operation.name
@@ -207,7 +208,8 @@ class Trees:
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
-        """Return the only reader of an assignment's results, if it is in the same block."""
+        """Return the only assignment that reads the results of assignment ``i``. Return None if there are
+        several readers, or if the only reader is in another block or outside all trees."""
         # The readers are collected in a set, because an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
         if len(users) != 1:
@@ -219,7 +221,8 @@ class Trees:
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
         """Return the input variables of a tree in order, and for each member the positions of its arguments.
 
-        A position is the index of an input variable, or -1, -2, ... for the results of members.
+        A position is the index of an input variable. The results of the members, in order, have the positions
+        -1, -2, ...
         """
         targets: dict[Var, int] = {}
         given: dict[Var, int] = {}
@@ -265,8 +268,8 @@ class Trees:
         return tuple(x for value in self.executions[tree.root].results for x in value)
 
     def inputs(self, tree: Tree) -> list[Expr]:
-        """Return all scalar inputs of a tree: first the components of its input variables, then the
-        coefficients of its sums."""
+        """Return all scalar inputs of a tree: the components of its input variables, then the coefficients of
+        its sums. The step size h is the last input if a coefficient contains a power of h."""
         given, _ = self.wiring(tree)
         values: dict[Var, Values] = {}
         for i in tree.members:

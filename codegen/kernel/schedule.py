@@ -1,5 +1,5 @@
-"""Printable statements of a kernel: one call computes all Stumpff functions of an argument, and powers become
-products.
+"""Converts a kernel to statements that can be printed. One call computes all Stumpff functions of an
+argument, and powers become products.
 
 There are five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
 results), :class:`Invocation` (a call of an outlined function), :class:`Beginning` and :class:`Iteration`.
@@ -62,7 +62,7 @@ class Invocation:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the results in expressions."""
+        """The names of the symbols that denote the results in expressions: ``name.0``, ``name.1``, ..."""
         return tuple(f"{self.name}.{k}" for k in range(self.results))
 
     @property
@@ -99,8 +99,8 @@ class Beginning:
 
 @dataclass(frozen=True)
 class Iteration:
-    """A loop (see :class:`codegen.ir.kernel.Loop`); ``kept`` are the names of the body that later statements
-    read.
+    """A loop (see :class:`codegen.ir.kernel.Loop`). ``kept`` are the names that the body assigns and that
+    statements after the loop read.
 
     ``matrix`` contains the rows of Newton's matrix, and ``newton`` the statements that only the matrix needs.
     Both are empty if the loop does not use Newton's method.
@@ -175,8 +175,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     )
     # Error estimates are rewritten together with the outputs, so that both share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # The required Stumpff functions c_k are recorded before all statements, because the first call for an
-    # argument computes every c_k that a later statement needs.
+    # The required Stumpff functions c_k are recorded before any statement is rewritten, because the first
+    # call for an argument computes every c_k that a later statement needs.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -208,7 +208,8 @@ def arrange(kernel: Kernel) -> Arrangement:
 
 
 def _alone(function: Function) -> Kernel:
-    """Return a function as a kernel whose arguments are scalars."""
+    """Return a kernel with the body and outputs of a function. The arguments of the function become the
+    scalars of the kernel."""
     return Kernel(function.name, (), function.inputs, function.body, function.outputs)
 
 
@@ -246,8 +247,9 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return the counter of fresh names; its keys are all names of the kernel."""
-    # All names of the kernel are in the counter, so that no fresh name is equal to one of them.
+    """Return a dictionary whose keys are all names of the kernel. The scope adds its counters of new names to
+    this dictionary."""
+    # All names of the kernel are keys, so that no new name is equal to one of them.
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -290,7 +292,8 @@ class _Scope:
         return (*body, *inner.take()), rewritten
 
     def inside(self, expressions: list[Expr]) -> _Scope:
-        """Return the scope of a loop body; the body can read all names that are defined before the loop."""
+        """Return the scope of a nested block or loop body with these expressions. The body can read all names
+        that are defined before it."""
         # The tables of names are copied, because names of the loop body must not be read outside the loop.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
@@ -307,8 +310,8 @@ class _Scope:
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
-        """Return the statements of an assignment. If a shared call already computes the value, the call
-        replaces the assignment."""
+        """Return the statements for the assignment ``let``. If a call has already given the value a name and
+        ``kept`` is false, no assignment is returned, and later expressions use the name of the call."""
         value = self.rewrite(let.value)
         before = self.take()
         # The shared call has already given this result a name. A second name would only be a copy of the

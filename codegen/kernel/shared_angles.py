@@ -3,7 +3,8 @@
 Variational methods need the exponentials of h xi, h xi/2 and -h xi/2 in one stage. Each exponential contains
 Stumpff functions of a sum of squares. The sum for h xi/2, the sum for -h xi/2 and a quarter of the sum for h
 xi are equal numbers, but different expressions. Without this module the Stumpff functions of each expression
-would be computed separately. As polynomials in symbols and earlier calls these expressions are equal.
+would be computed separately. This module detects that the expressions are equal as polynomials in symbols and
+in the results of earlier calls.
 """
 
 from __future__ import annotations

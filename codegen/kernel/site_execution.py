@@ -16,7 +16,7 @@ from codegen.ir.program import Assign
 from codegen.ir.scene_operations import Field, HamiltonianDerivatives
 from codegen.ir.site_step import OWN, Load, Row, Sweep
 from codegen.ir.values import Kind, Var
-from codegen.kernel.assignments import Assignments
+from codegen.kernel.assignments import Assignments, unique_name
 from codegen.kernel.shared_angles import SharedArguments
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites, offset_text
@@ -33,7 +33,7 @@ EVALUATED = (Field, HamiltonianDerivatives)
 class Content:
     """The content of a sweep: the description ``about``, and the pairs ``stored``. Each pair contains rows,
     and the variable whose value is stored in these rows. ``unknowns`` are the unknowns that the sweep
-    replaces by their images."""
+    replaces by their images. In the rows ``measured`` the sweep stores how much the unknowns change."""
 
     about: str
     stored: tuple[tuple[tuple[Row, ...], Var], ...]
@@ -48,9 +48,9 @@ def blocks_of(problem: Problem) -> tuple[slice, ...]:
 
 
 class Execution:
-    """The symbolic execution of one sweep. ``rows`` are the rows of stored variables, and ``given`` are the
-    variables of the old state. ``coupled`` are the indices of the blocks of the state that the field reads at
-    neighbours."""
+    """The symbolic execution of one sweep. ``rows`` maps each stored variable to its rows in the arrays of
+    the lattice, and ``given`` are the variables of the old state. ``coupled`` are the indices of those blocks
+    of the state that the field reads at neighbours."""
 
     def __init__(
         self,
@@ -73,7 +73,8 @@ class Execution:
         self.named: dict[Var, tuple[str, ...]] = {}
 
     def begin(self, variables: Iterable[Var]) -> None:
-        """Set the values that earlier sweeps have stored, and the time."""
+        """Set the values of variables that the sweep reads. Scalars such as the time become symbols. For the
+        other variables, the numbers that earlier sweeps have stored become symbols."""
         for var in variables:
             if var.kind is Kind.REAL:
                 self.env[var] = self.domain.space.sym(var.name)
@@ -90,7 +91,7 @@ class Execution:
         return self.named[var]
 
     def execute(self, assign: Assign) -> None:
-        """Execute an assignment."""
+        """Execute an assignment on symbols, and record names for the expressions of its results."""
         args = tuple(self.env[a] for a in assign.args)
         operation = assign.operation
         results: tuple[Value, ...]
@@ -105,8 +106,8 @@ class Execution:
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
     def _field(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> tuple[Expr, ...]:
-        """Return the field at a point. The values of the point that neighbours need are stored at all
-        sites."""
+        """Return the field at a point. The field also reads this point at neighbours; an earlier sweep has
+        stored these values for all sites."""
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
@@ -131,11 +132,7 @@ class Execution:
         return loaded
 
     def _fresh(self, base: str) -> str:
-        candidate = base if base not in self.taken else base + "_"
-        while candidate in self.taken:
-            candidate += "_"
-        self.taken.add(candidate)
-        return candidate
+        return unique_name(base, self.taken)
 
     def sweep(self, content: Content) -> Sweep:
         """Return the sweep with the given content."""

@@ -1,4 +1,5 @@
-"""From splittings of a lattice to sweeps: a flow of a part is one loop over sites, or over pairs of sites."""
+"""Translates splitting methods on a lattice to sweeps. The flow of a part is one loop over sites, or over
+pairs of sites."""
 
 from __future__ import annotations
 
@@ -13,7 +14,7 @@ from codegen.ir.program import Assign, Program
 from codegen.ir.scene_operations import SiteFlowOf
 from codegen.ir.site_step import RESULT, STATE, Load, Row, SiteFlow, Sweep
 from codegen.ir.values import Coefficient, Kind, Var
-from codegen.kernel.assignments import Assignments
+from codegen.kernel.assignments import Assignments, unique_name
 from codegen.kernel.canonical_site_flows import canonical_kernel, kernel_of
 from codegen.kernel.shared_angles import SharedArguments
 from codegen.lower.flow_words import FlowLowering
@@ -63,7 +64,8 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
 
 
 def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
-    """Return the sweep for the flow of a part; in the kernel of the sweep, h is the duration of the flow."""
+    """Return the sweep for the flow of a part. In the kernel of this sweep, h is not the step size, but the
+    duration of the flow."""
     domain, dim, size = SharedArguments(), scene.group.dim, len(scene.symbols)
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     symbols = {s: domain.space.sym(s) for own in names for s in own}
@@ -75,14 +77,7 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
         ends += scene.action.actexp(domain, scene.group, x, tuple(symbols[s] for s in own))
     taken = {*symbols, *scene.runtime, "h", TIME}
 
-    def fresh(base: str) -> str:
-        name = base
-        while name in taken:
-            name += "_"
-        taken.add(name)
-        return name
-
-    schedule = Assignments((), ends, {}, fresh)
+    schedule = Assignments((), ends, {}, lambda base: unique_name(base, taken))
     body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
     array = RESULT if part.symbols else STATE
     loads = [Load(s, Row(array, k), side - 1) for side, own in enumerate(names) for k, s in enumerate(own)]

@@ -1,9 +1,10 @@
-"""From programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
+"""Translates programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
 
 All operations of a step program act on one site alone, except the field, which reads the states of
 neighbours. The point at which the field is evaluated must therefore be known at all sites before the
-evaluation: it is stored by one sweep, and the next sweep evaluates the field. A sum is stored if one of its
-terms then need not be stored. Later sweeps compute all other sums again from stored terms.
+evaluation: one sweep stores the point, and the next sweep evaluates the field. A sweep stores a sum of
+vectors if it then need not store one of the terms. Later sweeps compute all other sums again from stored
+terms.
 """
 
 from __future__ import annotations
@@ -46,10 +47,12 @@ class SiteMethod:
 
 
 def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMethod:
-    """Return the compiled method. The passes do not read the formulas of the field, so they are verified on
-    one site whose neighbours do not move. With ``newton``, Newton's method solves the equations of a chain.
+    """Return the compiled method. The optimisation passes do not read the formulas of the field, so they are
+    verified on one site whose neighbours do not move. With ``newton``, Newton's method solves the equations
+    of a chain.
 
-    MethodError is raised for methods that evaluate more than the field.
+    A step may evaluate only the field or the derivatives of H; splitting methods use exact flows instead.
+    MethodError is raised for all other methods.
     """
     lowering = lowering_of(method.family)
     if isinstance(lowering, FlowLowering):

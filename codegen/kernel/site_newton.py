@@ -20,7 +20,7 @@ from codegen.ir.kernel import Kernel, Let
 from codegen.ir.program import Assign, Solve
 from codegen.ir.site_step import OWN, Load, Row, SiteNewton
 from codegen.ir.values import Kind, Var
-from codegen.kernel.assignments import Assignments
+from codegen.kernel.assignments import Assignments, unique_name
 from codegen.kernel.newton import leading_terms
 from codegen.kernel.shared_angles import SharedArguments
 from codegen.kernel.site_execution import EVALUATED, RECOMPUTED, blocks_of
@@ -35,8 +35,9 @@ LEFT, RIGHT = (-1,), (1,)
 class Linearisation:
     """The derivatives of the images of one block with respect to the unknowns of three sites.
 
-    ``rows`` are the rows of stored variables, ``given`` the variables of the old state, and ``makers`` maps
-    each computed variable to its assignment.
+    ``rows`` maps each stored variable to its rows, ``given`` are the variables of the old state, and
+    ``makers`` maps each computed variable to its assignment. ``coupled`` are the indices of those blocks of
+    the state that the field reads at neighbours.
     """
 
     problem: Problem
@@ -60,7 +61,7 @@ class Linearisation:
         """
         if not set(self.sites.offsets) <= {LEFT, RIGHT}:
             raise MethodError(
-                f"Newton's method on a {self.sites.text()}",
+                f"Newton's method cannot be used on a {self.sites.text()}",
                 where=self.problem.name,
                 expected="a chain whose field reads the nearest neighbours only",
                 hint="use the solver fixed-point",
@@ -86,8 +87,9 @@ class Linearisation:
         return SiteNewton(kernel, loads, exists, size, residual, border, matrix)
 
     def _columns(self) -> tuple[int | None, int, int | None]:
-        """Return the three sites to whose unknowns the blocks of a matrix row belong: the left neighbour, the
-        site itself, and the right neighbour. A neighbour that the field does not read is None."""
+        """Return three numbers of sites: the left neighbour, the site itself, and the right neighbour. The
+        three blocks of a matrix row belong to the unknowns of these sites. The number of a neighbour that the
+        field does not read is None."""
         offsets = self.sites.offsets
         left, right = (offsets.index(x) if x in offsets else None for x in (LEFT, RIGHT))
         return left, OWN, right
@@ -105,7 +107,8 @@ class Linearisation:
         return name
 
     def value(self, var: Var, site: int) -> Value:
-        """Return the value of a variable at a site or at a neighbour, as a function of stored numbers."""
+        """Return the value of a variable as an expression in stored numbers. ``site`` is :data:`OWN`, or the
+        index of a neighbour."""
         key = (site, var)
         if key not in self.values:
             maker = self.makers.get(var)
@@ -138,7 +141,7 @@ class Linearisation:
         """Return the field at a stage of the site; the field also reads this stage at the neighbours."""
         if site != OWN:
             raise MethodError(
-                "Newton's method for stages that depend on the field at other stages",
+                "Newton's method cannot solve for stages that depend on the field at other stages",
                 where=self.problem.name,
                 expected="a method whose unknowns determine all stages",
                 hint="use the solver fixed-point",
@@ -162,11 +165,7 @@ class Linearisation:
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)
 
     def _fresh(self, base: str) -> str:
-        name = base
-        while name in self.taken:
-            name += "_"
-        self.taken.add(name)
-        return name
+        return unique_name(base, self.taken)
 
     def _kernel(self, label: str, ends: list[Expr]) -> Kernel:
         self.taken |= {*self.loads, *(self._exists(k) for k in range(len(self.sites.offsets)))}

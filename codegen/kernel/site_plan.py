@@ -48,7 +48,8 @@ class _Block:
     last: int
 
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
-        """Return the unknowns that the sweep with this index sets, each with its new value."""
+        """Return the unknowns that the sweep with index ``number`` sets, as pairs (unknown, new value). The
+        sweep before the block sets the starting values; the last sweep of the block sets the images."""
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
 
@@ -100,7 +101,8 @@ class Planner:
         return self._with_newton(step, count) if self.newton else step
 
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
-        """Return the step with a matrix for each block; ``count`` is the number of rows without matrices."""
+        """Return the step with a Newton matrix for each block. ``count`` is the number of rows that the step
+        needs without residuals and matrices."""
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
         border = count + most
@@ -124,7 +126,8 @@ class Planner:
         )
 
     def _points(self, assign: Assign) -> tuple[Var, ...]:
-        """Return the arguments that an assignment reads both at its own site and at neighbours."""
+        """Return the arguments that an assignment reads both at its own site and at neighbours. There are
+        none if its operation does not evaluate the field."""
         if not isinstance(assign.operation, EVALUATED):
             return ()
         return tuple(assign.args[k] for k in self.coupled)
@@ -150,8 +153,8 @@ class Planner:
             last = max(first, *(self.sweep_of[v] for v in solve.images))
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
-                # Sites read the unknowns of their neighbours. A sweep of its own replaces the unknowns after
-                # all sites have read them.
+                # Sites read the unknowns of their neighbours. Therefore a separate last sweep replaces the
+                # unknowns after all sites have read the old values.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
             self.renamed |= dict(zip(solve.images, solve.unknowns, strict=True))
@@ -235,8 +238,8 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # A sweep may overwrite a value that no later sweep reads. If the sweep reads the value at
-            # neighbours, only the next sweep may overwrite the value.
+            # A sweep may overwrite a value that it reads at its own site if no later sweep reads the value.
+            # If it reads the value at neighbours, only the next sweep may overwrite the value.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
@@ -256,12 +259,12 @@ class Planner:
         return tuple(var for var in self.program.inputs if var.kind is not Kind.REAL)
 
     def _numbers(self, name: str) -> range:
-        """Return the indices of a block of the state."""
+        """Return the indices of the coordinates that belong to the block ``name`` of the state."""
         places = zip(self.problem.state, blocks_of(self.problem), strict=True)
         return next(range(place.start, place.stop) for block, place in places if block.name == name)
 
     def _ordered(self, variables: Iterable[Var]) -> list[Var]:
-        """Return variables in the order of the program."""
+        """Return variables in the order in which the program defines them: inputs first, then unknowns."""
         wanted = set(variables)
         unknowns = [u for block in self.blocks for u in block.solve.unknowns]
         listed = [*self.program.inputs, *unknowns, *(t for a in self.order for t in a.targets)]
@@ -298,7 +301,8 @@ class Planner:
         stored = [(self.rows[unknown], value) for unknown, value in copies]
         measured = tuple(Row(WORK, count + k) for k in range(MEASURED)) if ending and not self.newton else ()
         if ending and self.newton:
-            # Newton's method stores the residuals and does not change the unknowns.
+            # With Newton's method this sweep stores residuals, and does not change the unknowns. The solver
+            # changes the unknowns after the sweep.
             free = (Row(WORK, k) for k in itertools.count(count))
             stored = [(tuple(islice(free, len(rows))), value) for rows, value in stored]
         stored += [(self.rows[v], v) for v in kept]

@@ -30,8 +30,8 @@ are computed, with 24 products, the step takes 1.5 us with unrolled code and 0.8
 
 
 def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | None:
-    """Return the kernel that computes the coefficients in a loop; None if unrolled code is short enough to be
-    used."""
+    """Return the kernel that computes the Taylor coefficients in a loop. Return None if unrolled code is
+    used, because it is short enough or because the momentum is in the body frame."""
     if problem.body_group is not None:
         return None
     assert problem.evolution is not None
@@ -45,7 +45,8 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
 
 
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
-    """Return the kernel with an additional run, which chooses its step sizes from the Taylor coefficients."""
+    """Return the kernel with its Taylor expansion. Emitted code then has an additional run, which chooses the
+    step sizes from the Taylor coefficients."""
     if kernel.expansion is not None:
         return replace(kernel, expansion=replace(kernel.expansion, controlled=True))
     assert problem.evolution is not None
@@ -123,7 +124,8 @@ def _names(kernel: Kernel) -> Callable[[str], str]:
 def _kernel(
     kernel: Kernel, state: Sequence[Field], ends: Sequence[Expr], name: Callable[[str], str]
 ) -> Kernel:
-    """Return the kernel that computes expressions of a state."""
+    """Return a kernel that computes the expressions ``ends`` from the blocks ``state``. It has the name and
+    the scalars of ``kernel``; ``name`` chooses the names of intermediate values."""
     schedule = Assignments((), ends, {}, name)
     body = tuple(x for x in schedule.run() if isinstance(x, Let))
     return Kernel(kernel.name, tuple(state), kernel.scalars, body, schedule.outputs)

@@ -1,4 +1,4 @@
-"""From step program to kernel: symbolic execution over expressions, then a schedule of scalar assignments.
+"""Translates a step program to a kernel: executes the program symbolically, then orders scalar assignments.
 
 Every value becomes a tuple of expressions; equal expressions are a single node (hash-consing). A block
 becomes a loop (:mod:`codegen.kernel.equations`). Expressions become assignments
@@ -48,8 +48,9 @@ from codegen.passes.series_sums import SeriesSums
 from codegen.scene.problem import TIME, Problem
 
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
-"""Four ways to treat the critical path: leave it unchanged; multiply step sizes and constants first; order
-the assignments; apply all methods of :mod:`codegen.kernel.critical_path`.
+"""Four ways to treat the critical path, that is, the longest chain of dependent operations: leave it
+unchanged; multiply step sizes and constants first; order the assignments; apply all methods of
+:mod:`codegen.kernel.critical_path`.
 """
 
 
@@ -128,7 +129,8 @@ class _Translation:
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(self, assign: Assign) -> None:
-        """Execute an assignment."""
+        """Execute an assignment on expressions, and record it for outlining. Raise SceneError if the
+        operation has no closed form on the group."""
         scene, domain = self.scene, self.domain
         args = tuple(self.env[a] for a in assign.args)
         try:
@@ -173,7 +175,8 @@ class _Translation:
         return start
 
     def solve(self, statement: Solve) -> None:
-        """Execute a block of equations."""
+        """Execute the body of a block of equations, and add the block to ``blocks``. If Newton's method
+        solves the equations, the block contains its matrix."""
         # Assignments of the body are recorded as part of the loop, because outlining must not join them with
         # other assignments.
         self.inside = True
@@ -190,8 +193,8 @@ class _Translation:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
-            # After Newton's method the unknowns are more accurate than the last images, so readers use the
-            # unknowns.
+            # After Newton's method the unknowns are more accurate than the last images, so later statements
+            # read the unknowns in place of the images.
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
@@ -218,7 +221,8 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and the embedded method's new state, after all statements."""
+        """Return the new state, and the new state of the embedded method. The second is empty if there is no
+        embedded method. All statements must have been executed before."""
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
         # Both states are transformed to the same frame, because their difference is the error estimate.
@@ -265,7 +269,8 @@ class _Translation:
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # Error estimates and outputs are ordered together, so that they share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # If flows are deferred, the duration of a joined flow or the time of all steps may be an input.
+        # A program with deferred flows may read one of two durations: that of a flow which is joined with the
+        # first flow of the next step (LEAD), or that of all steps of a run (ELAPSED).
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
@@ -281,7 +286,8 @@ class _Translation:
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
         """Return the body, outputs and functions of the kernel; outline functions if this shortens the
         body."""
-        # A schedule with outlined functions may replace this first schedule, so it may use the same names.
+        # The names in use are saved here. The schedule with outlined functions replaces the first schedule,
+        # so both may use the same names.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
@@ -300,11 +306,6 @@ class _Translation:
         if self.chains in (ORDERED, SHORTENED):
             body = critical_path.ordered([let for let in body if isinstance(let, Let)])
         return body, schedule.outputs, outlined
-
-
-def is_long(body: Iterable[Let | Start | Loop]) -> bool:
-    """Return True if a step has enough assignments to be outlined."""
-    return _count(body) > LONG
 
 
 def _count(body: Iterable[Let | Start | Loop | Function]) -> int:
@@ -331,8 +332,9 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # Corrected values that no root reads are removed. Otherwise the functions that they call would count as
-    # used.
+    # ``kept`` contains values of the last sweep, which expressions after the loop correct for the last change
+    # of the unknowns. Values that no root reads are removed, so that functions which only these values call
+    # do not count as used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # All roots are in one flat list, so that trees that occur in several blocks are found.
@@ -378,13 +380,14 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
     """
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
-    # The equations are linear, so the iteration converges from any initial value, and zero is used.
+    # The equations are linear, so convergence does not depend on the initial value, and zero is used.
     starts = (space.zero,) * len(own)
     return Block(f"{VARIED}{block.label}", tuple(own), starts, tangents(block.images, seeds))
 
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
-    """Return the kernel with those samples of run-time inputs that it reads."""
+    """Return the kernel with its samples. A sample is the values of the run-time inputs at one time; only
+    samples that the kernel reads are added."""
     # Passes may have removed every reader of a sample. Such a sample is removed, so that emitted code does
     # not evaluate the inputs in vain.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}

@@ -19,10 +19,11 @@ from orderconds.tableau import Tableau
 
 FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
-"""Default methods of ``bench``, ``longrun``, ``stability`` and ``localerror``."""
+"""Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``: the first list is
+for scenes that are given by a field, the second for Hamiltonian scenes."""
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
-"""Default scenes of the report: a Hamiltonian scene and a field scene."""
+"""Default scenes of the report: a scene given by a Hamiltonian, and a scene given by a field."""
 
 REPORT_FIELDS = {"rkmk(0):euler": 1, "cg:cg3": 3, "rkmk(2):rk4": 4, "cf:cf4": 4, "rkmk:butcher6": 6}
 REPORT_HAMILTONIANS = {
@@ -34,7 +35,8 @@ REPORT_HAMILTONIANS = {
     "splitting:blanes_moan4": 4,
     "splitting:blanes_moan_rkn6a": 6,
 }
-"""Default methods of the report, each with the order that it must have on the scene."""
+"""Default methods of the report with equal steps, each with the order that it must have on the scene. The
+first dictionary is for scenes that are given by a field, the second for Hamiltonian scenes."""
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
 """Default methods of the report with step-size control. A figure has only eight colours for methods, and

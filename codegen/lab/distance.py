@@ -38,9 +38,10 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
 
 
 def _norm(group: LieGroup, gap: Sequence[float]) -> float:
-    """Return the norm of the difference of two group elements.
+    """Return the norm of the difference ``gap`` of two group elements.
 
-    For a product group it is the sum of the norms of the factors.
+    It is the spectral norm for matrices, otherwise the Euclidean norm. For a product group it is the sum of
+    the norms of the factors.
     """
     product = group.offers(DirectProduct)
     if product is not None:

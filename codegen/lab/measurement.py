@@ -56,7 +56,8 @@ class Measurement(ABC, Generic[R]):
         """Return the body of the section, or None if there is nothing to show."""
 
     def verdict(self, result: R, subject: Subject) -> str:
-        """Return one sentence that states the result; the section begins with this sentence."""
+        """Return one sentence that states the result; the section begins with this sentence. By default
+        there is no sentence ('')."""
         return ""
 
     def holds(self, result: R) -> bool:
@@ -68,7 +69,7 @@ class Measurement(ABC, Generic[R]):
         return ()
 
     def overview(self, result: R, subject: Subject) -> Section | None:
-        """Return a paragraph or table for the overview of all scenes."""
+        """Return a paragraph or table for the overview of all scenes; None if there is nothing to show."""
         return None
 
     def files(self, result: R, subject: Subject) -> Mapping[str, str]:

@@ -49,9 +49,10 @@ class MeasurementCache:
         """Return the stored result of ``key``; if there is no stored result, call ``measure`` and store its
         result.
 
-        ``kind`` is the type of the result: dataclasses, tuples and plain values. Values in ``key`` must have
-        the same ``repr`` in every process. If the folder cannot be used, ``measure`` is called and no
-        exception is raised. If ``measure`` raises an exception, the caller receives it and nothing is stored.
+        ``kind`` is the type of the result, which may consist of dataclasses, tuples, numbers and strings.
+        Values in ``key`` must have the same ``repr`` in every process. If the folder cannot be used,
+        ``measure`` is called, its result is not stored, and no error is raised. An exception of ``measure``
+        is passed on to the caller, and nothing is stored.
         """
         result = self.find(key, kind)
         if result is None:
@@ -90,7 +91,7 @@ class MeasurementCache:
             return
 
     def remove(self) -> None:
-        """Delete the folder with all entries."""
+        """Delete the folder with all entries, unless it belongs to another user or is a symbolic link."""
         if self.folder is not None and _secured(self.folder):
             shutil.rmtree(self.folder, ignore_errors=True)
 
@@ -106,8 +107,8 @@ def user_cache() -> MeasurementCache:
 
 
 def _secured(folder: Path) -> bool:
-    """Set the mode of a folder to 0700; return True if it is a directory of this user and not a symbolic
-    link.
+    """Return True if a folder is a directory of this user and not a symbolic link, and set its mode to 0700.
+    Otherwise change nothing and return False.
     """
     try:
         status = os.lstat(folder)

@@ -24,8 +24,8 @@ that the table defines.
 
 
 def of_scalars(source: object) -> Functions:
-    """Return the functions for numbers that can be compared. ``source`` is a module or type with functions
-    such as ``sin``.
+    """Return the functions for numbers that ``<`` compares, such as floats. ``source`` is a module or type
+    with the functions ``sin``, ``sqrt`` and so on for these numbers.
     """
     return {
         **{name: getattr(source, name) for name in (*MATHEMATICAL, ANGLE)},
@@ -76,7 +76,8 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
 
 def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
     """Return the numbers of a piecewise polynomial, converted by ``constant``: the list of knots, the list of
-    bases, and for each power the list of its coefficients in all pieces."""
+    base points, and for each power the list of its coefficients in all pieces. A piece is a polynomial in x
+    minus its base point."""
     columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
     return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]
 

@@ -1,10 +1,10 @@
 """The ambient equation of a scene with a field that is not smooth everywhere: smooth equations between
 events.
 
-A selection is an operation with several cases, such as an absolute value or a table. Its sides are these
-cases. While all sides stay the same, the field is smooth (:mod:`codegen.ir.smoothness`). The margin of a
-selection is a function that is positive on the present side. An event is a time at which a margin vanishes.
-There the integrator changes to the field on the other side.
+A selection is an operation with several cases, such as an absolute value or a table. The cases are called
+sides. While the same side of each selection applies, the field is smooth (:mod:`codegen.ir.smoothness`). The
+margin of a selection is a function that is positive while the present side applies. An event is a time at
+which a margin vanishes. There the integrator changes to the smooth field for the other side.
 """
 
 from __future__ import annotations
@@ -27,24 +27,26 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""After an event, the program determines which case of each selection applies. For this purpose it evaluates
-the solution at the event time plus AHEAD. AHEAD is much longer than the error of the event time, and much
-shorter than every time scale of the solution.
+"""At an event, the case that applies in some operation (such as an absolute value) changes. To determine the
+cases after the event, the program evaluates the solution at the event time plus AHEAD. AHEAD is much longer
+than the error of the event time, and much shorter than every time scale of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
 """The times after an event at which the field before the event and the field after it are compared."""
 
 VANISHING = 1e-30
-"""A margin counts as zero if its absolute value is less than VANISHING."""
+"""A margin (a function that is positive while a case applies) counts as zero if its absolute value is less
+than VANISHING."""
 
 SUBSTEPS = 24
-"""The number of inner points of a step at which margins are tested."""
+"""The number of inner points of a step at which the program tests if the field leaves the present cases."""
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that is tested."""
+"""The largest number of continuous derivatives that is reported. If more derivatives are continuous, the
+number MOST is reported."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,8 @@ class PiecewiseField:
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
         """Return the side of each selection (the case that applies) just after the time t, on the solution
-        through (y, t)."""
+        through (y, t). ``flow`` is the field that continues the solution, by default the field of the scene.
+        """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         ahead = arb(AHEAD)
         slopes = (whole if flow is None else flow)(y, t)
@@ -92,8 +95,8 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the sides after an event, and the number of continuous derivatives of the field at the
-        event.
+        """Return the sides after an event (the case of each selection that then applies), and the number of
+        continuous derivatives of the field at the event.
 
         The number of continuous derivatives is -1 for a field that jumps. :class:`SceneError` is raised if
         the field after the event points back to the side before the event. The solution would then stay on
@@ -129,7 +132,8 @@ class Sided:
     """The smooth field for the present sides, as a function of (state, t), and the events up to the present
     time.
 
-    ``kinks`` contains the number of continuous derivatives of the field at each event.
+    The sides are the cases of the selections (operations with several cases) that now apply. At an event,
+    they change. ``kinks`` contains the number of continuous derivatives of the field at each event.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -142,12 +146,12 @@ class Sided:
         self.sides, self.least = self.fields.sides_at(y, t), least
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
-        """Return the field on the present sides."""
+        """Return the value at (y, t) of the smooth field for the present sides, and remember the point."""
         self.points.append((y, t))
         return self.fields.on(self.sides)[0](y, t)
 
     def margins(self, y: Vector, t: Scalar) -> Vector:
-        """Return the margins of the present sides."""
+        """Return the margin of each selection: a number that is positive while its present side applies."""
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
@@ -161,8 +165,9 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Find the first event in a step, change to the field that applies after the event, and return the
-        time and the state of the event. Return None if a shorter step must be tried.
+        """Find the first event in a step: the first time at which a margin vanishes. Change to the field that
+        applies after the event, and return the time and the state of the event. Return None if a shorter step
+        must be tried.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)

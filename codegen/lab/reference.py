@@ -41,11 +41,12 @@ AGREEMENT = 1e-28
 """The largest accepted difference between the two runs, relative to the size of the state."""
 
 LEAST_STEP = 1e-6
-"""If steps become shorter than this fraction of the span, the solution is close to a singularity."""
+"""If steps become shorter than this fraction of the span, the solution is probably close to a singularity,
+and SceneError is raised."""
 
 MOST_STEPS = 10_000
-"""Largest number of extrapolation steps. If a scene needs more steps, it is too stiff or its span is too
-long.
+"""Largest number of extrapolation steps. If a scene needs more steps, SceneError is raised: the scene is too
+stiff or its span is too long.
 """
 
 
@@ -141,8 +142,8 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 
 
 def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
-    """Return the final state of one run of the extrapolation method, with step-size control, and the
-    kinks."""
+    """Make one run of the extrapolation method with step-size control. Return the final state and the kinks
+    (:class:`Reference`). ``finish`` is the latest permitted time of the clock ``time.monotonic``."""
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
         piecewise = PiecewiseField(scene)
@@ -155,8 +156,8 @@ def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Ve
 def _integrate(
     scene: Problem, field: Evaluate | Sided, y: Vector, columns: int, tolerance: float, finish: float
 ) -> tuple[Vector, tuple[int, ...]]:
-    """Return the state at the end of the span as midpoints of balls in the working precision, and the
-    kinks.
+    """Return the state at the end of the span, and the kinks (:class:`Reference`). The coordinates are balls
+    of radius zero.
 
     ``finish`` is the latest permitted time of the clock ``time.monotonic``.
     """

@@ -29,9 +29,11 @@ from orderconds.processes import in_processes
 
 @dataclass(frozen=True)
 class Request:
-    """A report as the user requests it: names of scenes, methods, peers, measurements and effort.
+    """A report as the user requests it.
 
-    ``processes`` is the number of scenes that are measured at the same time, by default the number of
+    It contains names: of scenes (by default the scenes of :data:`REPORT_SCENES`), of methods with equal
+    steps, of methods with step-size control (``adaptive``), of peers, of measurements (``parts``), and of the
+    effort. ``processes`` is the number of scenes that are measured at the same time, by default the number of
     processors.
     """
 
@@ -52,7 +54,8 @@ class Request:
         return min(len(self.names()), self.processes or os.cpu_count() or 1)
 
     def subject(self, name: str) -> Subject:
-        """Return the subject of the page of one scene. An unknown name raises InputError."""
+        """Return the subject of a page: the named scene, and the methods and peers to measure on it. Raises
+        InputError for an unknown name of a scene, method or peer."""
         effort = EFFORTS[self.effort].shared(len(self.names()), self.together())
         scene = scenes.with_one_system(scenes.load(name))
         return subject(name, scene, self.methods, self.peers, effort, self.adaptive)
@@ -150,5 +153,5 @@ def write_file(path: Path, text: str | None) -> Path:
 
 
 def read_scenes(names: Sequence[str], everything: bool) -> tuple[str, ...]:
-    """Return the named scenes, or the whole gallery."""
+    """Return ``names``; if ``everything`` is True, return the names of all scenes of the gallery instead."""
     return scenes.GALLERY if everything else tuple(names)

@@ -59,12 +59,13 @@ class Interpreted:
 
     @cached_property
     def domain(self) -> Domain:
-        """The domain of the numbers of a state."""
+        """The arithmetic for the numbers of a state: doubles, or mpmath numbers with ``digits`` digits."""
         return FloatDomain(0.0) if self.digits <= DOUBLE else PreciseDomain(0, self.digits)
 
     @cached_property
     def problem(self) -> Problem:
-        """The problem that the family of the method integrates, such as the field of a Hamiltonian scene."""
+        """The scene in the form that the family of the method requires. For example, some families integrate
+        the field of a Hamiltonian scene."""
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
@@ -140,10 +141,11 @@ class Emitted:
         return list(self.compiled.scene.initial(FloatDomain(0.0)))
 
     def final(self, steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
-        """Return the final state after ``steps`` equal steps over the span; may raise :class:`RunFailed`.
+        """Return the final state of a run over ``spans`` times the length of the span, with ``steps`` equal
+        steps for each length.
 
-        ``statistics`` receives the numbers of iterations of implicit blocks. The run covers ``spans`` time
-        spans, with ``steps`` equal steps in each.
+        ``statistics`` receives the numbers of iterations that solve implicit equations. Raises
+        :class:`RunFailed` if a step fails.
         """
         first, last = self.compiled.scene.span
         h = float((last - first) / max(steps, 1))

@@ -24,9 +24,10 @@ INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
 @dataclass(frozen=True)
 class StraightLine:
-    """Assignments ``name = text`` over y[0], y[1], ..., t and the constants c0, c1, ....
+    """Code without branches and loops: the assignments ``name = text``, as pairs in ``lines``.
 
-    ``results`` are the names of the results, in order.
+    The texts contain the state y[0], y[1], ..., the time t, the constants c0, c1, ..., names of earlier
+    assignments, and calls of ``functions``. ``results`` are the names of the results, in order.
     """
 
     scene: str

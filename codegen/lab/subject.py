@@ -37,11 +37,11 @@ rounding errors. A report on the whole gallery then takes less than twenty minut
 class Effort:
     """The extent of the measurements.
 
-    ``budget`` is the CPU time in seconds that one run of the bench may take. ``steps`` is the number of steps
-    of a long run. Each flag adds a measurement. ``back``: after each long run, the method runs back to the
-    initial state. ``rounding``: growth of rounding errors. ``stiff``: stiff variants of the scene.
-    ``endurance``: runs of ten million steps. ``search`` is the time in seconds of the search for the fastest
-    methods of the library.
+    ``budget`` is the CPU time in seconds that one run may take when the cost is measured. ``steps`` is the
+    number of steps of a long run. Each flag adds a measurement. ``back``: after each long run, the method
+    runs back to the initial state. ``rounding``: growth of rounding errors. ``stiff``: stiff variants of the
+    scene. ``endurance``: runs of ten million steps. ``search`` is the time in seconds of the search for the
+    fastest methods of the library.
     """
 
     budget: float
@@ -169,7 +169,7 @@ class Subject:
 
     @cached_property
     def compiled(self) -> MethodResults[CompiledMethod]:
-        """The compiled methods."""
+        """The methods compiled for the scene, and the reasons why other methods could not be compiled."""
         methods, failures = [], []
         for method in self.methods:
             self.progress(f"{self.scene.name}, {method.label}: compiling")
@@ -218,7 +218,7 @@ def subject(
     effort: Effort = USUAL,
     adaptive: Sequence[str] = (),
 ) -> Subject:
-    """Return the subject of a page.
+    """Return the subject of a page of the report: a scene, and the methods and peers to measure on it.
 
     If no methods are named, the default methods of the report are used. If no peers are named, the installed
     peers of ``effort.peers`` are used. Unknown names raise the errors of :func:`codegen.method.parse` and

@@ -5,8 +5,8 @@ mean time depends on the load of the machine. A call from Python takes some time
 program measures this overhead with a run of zero steps and subtracts it, so that short and long runs can be
 compared.
 
-All runs that are compared are timed by :func:`span_times`: emitted methods with equal steps or with step-size
-control, both for diagrams and in searches for the fastest method, and the integrators of other software.
+The function :func:`span_times` times every run of a comparison of efficiency: runs of emitted methods, with
+equal steps or with step-size control, and runs of the integrators of other software.
 """
 
 from __future__ import annotations
@@ -28,17 +28,18 @@ run.
 LONG = 0.2
 
 LEAST_STEPS, RESOLVED = 200, 1e-4
-"""A timed run that has fewer than LEAST_STEPS steps and takes less than RESOLVED seconds is continued beyond
-the span. The overhead of a call is about a hundredth of RESOLVED.
+"""A timed run with few steps is continued beyond the end of its time span (:func:`spans`), up to LEAST_STEPS
+steps or RESOLVED seconds. The overhead of a call is about a hundredth of RESOLVED.
 """
 
 CONFIRMED, MOST = 0.03, 21
-"""The least time counts as confirmed if the time of a second batch is at most (1 + CONFIRMED) times the least
-time. Otherwise further batches are run; the total number of batches is at most MOST.
+"""The least time of all batches counts as confirmed if some other batch takes at most (1 + CONFIRMED) times
+as long. Otherwise further batches are run; the total number of batches is at most MOST.
 """
 
 SHORT = 1e-3
-"""A run that takes less than SHORT seconds is measured until its time without the overhead is resolved."""
+"""A run that takes less than SHORT seconds is measured again if its time without the overhead of the call is
+too uncertain (:data:`RESOLUTION`)."""
 
 RESOLUTION = 0.1
 """The time of a run without the overhead is resolved if its uncertainty is at most this fraction of the time.
@@ -71,7 +72,8 @@ class Timing:
 def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
     """Return the CPU seconds of one call, measured in several batches, in increasing order.
 
-    For short calls, further batches run until the two least times agree.
+    If a batch takes at most :data:`LONG` seconds, further batches run until the two least times agree up to
+    the fraction :data:`CONFIRMED`, but at most :data:`MOST` batches in all.
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -92,9 +94,9 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
 def spans(run: Callable[[int], object], steps: int) -> int:
     """Return the number of time spans over which a run is timed; the run has ``steps`` steps for each span.
 
-    ``run(n)`` runs over n spans. The number of spans is doubled until the run takes :data:`RESOLVED` seconds,
-    has :data:`LEAST_STEPS` steps, or fails. A run may fail because the solution does not exist at times far
-    beyond the span.
+    ``run(n)`` runs over n spans. The number of spans is doubled while the run takes less than
+    :data:`RESOLVED` seconds. It is not doubled if the longer run would have more than :data:`LEAST_STEPS`
+    steps, or if the longer run fails, for example because the solution does not exist at later times.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -116,8 +118,8 @@ class Overhead:
     """The overhead of a call: the CPU time of ``idle``, a call that makes no step.
 
     All runs of one module in this process have the same overhead. The overhead is measured when it is first
-    needed. It is measured again only if its uncertainty is too large for the time of a run. If ``idle`` is
-    None, the overhead is negligible.
+    needed. :func:`net_times` measures it again if its uncertainty is large compared with the time of a run.
+    If ``idle`` is None, the overhead counts as zero.
     """
 
     idle: Callable[[], object] | None
@@ -163,9 +165,10 @@ def span_times(
 def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list[float]:
     """Return the times of a run without the overhead of a call, sorted.
 
-    The time of a run shorter than :data:`SHORT` seconds may be unresolved (:data:`RESOLUTION`). In this case
-    the run and the overhead are measured again, at most :data:`AGAIN` times. If a run hardly takes longer
-    than its overhead, its time is :data:`LEAST_SHARE` times the time with overhead.
+    ``sample()`` measures the run and returns its times in seconds, with the overhead. If a run takes less
+    than :data:`SHORT` seconds and the result is too uncertain (:data:`RESOLUTION`), the run and the overhead
+    are measured again, at most :data:`AGAIN` times. Each result is at least :data:`LEAST_SHARE` times the
+    time with the overhead.
     """
     spent = sorted(sample())
     for _ in range(AGAIN):
@@ -200,7 +203,8 @@ def _batch(call: Callable[[], object], calls: int) -> float:
 
 
 def timings(run: Callable[[int], object], steps: Sequence[int], batch: float = BATCH) -> tuple[Timing, ...]:
-    """Return the CPU time of ``run(n)`` minus the CPU time of ``run(0)``, for each n of ``steps``."""
+    """Return, for each n of ``steps``, the CPU time of ``run(n)`` minus that of ``run(0)``, a run of zero
+    steps. A negative difference is replaced by zero."""
     overhead = cost(lambda: run(0), batch)
 
     def timing(n: int) -> Timing:

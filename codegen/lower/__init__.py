@@ -1,4 +1,5 @@
-"""Lowering: a tableau and a scene become a step program, with one block of stages.
+"""Lowering: the translation of a method (a tableau in a family) on a scene to a program for one step. One
+block of equations contains all stages.
 
 Each family has a file with its :class:`Lowering`. All other code finds lowerings in the registry, and
 :func:`register` adds a lowering to the registry.
@@ -47,9 +48,10 @@ def problem_for(scene: Problem, method: Method) -> Problem:
 
 
 def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") -> Method:
-    """Return the method that an argument denotes on a scene (:func:`codegen.method.method_of`).
+    """Return the method that ``given`` denotes on a scene (:func:`codegen.method.method_of`).
 
-    If the argument names a family that does not accept the scene, the :class:`MethodError` gives the reason.
+    If ``given`` or ``family`` names a family that does not accept the scene, :class:`MethodError` is raised,
+    and its message gives the reason.
     """
     stated = _stated_step(scene, given)
     if stated is not None:
@@ -70,9 +72,10 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
 
 
 def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None:
-    """Return the method that ``step:NAME`` denotes on a scene; None for any other text.
+    """Return the method that a text ``step:NAME`` denotes; None if ``given`` is not such a text.
 
-    :class:`MethodError` is raised if the scene does not state this step.
+    The method uses the step NAME that the scene itself defines. :class:`MethodError` is raised if the scene
+    does not define this step.
     """
     word, colon, name = given.strip().partition(":") if isinstance(given, str) else ("", "", "")
     if word != STEP or not colon:
@@ -105,7 +108,8 @@ def lower(scene: Problem, method: Method) -> Program:
 
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
-    """Return the verified program of a step that repeats a shorter step; None for any other step."""
+    """Return the verified program of a shorter step that the step of the method repeats, with the table of
+    its substeps. The result is None if the step repeats no shorter step."""
     # In some families the step of a composed tableau is not the composition of shorter steps. For example,
     # VRKMK uses one exponential for the whole step, and a composition has one for each substep.
     if not lowering(method.family).repeats_substeps:

@@ -20,8 +20,8 @@ class Ambient(Lowering):
     in_coordinates = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene: the field of the scene has no formulas.
-        The result is None for any other scene."""
+        """Return an objection if the field of the scene has no formulas in coordinates. Otherwise the family
+        accepts the scene, and the result is None."""
         return without_formulas(scene)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -32,7 +32,7 @@ class Ambient(Lowering):
         return scene.derived["ambient"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program."""
+        """Return the program of a Runge-Kutta step in coordinates."""
         # On R^n exp(u).y = y + u and all brackets vanish, so the RKMK method without brackets is the
         # Runge-Kutta method.
         return with_cutoff(problem, method, 0)

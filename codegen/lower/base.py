@@ -45,29 +45,30 @@ def without_formulas(scene: Problem) -> Objection | None:
     return Objection(
         ", whose field is given by formulas of large matrices",
         "a scene with formulas in coordinates",
-        f"use {families}, or fewer rows",
+        f"use {families}, or matrices with fewer rows",
     )
 
 
 class Lowering(ABC):
     """The translation of the methods of one family to step programs.
 
-    A subclass sets :attr:`family` and implements :meth:`problem` and :meth:`lower`. It usually derives from
+    A subclass sets :attr:`family` and implements :meth:`problem` and :meth:`lower`. All other members have
+    defaults. Usually the subclass derives from one of these classes, which implement :meth:`problem`:
     :class:`codegen.lower.field.FieldLowering` (vector fields),
     :class:`codegen.lower.linear.LinearLowering` (y' = A(t).y),
-    :class:`codegen.lower.variational.VariationalLowering` (Hamiltonians on T*G) or
-    :class:`codegen.lower.flow_words.FlowLowering` (Hamiltonians in parts), which implement :meth:`problem`.
-    All other members have defaults.
+    :class:`codegen.lower.variational.VariationalLowering` (Hamiltonians on T*G) and
+    :class:`codegen.lower.flow_words.FlowLowering` (Hamiltonians in parts).
     """
 
     family: ClassVar[str] = ""
     """The name of the family in :mod:`orderconds.families` and in names of methods such as
     ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
-    """True if programs have the state (q, mu) of a Hamiltonian scene; false if they have the point y of a
-    vector field."""
+    """True if the state of a program is (q, mu), the state of a Hamiltonian scene. False if the state is the
+    point y of a vector field."""
     preference: ClassVar[int] = 0
-    """If the name of a method contains no family, families with a larger number are preferred."""
+    """The rank of the family. If the name of a method contains no family, and the tableau claims the same
+    order in several families, the family with the largest rank is chosen."""
     repeats_substeps: ClassVar[bool] = False
     """True if the step of a composed tableau is, in this family, the composition of shorter steps.
 
@@ -120,7 +121,7 @@ class Lowering(ABC):
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True if steps of one size are symplectic maps on a Hamiltonian scene.
+        """Return True if steps of constant size are symplectic maps on a Hamiltonian scene.
 
         By default the result is True if T*G is a vector space and the tableau is symplectic.
         """
@@ -149,8 +150,8 @@ class Lowering(ABC):
         return None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the family whose order conditions apply to the program; the conditions may depend on the
-        scene."""
+        """Return the family whose order conditions apply to the program of a method. In some families, the
+        conditions depend on the scene."""
         from orderconds import families
 
         # The label contains the cut-off, because the conditions depend on it: the cut-off is the number of
@@ -158,8 +159,8 @@ class Lowering(ABC):
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of a method, computed from :meth:`conditions`. The result may be that the order is
-        undecided."""
+        """Return the order of a method, computed from :meth:`conditions`. The result can also say that the
+        order is undecided."""
         from orderconds.checking import check
 
         # The result has a single entry, because the tableau is checked in one family only.

@@ -21,8 +21,8 @@ class CayleyLowering(LinearLowering):
     family = "cayley"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene: the field depends on the state, or the
-        group has no Cayley map. The result is None for any other scene."""
+        """Return an objection if the field depends on the state, or if the group has no Cayley map. Otherwise
+        the family accepts the scene, and the result is None."""
         linear = super().objection(scene)
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:
@@ -33,5 +33,5 @@ class CayleyLowering(LinearLowering):
         return Objection(f", whose group is {group.name}", expected)
 
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
-        """Append and return cay(x).y."""
+        """Append the operations for cay(x).y to the program, and return the result."""
         return stages.builder.act("Y", stages.builder.add(CayleyElement(), "g", x), y)

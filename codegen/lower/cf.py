@@ -1,7 +1,8 @@
 """Commutator-free methods on a field: products of exponentials, no brackets.
 
-Each stage and the update have the form exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j) applied to y0
-or to an earlier stage; the exponential with the coefficients beta_1 acts first. The unknowns are the k_i.
+Let k_j be the value of the field at stage j. Each stage, and also the update, is a product of J exponentials
+exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j), applied to y0 or to an earlier stage. The exponential
+with the coefficients beta_1 acts first. The unknowns are the k_j.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ class CommutatorFreeLowering(FieldLowering):
     repeats_substeps = True
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program."""
+        """Return the program for one step of a commutator-free method."""
         embedded = method.embedded()
         registers = _registers(method)
         if registers is not None:
@@ -39,7 +40,8 @@ class CommutatorFreeLowering(FieldLowering):
         return products(problem, method, method.commutator_free(), lower)
 
     def storage(self, method: Method) -> str:
-        """Return the line about the registers of a low-storage scheme."""
+        """Return the line of the emitted header about the registers of a low-storage scheme; '' for a method
+        that is no such scheme."""
         registers = _registers(method)
         if registers is None:
             return ""
@@ -56,11 +58,12 @@ STORAGE_OF_PAIR = (
 
 
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
-    """Return a pair: a scheme with two registers whose steps equal the steps of the method on every group,
-    and an exponent x.
+    """Return a scheme with two registers whose steps equal the steps of the method on every group, and a row
+    (D_1, ..., D_s) for the embedded method.
 
-    With step-size control, exp(x) applied to the result of the method must be the result of the embedded
-    method. Without step-size control, x is None. If there is no such scheme or no such x, return None.
+    With step-size control, exp(h sum_i D_i k_i) applied to the result of the method must be the result of the
+    embedded method. Without step-size control, the row is None. If no such scheme or no such row is found,
+    the result is None in place of the pair.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -81,10 +84,10 @@ def two_registers(
 ) -> Program:
     """Return the program of a low-storage scheme: K_i = A_i K_{i-1} + k_i, Y_{i+1} = exp(h B_i K_i) Y_i.
 
-    A step stores the state and one element K of the Lie algebra. The general program computes every exponent
-    from all stage values, which then remain in use until the end of the step. If ``estimate`` is the row
-    (D_1, ..., D_s), a second element E_i = E_{i-1} + D_i k_i is stored. The update of the embedded method is
-    exp(h E_s) applied to the update.
+    Here k_i is the value of the field at Y_i. A step stores the state and one element K of the Lie algebra.
+    The program of :func:`products`, in contrast, must store all k_i until the end of the step. If
+    ``estimate`` is the row (D_1, ..., D_s), a second element E_i = E_{i-1} + D_i k_i is stored. The update of
+    the embedded method is exp(h E_s) applied to the update.
     """
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -160,8 +163,8 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # A stage starts from an earlier stage or from y0. The time of the stage is the time at which it
-            # starts, plus h times the sum of the coefficients in its exponents.
+            # A stage starts from an earlier stage or from y0. In units of h, the time of the stage is the
+            # time of that starting point, plus the sum of the coefficients in the exponents of the stage.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))

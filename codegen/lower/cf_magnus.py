@@ -1,4 +1,5 @@
-"""Commutator-free Magnus methods for y' = A(t).y: exponentials of linear combinations of h A(t + c_i h)."""
+"""Commutator-free Magnus methods for y' = A(t).y: products of exponentials, whose exponents are linear
+combinations of the values h A(t + c_i h)."""
 
 from __future__ import annotations
 

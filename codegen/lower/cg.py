@@ -20,9 +20,9 @@ class CrouchGrossman(FieldLowering):
     repeats_substeps = True
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program."""
+        """Return the program for one step of a Crouch-Grossman method."""
         embedded = method.embedded()
-        # The embedded tableau has the same stages as the method, so only the update is read from it.
+        # The embedded method has the same stages as the method, so only its update is needed.
         lower = None if embedded is None else _exponentials(embedded).update
         # Stage i applies the product exp(h a_is k_s) ... exp(h a_i1 k_1) to y0. This is a commutator-free
         # method in which each exponent has one term.

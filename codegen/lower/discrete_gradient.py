@@ -38,8 +38,8 @@ class DiscreteGradient(FieldLowering):
     family = "discrete_gradient"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene. The family requires an energy that the
-        field preserves."""
+        """Return an objection if the scene depends on time or has no energy that its field preserves.
+        Otherwise the family accepts the scene, and the result is None."""
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
         # If H depends on time, the exact solution does not preserve H, so a method that preserves H would not
         # converge to it.
@@ -69,8 +69,8 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # The function returns exp(part*h*velocity).y. All points at which a step evaluates a function of the
-    # scene have this form.
+    # The function returns exp(part*h*velocity).y. A step evaluates the functions of the scene (the energy,
+    # its differential, the bivector) only at points of this form.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)

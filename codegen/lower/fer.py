@@ -1,4 +1,5 @@
-"""Fer methods for y' = A(t).y: exp(F_1) exp(F_2), where F_1 is a quadrature, and F_2 a sum of brackets."""
+"""Fer methods for y' = A(t).y: y1 = exp(F_1) exp(F_2).y0. F_1 is a quadrature formula for the integral of A,
+and F_2 is a sum of brackets of the values h A(t + c_i h)."""
 
 from __future__ import annotations
 

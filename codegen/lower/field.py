@@ -13,8 +13,8 @@ class FieldLowering(Lowering):
     T*G."""
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene as a vector field. The field of a Hamiltonian is written as the sum of the fields
-        of its parts if this formula is shorter."""
+        """Return the scene as a vector field. If the scene has a Hamiltonian with parts, its field is written
+        as the sum of the fields of the parts, provided that the sum needs fewer operations."""
         if "field" not in scene.derived:
             # The parts are used before ``as_field`` is called, because the formulas of parts contain q and mu
             # separately, and ``as_field`` joins these to one point.

@@ -46,7 +46,7 @@ class Parts:
 
     @property
     def summands(self) -> list[Summand]:
-        """The summands of all parts; the exact flows of one summand commute."""
+        """The summands of all parts. A summand may have several exact flows, which commute."""
         return [summand for part in self.parts for summand in part.summands]
 
     @property
@@ -54,9 +54,9 @@ class Parts:
         """The summands in the order in which a composition applies their flows.
 
         Kicks come first, because the kick at the end of a step and the kick at the beginning of the next step
-        can be joined into one flow. On a lattice, steps are not joined, and kicks come last. The last flow of
-        Phi* and the first flow of the next Phi are then kicks and are joined, so fewer kicks are computed. A
-        kick is the most expensive flow there, because it reads all neighbours of a site.
+        can be joined into one flow. On a lattice, the flows of different steps are not joined, so kicks come
+        last. The last flow of Phi* and the first flow of the next Phi are then kicks and are joined. This
+        saves time, because a kick reads all neighbours of a site and is the most expensive flow on a lattice.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -65,8 +65,8 @@ class Parts:
 
 @dataclass(frozen=True)
 class Reading:
-    """A method on a scene: the word, the summand whose flow advances time, and the label of the family whose
-    order conditions apply."""
+    """A method on a scene: the word (the flows of a step), the summand whose flow advances time, and the
+    label of the family whose order conditions apply. ``carrier`` is None for a scene without time."""
 
     word: tuple[tuple[Summand, Number], ...]
     carrier: Summand | None
@@ -101,7 +101,8 @@ class FlowLowering(Lowering):
         return None
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene with the exact flows that the method composes, by name."""
+        """Return the scene with its attribute ``flows`` set: the exact flows that the method composes, by
+        name."""
         word = self.read(scene, method).word
         # Only flows that occur in the step are included, because all other flows would be emitted as unused
         # functions.
@@ -114,8 +115,8 @@ class FlowLowering(Lowering):
         return True
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions for the parts of a scene, or the conditions of the family if no scene is
-        given."""
+        """Return the family whose order conditions apply to the method on a scene. This family may depend on
+        the parts of the scene. Without a scene, the result is the family of the method."""
         from orderconds import families
 
         if scene is None:
@@ -211,8 +212,8 @@ def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
 
 
 def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) -> Word:
-    """Return the word Phi*_{beta_1}, Phi_{alpha_1}, ... In Phi* the flows of ``summands`` act in the given
-    order, in Phi in the reverse order."""
+    """Return the word Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... for the pairs (beta_i, alpha_i) in
+    ``both``. In Phi* the flows of ``summands`` act in the given order, in Phi in the reverse order."""
     word: Word = []
     for beta, alpha in both:
         # In Phi the flow of the first summand acts last. The adjoint Phi*_h = (Phi_{-h})^{-1} has the same

@@ -41,7 +41,7 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append target = the combination. All factors h are included in the value of the variable."""
+        """Append ``target`` = the combination, and return this variable. It includes all powers of h."""
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:

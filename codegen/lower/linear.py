@@ -34,8 +34,8 @@ class LinearLowering(FieldLowering):
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene: its field depends on the state. The
-        result is None for any other scene."""
+        """Return an objection if the field of the scene depends on the state. Otherwise the family accepts
+        the scene, and the result is None."""
         if scene.linear or scene.carries_momentum:
             return None
         return Objection(
@@ -52,10 +52,11 @@ class LinearLowering(FieldLowering):
 
     @abstractmethod
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
-        """Append and return tau(x).y."""
+        """Append the operations for tau(x).y to the program, and return the result."""
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program."""
+        """Return the program: it evaluates A at the nodes, forms the exponents, and applies one map tau for
+        each exponent. If the scene itself defines the step, the program consists of this step."""
         if method.step:
             return self._stated(problem, method)
         family = family_class(self.family)
@@ -113,7 +114,8 @@ class LinearLowering(FieldLowering):
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """Return a step that also advances the momentum conjugate to time, if the problem has this momentum."""
+    """Return ``step``, extended by the new momentum conjugate to time. If the problem has no such momentum,
+    return ``step`` unchanged."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     if not problem.carries_momentum or time is None:
         return step

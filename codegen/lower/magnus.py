@@ -18,5 +18,5 @@ class MagnusLowering(LinearLowering):
     family = "magnus"
 
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
-        """Append and return exp(x).y."""
+        """Append the operations for exp(x).y to the program, and return the result."""
         return stages.builder.act("Y", stages.builder.exp("g", x), y)

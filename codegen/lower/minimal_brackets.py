@@ -24,8 +24,8 @@ def bracket_program(method: Method) -> BracketProgram:
     """Return the bracket program of an ``rkmk`` method without a cut-off: the fewest brackets that keep the
     order.
 
-    :class:`codegen.errors.MethodError` is raised for a tableau that is implicit, has ball coefficients, or
-    has an order above the family's ``minimal_brackets``.
+    :class:`codegen.errors.MethodError` is raised for an implicit tableau, for coefficients that are known
+    only as balls, and for a tableau whose order is above ``minimal_brackets`` of the family.
     """
     from orderconds import families
     from orderconds.checking import family_order
@@ -40,14 +40,14 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a cut-off (a number of brackets)",
             hint=f"write rkmk(2):{name}",
         )
-    # The classical order of the tableau is the order that the method with brackets must have.
+    # The method with brackets must have the same order as the Runge-Kutta method of the tableau on R^n.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:
         raise MethodError(
             f"the search for the fewest brackets does not support order {order}, which {name} has",
             expected=f"an order of at most {highest}, or a cut-off",
-            # ad_u^j k = O(h^{j+1}), because u = h k + O(h^2):
+            # Since u = h k + O(h^2), ad_u^j k = O(h^{j+1}). In y1 this term has one more factor h. Therefore
             # terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )

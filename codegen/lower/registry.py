@@ -60,8 +60,9 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
     ``family`` is the class that defines the order conditions of the family. If the argument is given, the
     class is registered, too (:func:`orderconds.families.register`). All commands of both packages then
     support the family.
-    :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and for a
-    family that already has a lowering of another class.
+
+    :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and if another
+    class is already registered as the lowering of the family.
     """
     if not lowering.family:
         raise MethodError(
@@ -75,7 +76,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
         raise MethodError(
             f"the family {lowering.family} already has a lowering of another class",
             where=lowering.__name__,
-            expected="one lowering",
+            expected="the name of a family that has no lowering",
         )
     if family is not None:
         families.register(family)
@@ -85,8 +86,8 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
 
 
 def unregister(family: str) -> None:
-    """Remove the lowering of a family that :func:`register` added; raise MethodError for a built-in
-    family."""
+    """Remove the lowering of a family that :func:`register` added. A family without a lowering is ignored;
+    MethodError is raised for a built-in family."""
     # Built-in families cannot be removed, because the tableaux of the library refer to them.
     if any(lowering.family == family for lowering in _built_in()):
         raise MethodError(
@@ -97,7 +98,7 @@ def unregister(family: str) -> None:
 
 
 def names() -> tuple[str, ...]:
-    """Return the families that can be lowered, built-in families first.
+    """Return the families that have a lowering, built-in families first.
 
     >>> names()[:4]
     ('rk', 'rkmk', 'cg', 'cf')
@@ -114,13 +115,15 @@ def lowering(family: str) -> Lowering:
     """
     known = _lowerings().get(family)
     if known is None:
-        raise MethodError(f"family {family} cannot be lowered", expected=f"one of {', '.join(names())}")
+        raise MethodError(
+            f"the compiler does not support the family {family}", expected=f"one of {', '.join(names())}"
+        )
     return known
 
 
 def families_for(scene: Problem) -> tuple[str, ...]:
-    """Return the families that accept a scene, the most preferred family first. The preference matters for
-    methods whose name contains no family."""
+    """Return the families that accept a scene, the most preferred family first (:attr:`Lowering.preference`).
+    For a method whose name contains no family, this order can decide which family is used."""
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
     # The sort is stable: families of the same preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))

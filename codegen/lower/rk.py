@@ -17,8 +17,8 @@ class RungeKuttaLowering(FieldLowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene. Only scenes on R^n are accepted, because
-        a step on another manifold would leave it."""
+        """Return an objection if the scene is not on R^n: the steps would leave the manifold of the scene.
+        Otherwise the family accepts the scene, and the result is None."""
         group = scene.as_field().group
         # On R^n actions are translations: exp(u).y = y + u, and all brackets vanish.
         if group.abelian:
@@ -27,10 +27,11 @@ class RungeKuttaLowering(FieldLowering):
         return Objection(f", whose group is {group.name}", "R^n", hint)
 
     def extension(self, problem: Problem, method: Method) -> Program | None:
-        """Return the program of the continuous extension of an explicit tableau."""
+        """Return the program of the continuous extension; None if the tableau is implicit or has no
+        continuous extension."""
         return extension_with_cutoff(problem, method, 0)
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program."""
+        """Return the program for one step of a Runge-Kutta method."""
         # On R^n all brackets vanish, so a program without brackets has the order of the tableau.
         return with_cutoff(problem, method, 0)

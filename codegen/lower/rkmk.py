@@ -41,7 +41,8 @@ class MuntheKaas(FieldLowering):
     reads_coordinates = True
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program; without a cut-off see :mod:`codegen.lower.minimal_brackets`."""
+        """Return the program of a step. For a method without a cut-off, the module
+        :mod:`codegen.lower.minimal_brackets` chooses the brackets."""
         if problem.coordinates is not None:
             return in_coordinates(problem, method)
         # Without a cut-off, a search determines which brackets of the infinite series of dexp^{-1} are
@@ -51,7 +52,8 @@ class MuntheKaas(FieldLowering):
         return with_cutoff(problem, method, method.cutoff)
 
     def extension(self, problem: Problem, method: Method) -> Program | None:
-        """Return the program of the continuous extension of an explicit tableau with a cut-off."""
+        """Return the program of the continuous extension. The result is None if the method has no cut-off or
+        no explicit tableau with an extension, and if the scene has a coordinate map other than exp."""
         exact = problem.coordinates is None and method.cutoff is not None
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
 
@@ -75,8 +77,8 @@ class MuntheKaas(FieldLowering):
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order. For a method without a cut-off, failing conditions are not listed, because these
-        conditions have no names."""
+        """Return the order of a method. If the method has no cut-off, the result does not list the failing
+        conditions, because these conditions have no names."""
         if method.cutoff is not None or (scene is not None and scene.coordinates is not None):
             return super().order(method, scene)
         return _order(self, method)
@@ -92,7 +94,8 @@ def _order(lowering: MuntheKaas, method: Method) -> FamilyOrder:
 
 
 def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
-    """Return the program of an RKMK method whose dexp^{-1} has ``cutoff`` brackets."""
+    """Return the program of an RKMK method. The series of dexp^{-1} is truncated after the terms with
+    ``cutoff`` brackets."""
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
         # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - ...; without brackets the order of the method is at

@@ -54,7 +54,7 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def several() -> list[Var]:
-        """Append the momenta of all stages; this works for any number of stages."""
+        """Append and return the momenta M_i by the general formulas, which hold for any number of stages."""
         X = [stages.combination(f"X{i + 1}", Kind.ALG, row, xi) for i, row in enumerate(tableau.A)]
         Y = stages.combination("Y", Kind.ALG, tableau.b, xi)
         minus = build.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
@@ -71,14 +71,14 @@ def _program(scene: Problem, method: Method) -> Program:
         return momenta
 
     def one() -> list[Var]:
-        """Append the momentum of the theta-method; the weight b_1 need not be 1."""
+        """Append and return the momentum M of a method with one stage; the weight b_1 need not be 1."""
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # ``after`` is stored, because the update applies Ad*_{exp(after)} to n. This single operation
-        # replaces two: Ad*_{exp(-b x)} Ad*_{exp(a x)} = Ad*_{exp(-(b - a) x)}.
+        # ``after`` is stored for the update. With a = a_11, b = b_1, x = h xi, Ad*_{exp(after)} n is equal to
+        # Ad*_{exp(-b x)} Ad*_{exp(a x)} n, but needs only one operation.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

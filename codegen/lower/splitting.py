@@ -58,7 +58,7 @@ class SplittingLowering(FlowLowering):
             f"the tableau is for {len(tableau.parts)} parts, but the scene has {len(chosen)}",
             where=parts.where,
             expected=f"a tableau for {len(chosen)} parts, or for two",
-            hint=f"{', '.join(inexact)} is split into turns that do not commute" if inexact else "",
+            hint=f"each turn of {', '.join(inexact)} counts as a part" if inexact else "",
         )
 
 
@@ -67,8 +67,9 @@ def _in_order(
 ) -> tuple[Word, str]:
     """Return the word of a tableau that has one part for each summand, and the label of its order conditions.
 
-    If the parts of the tableau and of the scene have the same names, they are matched by name, otherwise by
-    their order. The part V of a Runge-Kutta-Nystroem tableau is matched with the kick.
+    If the parts of the tableau and of the scene have the same names, they are matched by name. Otherwise the
+    part V of a Runge-Kutta-Nystroem tableau is matched with the kick (not on lattices), and the parts of any
+    other tableau are matched by their order.
     """
     chosen = summands
     names = [part.name for part in own.parts]

@@ -32,7 +32,8 @@ class Stages:
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient of the tableau as a number; rational values are stored over QQ."""
+        """Return a coefficient of the tableau as a number. A rational coefficient becomes an element of QQ,
+        whatever the ring of the tableau."""
         return self.method.number(x)
 
     def times_h(self, x: Element | Number) -> Coefficient:

@@ -26,7 +26,7 @@ from orderconds.tableau import Composition, RungeKutta
 
 
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
-    """Return the method that a step repeats, and its substeps; None if the step repeats no method.
+    """Return the shorter method that a step repeats, and the substeps of the step; None if there is none.
 
     The lowering of the family must have ``repeats_substeps`` = True (:class:`codegen.lower.Lowering`).
 
@@ -70,7 +70,7 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
     before = Number.rational(0)
     for fraction in fractions:
         yield Substep(fraction, before)
-        # The sums are exact, so a printer rounds an offset only once.
+        # The sums are exact, so the offset of a substep is rounded only once, when it is printed.
         before = before + fraction
 
 

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 class Taylor(Lowering):
     """Taylor's method for y' = F(y) in R^n, where F is the field in the coordinates of the state.
 
-    A step on a manifold other than R^n ends with a projection, which changes the result by O(h^(P+1)). The
-    order is therefore the degree P.
+    Each step evaluates a Taylor polynomial of degree P. On a manifold other than R^n, a projection follows,
+    which changes the result by O(h^(P+1)). The order is P in both cases.
     """
 
     family = "taylor"
@@ -42,8 +42,8 @@ class Taylor(Lowering):
         return scene.group.abelian or reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene: it has run-time inputs, or its field has
-        no formulas. The result is None for any other scene."""
+        """Return an objection if the scene has run-time inputs, or if its field has no formulas in
+        coordinates. Otherwise the family accepts the scene, and the result is None."""
         if not scene.inputs:
             return without_formulas(scene)
         return Objection(
@@ -74,7 +74,8 @@ class Taylor(Lowering):
         return False
 
     def degree(self, method: Method) -> int:
-        """Return the degree; raise MethodError if it is too low for step control."""
+        """Return the degree of the Taylor polynomial. MethodError is raised for a method with step control
+        whose degree is below :data:`LEAST`."""
         degree = self.conditions(method).degree_of_step()
         if method.adaptive and degree < LEAST:
             raise MethodError(

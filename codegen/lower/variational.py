@@ -52,8 +52,8 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))
     A = [[stages.number(x) for x in row] for row in tableau.A]
-    # The terms h b_i l(Q_i, xi_i) of the discrete Lagrangian give equations for b_i M_i, which are divided by
-    # b_i, so no b_i may be zero.
+    # The terms h b_i l(Q_i, xi_i) of the discrete Lagrangian give equations for b_i M_i. The program divides
+    # these equations by b_i, so no b_i may be zero.
     return stages, tableau, A, nonzero(method, [stages.number(x) for x in tableau.b])
 
 
@@ -88,10 +88,11 @@ def brackets(method: Method) -> int:
 
 
 class ExpandedStep(ABC):
-    """A step that expands dexp^{-1}: Q_i = exp(X_i) q0 with X_i = h sum_j a_ij v_j, and q1 = exp(Y) q0.
+    """A step with a truncated series of dexp^{-1} or dexp: Q_i = exp(X_i) q0 and q1 = exp(Y) q0, with X_i = h
+    sum_j a_ij v_j and Y = h sum_j b_j v_j.
 
-    Subclasses define the equations. :meth:`exponentiate` and :meth:`end` set attributes: X_i, exp(X_i), and
-    the values at the end of the step.
+    Subclasses define the equations for the v_j and for the momenta. :meth:`exponentiate` sets the attributes
+    ``X`` and ``g``, and :meth:`end` sets ``minus``, ``nu`` and ``mubar``.
     """
 
     unknowns: list[Var]
@@ -101,9 +102,9 @@ class ExpandedStep(ABC):
     minus: Var
     """-Y, where Y = h sum_j b_j v_j."""
     nu: list[Var]
-    """Ad*_{exp X_j} n_j."""
+    """Ad*_{exp X_j} n_j: the force n_j of each stage, transported to q0."""
     mubar: Var
-    """mu0 + h sum_j b_j nu_j."""
+    """mu0 + h sum_j b_j nu_j, where mu0 is the momentum at the beginning of the step."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
         self.r = brackets(method)
@@ -113,7 +114,8 @@ class ExpandedStep(ABC):
 
     @abstractmethod
     def images(self) -> list[Var]:
-        """Append the equations and return the values that the unknowns must equal."""
+        """Append the operations of all stages, and return one value for each unknown. The equations of the
+        step state that each unknown equals its value."""
 
     @abstractmethod
     def starts(self) -> list[Var]:

@@ -4,8 +4,8 @@ exponent may combine several stages.
 The discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), b_i = sum_J beta_J^i, with the products of a
 commutator-free method: X_iJ = h sum_j alpha_iJ^j xi_j, E_i^J = exp(X_iJ) E_i^{J-1}, Q_i = E_i q0; Y_J = h
 sum_j beta_J^j xi_j, e^J = exp(Y_J) e^{J-1}. The empty products E_i^0 and e^0 are 1; E_i and e are the
-products of all factors. Let nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j. Transported to q0, the
-Hamilton equations of the discrete Lagrangian are
+products of all factors. Let (xi_j, n_j) = f(Q_j, M_j), nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j
+nu_j. Transported to q0, the Hamilton equations of the discrete Lagrangian are
 
     b_i M_i = sum_J beta_J^i dexp*_{-Y_J} Ad*_{(e^{J-1})^-1} mubar
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,

@@ -1,7 +1,8 @@
 """Variational Crouch-Grossman methods on T*G, equation (3.18) of Marthinsen's thesis, with momenta by (3.19).
 
 All equations are written relative to q0, so the coadjoint action of q0 cancels. With e^j = exp(h b_j xi_j)
-e^{j-1}, E_i^j = exp(h a_ij xi_j) E_i^{j-1}, e^0 = E_i^0 = 1, E_i = E_i^s, Q_i = E_i q0, nu_j = Ad*_{E_j} n_j,
+e^{j-1}, E_i^j = exp(h a_ij xi_j) E_i^{j-1}, e^0 = E_i^0 = 1, E_i = E_i^s, Q_i = E_i q0, (xi_i, n_i) =
+f(Q_i, M_i) and nu_j = Ad*_{E_j} n_j,
 
     M_i = dexp*_{-h b_i xi_i} Ad*_{(e^{i-1})^-1} (mu0 + h sum_j b_j nu_j)
           - h sum_j (b_j a_ji/b_i) dexp*_{-h a_ji xi_i} Ad*_{(E_j^{i-1})^-1} nu_j,

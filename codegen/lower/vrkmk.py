@@ -115,8 +115,8 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the start values at the beginning of the step: xi for each v_i, b_i mu for m_i, and mu for
-        Lambda."""
+        """Return the initial guesses of the unknowns, computed at the beginning of the step: xi for each v_i,
+        b_i mu for m_i, and mu for Lambda."""
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         # m_i is b_i times a momentum, so its first value is b_i mu0.

@@ -52,8 +52,8 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # The next three lists contain, for each stage: n_i; R*_(r) M_i; and the negatives of all terms of
-        # dexp*_(r) M_i except the first term.
+        # For each stage, ``forces`` contains n_i, and ``slopes`` contains R*_(r) M_i. ``corrections``
+        # contains all terms of dexp*_(r) M_i except the first term, with the opposite sign.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -73,8 +73,8 @@ class _Step(ExpandedStep):
         # The r iterated brackets of v_i and the r iterated brackets of M_i are computed once. They occur in
         # dexp_(r), in its dual, and in its derivative.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
-        # dexp_{(r),X} v = xi is solved for the first term, v = xi - sum_{k>=1} ad_X^k v/(k+1)!, which is a
-        # contraction for small h.
+        # The equation dexp_{(r),X} v = xi is solved for its first term: v = xi - sum_{k>=1} ad_X^k v/(k+1)!.
+        # For small h, the right-hand side is a contraction in v, so the iteration converges.
         velocity = build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *_rest(brackets)])
         self.forces.append(n)
         self.slopes.append(self._slope(f"R{i + 1}", brackets, momenta))
@@ -82,7 +82,8 @@ class _Step(ExpandedStep):
         return velocity
 
     def _powers(self, x: Var, first: Var) -> list[Var]:
-        """Append ad_x^k ``first``, or (ad*_x)^k ``first``, for k = 0, ..., r."""
+        """Append and return ad_x^k ``first`` for k = 0, ..., r. If ``first`` is a covector, ad*_x replaces
+        ad_x."""
         powers = [first]
         for k in range(self.r):
             # ad_x^k v is formed from ad_x^{k-1} v: one bracket for each power.
@@ -119,7 +120,8 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the start values at the beginning of the step: xi for each v_i, and mu for each M_i."""
+        """Return the initial guesses of the unknowns, computed at the beginning of the step: xi for each v_i,
+        and mu for each M_i."""
         xi, _ = self.build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         return [xi] * self.s + [self.mu] * self.s
 

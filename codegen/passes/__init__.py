@@ -1,5 +1,5 @@
-"""The passes: pure functions over programs, one file for each. They run in a fixed order. A pass is called
-exact if the new program has the same results as the old program in exact arithmetic.
+"""The passes: pure functions that take a program and return a simpler one. They run in a fixed order. A pass
+is called exact if the new program has the same results as the old program in exact arithmetic.
 
 ``optimise`` runs the passes on a scene. After every pass it checks types and single assignment. It also
 interprets the new program at sample points, where the results must agree with the results of the lowered
@@ -78,13 +78,15 @@ class Optimiser:
             self._run(each)
 
     def plain(self) -> tuple[Program, tuple[PassReport, ...]]:
-        """Return the program after the passes that apply to every scene."""
+        """Return the program after the passes that apply to every scene, and the reports of these passes."""
         return self.program, tuple(self.reports)
 
     def framed(self) -> tuple[Program, tuple[PassReport, ...]]:
-        """Return the program in the body frame with smaller equations, if the scene has a body frame.
+        """Return the program in the body frame, and the reports of all passes. In the body frame the implicit
+        equations are smaller. If the scene has no body frame, the program stays in the space frame.
 
-        The new program may need more operations: the caller counts the operations of both programs.
+        The program in the body frame may need more operations than the program of :meth:`plain`, so the
+        caller counts the operations of both and chooses.
         """
         plain, reports = self.program, list(self.reports)
         # The interpreter converts the momentum to the body frame and back, so results can still be compared
@@ -127,8 +129,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass must follow value numbering, which gives the fixed-point equations of stages with equal
-        # coefficients the same variable on the right-hand side.
+        # This pass must follow value numbering. Stages with equal coefficients have equal right-hand sides in
+        # their fixed-point equations, and value numbering gives equal right-hand sides one variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # When two stages have been merged into one, several terms of a sum may contain the same value. Such
         # terms are added here, and may cancel.
@@ -139,11 +141,11 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # This pass must follow the pass for zeros. Terms that cancel would otherwise count as dependencies
         # between stages that are independent.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # The next pass combines values of a map in a sum only if nothing else reads these values. Therefore
-        # unused operations, which may read them, are removed first.
+        # The next pass replaces L(x) + L(y) by L(x + y) only if nothing else reads L(x) or L(y). Therefore
+        # unused operations, which may read these values, are removed first.
         Pass("unused values", UNUSED, dead.run),
-        # This pass replaces L(x) + L(y) by L(x + y), if no other sum reads L(x) or L(y). Then L is applied
-        # once and not twice. The next pass treats maps whose values are read by several sums.
+        # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y). Then the linear
+        # map L is applied once and not twice. The next pass treats maps whose values several sums read.
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
         # Factoring produces sums of a single term, which this pass removes.
@@ -166,8 +168,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
     return [
         Pass("body frame", "the equations are written in the body frame", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # Value numbering merges variables with equal momenta. This pass must precede the Legendre transform,
-        # because the Legendre transform replaces only one variable for each momentum.
+        # Value numbering merges variables that contain the same momentum. It must precede the Legendre
+        # transform, which replaces only one variable for each momentum.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The Legendre transform introduces inverses of maps. If a map is directly followed by its inverse,
@@ -187,8 +189,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # second operation that reads exp(x), and therefore precedes the pass for functions of ad.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # This pass must follow the pass for functions of ad, because the result of that pass shows in which
-        # frame the momenta need fewer operations.
+        # This pass adds residuals, each of which compares two formulas for a momentum. The result of the pass
+        # for functions of ad shows which momentum of a stage can be compared with the fewest operations.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverses of maps, so the passes for maps are repeated.
         Pass("inverse maps", inverse, opposites.run),

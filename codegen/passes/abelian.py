@@ -20,7 +20,8 @@ ZEROS = (Bracket, InverseDexpSlope)
 
 
 def run(program: Program, abelian: bool) -> Program:
-    """Return the program without operations that are the identity or zero."""
+    """Return the program without operations that are the identity or zero. ``abelian`` is True if the group
+    is abelian, so that every bracket vanishes."""
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         operation = assign.operation

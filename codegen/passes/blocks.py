@@ -28,11 +28,12 @@ def run(program: Program) -> Program:
 
 
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
-    """Return the statements of one block in order; add the images of its unknowns to ``names``."""
+    """Return the statements that replace a block, in order. Record in ``names``, for each unknown of the
+    block, the variable that replaces it in later statements."""
     # networkx is imported here and not at the top of the file, because only programs with blocks need it.
     import networkx
 
-    # In the statements after a block, and in the starts of later blocks, each unknown of the block is
+    # ``names`` contains the images of the unknowns of earlier blocks. Each start that is such an unknown is
     # replaced by its image.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)

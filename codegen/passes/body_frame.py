@@ -3,11 +3,11 @@ in the body frame of each stage.
 
 The pass is exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the
 algebra to Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a
-program commute with this transformation, so they do not change. Only the field is replaced, by the field of
-:mod:`codegen.scene.body_frame`: xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. Then the equations
-of a block read only those coordinates of q that the body's field reads. The program reads and returns the
-momentum of the body (:data:`codegen.ir.program.BODY`), so consecutive steps need no transformation between
-them.
+program commute with this transformation, so they do not change. Only the field (xi, n) is replaced, by the
+velocity W and the force N of :mod:`codegen.scene.body_frame`: xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P),
+P = Ad*_E~ M. Then the equations of a block read only those coordinates of q that W and N read. The program
+reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`), so consecutive steps need
+no transformation between them.
 
 A program is not changed if the scene has no body frame, or if an operation other than the field does not
 commute with the transformation.
@@ -57,7 +57,7 @@ class NotFramed(Exception):
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program in the body frame."""
+    """Return the program in the body frame, or the unchanged program if it cannot be rewritten."""
     kinds = {v.name: v.kind for v in program.inputs}
     # The body frame is defined by q and transforms mu, so the state must be a group element and a momentum.
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
@@ -96,8 +96,8 @@ class _Framing:
             # is not applied.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
-            # The initial values of the unknowns are computed before the block. Therefore they are renamed
-            # before the body of the block, which adds names to ``names``, is visited.
+            # The initial values of the unknowns are computed before the block. They are renamed before the
+            # body of the block is visited, because the visit adds names of values inside the block.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)

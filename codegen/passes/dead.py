@@ -1,4 +1,4 @@
-"""Remove dead code: values on which neither the new state nor the equations for the new state depend.
+"""Remove dead code: values that are needed neither for the new state nor for the equations of a block.
 
 The pass is exact. An unknown that nothing reads is removed from its block together with its equation. If
 nothing reads any unknown of a block, the block is replaced by those of its assignments that are still needed.

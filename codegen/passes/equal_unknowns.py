@@ -1,8 +1,8 @@
 """Unknowns with the same image (right-hand side of the fixed-point map) are merged into one unknown.
 
-The pass is exact. At a solution, unknowns with the same image are equal. The block is solved for the first of
-these unknowns only, from the start value of the first unknown. After :mod:`codegen.passes.value_numbering`
-has merged equal equations, stages with equal rows of coefficients thus become one stage.
+The pass is exact. At a solution, unknowns with the same image are equal. The block is solved only for the
+first of these unknowns, and the iteration begins with the start value of this unknown. Stages with equal rows
+of coefficients have the same image after :mod:`codegen.passes.value_numbering`, and so become one stage.
 """
 
 from __future__ import annotations

@@ -23,8 +23,8 @@ Other decreasing powers of two would be suitable, too. If the first step would m
 steps are shortened by the same factor."""
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
-"""If a step in doubles overflows or does not converge, steps of size 2^-k, for k in TINY_STEPS, are computed
-with DIGITS decimal digits.
+"""If no step in doubles can be compared, steps of size 2^-k, for k in TINY_STEPS, are computed with DIGITS
+decimal digits. If the field is large, they are shortened like the steps in doubles (:data:`STEPS`).
 
 The last of these steps is short enough even for a scene with a coefficient of 1e300."""
 
@@ -37,15 +37,15 @@ FAILURES = (NotConverged, ArithmeticError, ValueError)
 """The errors that interpreting a program may raise; ValueError is raised by a root of a negative number."""
 
 SWEEPS = 24
-"""The largest number of sweeps over a block. A step that needs more sweeps is too long for an accurate
-comparison.
+"""The largest number of sweeps over a block of the reference program in doubles. A step that needs more
+sweeps is too long for an accurate comparison. Tiny steps and compared programs may take twice as many sweeps.
 
 If each sweep divides the error by four, 24 sweeps divide it by 2^48, so that only rounding errors remain. For
 slower blocks the next, shorter step is tried."""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""If the results of two programs in doubles differ, the step is repeated with FEW_DIGITS digits and at most
-MORE_SWEEPS sweeps."""
+"""If the results of two programs in doubles differ, or only one of them converges, the step is repeated with
+FEW_DIGITS digits and at most MORE_SWEEPS sweeps."""
 
 NOT_A_NUMBER = "differs by nan"
 """The end of the message for a result that is not finite. Such a step is too long for a comparison."""
@@ -91,8 +91,8 @@ class _Step:
 
 
 class _Bounded(PreciseDomain):
-    """Arithmetic with many digits; an iteration that diverges raises an error before the limit of sweeps is
-    reached."""
+    """Arithmetic with many digits. If an iteration diverges, an error is raised as soon as its numbers are
+    large, and not only at the limit of sweeps."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function; raise OverflowError for an argument so large that few digits of the
@@ -104,7 +104,7 @@ class _Bounded(PreciseDomain):
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return whether the iteration has converged, and its last change, as :class:`PreciseDomain` does.
 
-        Raises NotConverged if the iteration diverges.
+        NotConverged is raised if the change is at least 10^digits, because the iteration then diverges.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
@@ -224,9 +224,10 @@ class Reference:
         return interpret(program, self.scene, domain, inputs, limit=limit, newton=False, solutions=solutions)
 
     def differs(self, program: Program) -> str:
-        """Return a description of the first difference, or ''.
+        """Return a description of the first difference between the results of ``program`` and the reference,
+        or '' if there is no difference.
 
-        Raises SceneError if the programs could not be compared at any point.
+        SceneError is raised if the programs cannot be compared at any point.
         """
         accounts = [self._in_some_step(program, point) for point in self.points]
         if all(account is None for account in accounts):
@@ -249,6 +250,8 @@ class Reference:
             except FAILURES as error:
                 if self._is_solved(step):
                     failure = f"interpretation failed: {error}"
+                elif (account := self._by_newton(program, step)) is not None:
+                    return account
                 continue
             account = self._gap(step, after)
             if account and not step.tiny:
@@ -270,6 +273,20 @@ class Reference:
         except FAILURES:
             return False
         return True
+
+    def _by_newton(self, program: Program, step: _Step) -> str | None:
+        """Solve the blocks of both programs by Newton's method in many digits and return the difference of
+        the results, or ''; return None if Newton's method fails for one of the programs."""
+        domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
+        solutions: dict[Var, Value] = {}
+        try:
+            first, second = (
+                interpret(p, self.scene, domain, inputs, limit=SWEEPS, solutions=solutions)
+                for p in (self.program, program)
+            )
+        except FAILURES:
+            return None
+        return self._gap(_Step(domain, inputs, first, {}, step.moved), second)
 
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
         """Repeat the step in many digits and return the difference found; return ``account`` if this step

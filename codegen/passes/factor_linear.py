@@ -1,8 +1,8 @@
 """Take linear maps out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2).
 
-The pass is exact. A value L(x) is taken out of a sum only if no other operation reads this value. L is a
-coadjoint operation, dexp* or another linear map, with the same group argument in all terms. The pass repeats
-until nothing changes, so that nested maps are taken out one after the other.
+The pass is exact. L is a coadjoint operation, dexp* or another linear map, which must be the same in all
+terms. A term L(x) is included only if no other operation reads the value L(x). The pass repeats until nothing
+changes, so that nested maps are taken out one after the other.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
     for k, (c, arg) in enumerate(assign.terms):
         source = rewriter.definitions.get(arg)
-        # If L(x) has a second reader, L(x) must be computed in any case, and applying L to a sum would be an
-        # additional map.
+        # If another operation reads L(x), L(x) must be computed in any case. Applying L to the sum would then
+        # save nothing.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
         # Terms with the same operation, and the same arguments except the last, are values of the same linear
         # map and form a group. Every other term is a group of its own, because its key is its index.
@@ -50,8 +50,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # The coefficients move inside: sum c_k L(x_k) = L(sum c_k x_k).
         inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
         total = _lin(rewriter, inner)
-        # The new value gets the name of the first term. A person who reads the emitted code then sees from
-        # which map the value results.
+        # The new value gets the name of the first term, so a reader of the emitted code can tell which linear
+        # map was applied.
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
         moved = Assign((target,), source.operation, (*source.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))

@@ -1,4 +1,4 @@
-"""Join exact flows of one part into one flow if they commute with all flows between them.
+"""Join two exact flows of one part into one flow if they commute with all flows between the two.
 
 The pass is exact. Two flows commute if both orders of applying them give the same state. The pass tests this
 numerically: it applies two flows in both orders at sample points of the scene, with 40 digits and two
@@ -97,7 +97,8 @@ def word(program: Program) -> list[Letter] | None:
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
-    """Return the program that applies these flows, with the stage times of the old program."""
+    """Return the program that applies the flows ``letters`` in order. The assignments of stage times are
+    those of the old program."""
     # All stage times come first, which is possible because each stage time depends on t alone. The pass for
     # unused values removes stage times that no flow reads.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
@@ -146,8 +147,8 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
 
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:
-    """Return the parts whose flows commute with all other flows of a composition, in the order in which the
-    parts first occur."""
+    """Return the parts whose flows commute with the flows of all other parts of a composition, in the order
+    in which the parts first occur."""
     parts = tuple(dict.fromkeys(letter.part for letter in letters))
     bound = {p for a, b in combinations(parts, 2) if not commute(a, b) for p in (a, b)}
     return tuple(p for p in parts if p not in bound)

@@ -44,7 +44,7 @@ def rows(program: Program, scene: Problem) -> Program:
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
     # The state of a matrix group begins with its entries, row by row.
     side = round(len(names) ** 0.5)
-    # The rows of q exp(x) can be formed separately only if all numbers that the field reads are in one row.
+    # If the field reads entries in several rows of the position, the program is not changed.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
         return program
     fields = {a.args[0] for a in program.assigns() if isinstance(a.operation, BodyVelocity | BodyForce)}
@@ -77,8 +77,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             # x = scale y turns f(ad_x) into f(scale ad_y): both factors are now functions of the same ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
-    # If the argument of f(ad_x) is a sum of functions of ad_x, f is applied to each term. All terms of the
-    # new sum together can then be computed with two brackets.
+    # If the argument of f(ad_x) is a sum of terms g(ad_x) v, f is applied to each term, which gives
+    # (f g)(ad_x) v. All terms of the new sum together can then be computed with two brackets.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
@@ -117,7 +117,8 @@ def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
     """Append the sum ``total`` with the function ``word`` of ad_x applied to each term; return its target.
-    The terms are described by ``parts`` and are themselves functions of multiples of ad_x."""
+
+    ``parts`` has an entry (s, (y, W, v)) for each term: the term is W(ad_y) v, and x = s y."""
     terms = []
     for scale, (y, inner, v) in parts:
         joined = simplified((*inner, *(f.scaled(scale) for f in word)))
@@ -152,8 +153,8 @@ def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
-    # If all quotients of coefficients are equal to s, then x = s y. Callers use s as the scale of a factor,
-    # which must be a rational number.
+    # If all quotients of coefficients are equal to s, then x = s y. Callers use s as the scale of a factor.
+    # Such a scale must be rational.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 

@@ -17,7 +17,7 @@ def run(program: Program) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if isinstance(assign.operation, Act):
-            # An element that is not defined as an exponential has no exponent x.
+            # The action can be fused only if its group element is the result of an exponential.
             source = rewriter.definitions.get(assign.args[0])
             if (
                 source is not None

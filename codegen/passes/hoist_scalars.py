@@ -16,8 +16,8 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that contain a value. For each sum: its index, and the coefficient of the value in this sum
-divided by the coefficient of the value in the first sum."""
+"""The sums that contain one value, as pairs. A pair consists of the index of a sum and a quotient: the
+coefficient of the value in this sum, divided by its coefficient in the first of the sums."""
 
 
 def run(program: Program) -> Program:
@@ -39,14 +39,16 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
-    # After the number has been removed, value numbering can merge the maps of different multiples of x.
+    # L(c x) becomes c L(x). If a program contains L(c x) for several numbers c, value numbering then computes
+    # L(x) only once.
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Append a sum with expanded terms.
+    """Append a sum in which some terms are expanded, and return its target. If the expanded sum is a single
+    value with coefficient one, nothing is appended, and this value is returned.
 
     A term is expanded if it is a multiple c x of another value x, or a sum that no other assignment reads.
     """
@@ -74,8 +76,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 def _added(program: Program) -> Program:
     """Return the program in which terms that several sums contain in the same proportion are added once."""
     builder = Builder({v.name for v in defined(program)})
-    # Only sums in blocks are changed: a block is evaluated several times in a step, so it is worth saving an
-    # addition there.
+    # Only sums in blocks of implicit equations are changed. An iteration evaluates a block several times in a
+    # step, so it is worth saving an addition there.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
     return replace(program, body=tuple(body))
 
@@ -92,7 +94,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # A value that occurs twice in one sum is skipped, because it would have to be removed twice.
         distinct = len({k for k, _ in places}) == len(places)
-        # The quotient must not contain a negative power of h, because h may be zero.
+        # No quotient of two coefficients may contain a negative power of h, because h may be zero.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))
     totals: list[Assign] = []

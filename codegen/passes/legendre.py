@@ -1,13 +1,13 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
 The pass is exact. W(Q, P) is the velocity of a stage, as a function of its position Q and momentum P. Suppose
-that an unknown v equals W(Q, P) up to invertible linear maps. The inverse maps then give w = W(Q, P) from v,
-and at the solution P = W^{-1}(Q, w). The equations of the block define a momentum M, and further maps compute
-P from M. All other operations that read W, P, or an intermediate value of these maps now read values that are
-computed from v. A force thus no longer depends on an unknown momentum, and tearing removes the force from the
-unknowns. One equation remains for each v: the momentum computed from v equals the momentum M.
-:func:`residuals` adds this equation to the block. Statements after the block read the velocity from the
-unknown.
+that invertible linear maps transform W(Q, P) into an unknown v of a block of equations. The inverse maps then
+give w = W(Q, P) from v, and at the solution P = W^{-1}(Q, w). The equations of the block define a momentum M,
+and further maps compute P from M. The pass changes all other operations that read W, P, or an intermediate
+value of these maps: they now read values that are computed from v. A force thus no longer depends on an
+unknown momentum, and the pass :mod:`codegen.passes.tearing` removes the force from the unknowns. One
+equation remains for each v: the momentum computed from v equals M. :func:`residuals` adds this equation to
+the block. Statements after the block read the velocity from the unknown.
 """
 
 from __future__ import annotations
@@ -25,15 +25,17 @@ from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
 INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
-"""Operations that are invertible linear maps. A function of ad_x is invertible if x is small."""
+"""Operations that are invertible linear maps of their last argument. Those that are functions of ad_x are
+invertible if x is small."""
 
 
 @dataclass(frozen=True)
 class Path:
-    """The chain of invertible maps between an unknown and the momentum that determines it.
+    """The connection of an unknown with the momentum that determines it, by two chains of invertible maps.
 
-    ``outward`` are the maps from the velocity W(Q, P) to the unknown; ``inward`` are the maps from the base,
-    a momentum, to P. Both are in order of application. Each map has the previous value as its last argument.
+    The assignment ``velocity`` computes the velocity W(Q, P) of a stage from its position Q and momentum P.
+    The maps ``inward`` lead from another momentum, the base, to P. The maps ``outward`` lead from W(Q, P) to
+    the unknown. Both chains are in order of application. The last argument of each map is the previous value.
     """
 
     unknown: Var
@@ -48,7 +50,8 @@ class Path:
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program with momenta and forces computed from velocities."""
+    """Return the program with momenta and forces computed from velocities; the same program if no inverse of
+    the map from momentum to velocity is known."""
     # Without W^{-1} a momentum cannot be computed from a velocity.
     if scene.body is None or scene.body.inverse is None:
         return program
@@ -74,7 +77,8 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def residuals(program: Program, scene: Problem) -> Program:
-    """Return the program with residuals in each block whose unknowns all follow from velocities."""
+    """Return the program with residuals in each block in which every unknown has a path from a velocity
+    (:func:`path`); the same program if no inverse of the map from momentum to velocity is known."""
     if scene.body is None or scene.body.inverse is None:
         return program
     build = Builder({v.name for v in defined(program)})
@@ -107,8 +111,9 @@ def path(block: Solve, unknown: Var) -> Path | None:
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the chain of invertible linear maps that ends in var, in order, and the assignment before the
-    chain."""
+    """Return the chain of invertible linear maps whose result is ``var``, in order of application, and the
+    assignment that computes the argument of the first map. Without maps it is the assignment of ``var``. It
+    is None for a value that no assignment in ``maker`` computes."""
     maps: list[Assign] = []
     while True:
         source = maker.get(var)
@@ -125,7 +130,7 @@ def _invertible(assign: Assign) -> bool:
 
 
 def _undone(build: Builder, assign: Assign, value: Var) -> Var:
-    """Append the inverse of the map that an assignment applies; the argument of the inverse is ``value``."""
+    """Append an operation that applies the inverse of an assignment's map to ``value``. Return its result."""
     operation = assign.operation
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
@@ -140,8 +145,8 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append assignments that compute all values on a path from the unknown of the path. Return a dictionary
-    from old to new variables of these values, and the new variable of the base."""
+    """Append assignments that compute every value on a path, starting with the unknown of the path. Return a
+    dictionary from the old to the new variables of these values, and the new variable of the base."""
     replaced: dict[Var, Var] = {}
     value = route.unknown
     replaced[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
@@ -159,8 +164,8 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append and return the residual: a momentum from the equations of the block, minus the same momentum
-    computed from the velocity. The momentum that is compared is either the base, or P, or a value between the
-    two, whichever needs the fewest operations.
+    computed from the velocity. This momentum is the base, or P, or a value between the two. It is chosen so
+    that the residual needs few operations.
     """
     replaced, computed = _values(build, route)
     # The two momenta may be compared at any place of the path: the maps of the path are invertible, so the
@@ -176,7 +181,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if P is Ad*_{exp x} of a sum of functions of multiples of ad*_x."""
+    """Return True if P is Ad*_{exp x} of a sum in which each term is a function of a multiple of ad*_x,
+    applied to a value."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
         return False
@@ -197,8 +203,8 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # Every value on the path is computed from the unknown; a later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The base is computed from the equations in any case, as a sum of terms of other stages, because the
-    # equation that remains reads it. The other statements therefore read this sum, too.
+    # The equation that remains reads the base, a sum of terms of other stages. The base is therefore computed
+    # from the equations in any case, and the other statements read this value, too.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # Statements of the path itself are not changed: they are the equation that remains to be solved.

@@ -14,7 +14,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
-    """Return the program without pairs of inverse operations."""
+    """Return the program without adjoint operations that cancel in pairs or do not change their argument."""
     return rewrite(program, _rule)
 
 
@@ -23,8 +23,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if isinstance(operation, Adjoint):
         g, x = assign.args
         source, element = rewriter.definitions.get(x), rewriter.definitions.get(g)
-        # The variables of g are compared, not their values, because value numbering has merged equal elements
-        # into one variable.
+        # Two group elements are equal if they are the same variable, because value numbering has merged equal
+        # elements into one variable.
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
         # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0. This is false on the

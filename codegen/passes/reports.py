@@ -24,8 +24,8 @@ class PassReport:
 
     name: str
     because: str
-    # The programs are stored in addition to counts, because ``emit --explain`` prints the program after each
-    # pass.
+    # Whole programs are stored and not only counts of operations, because ``emit --explain`` prints the
+    # program after each pass.
     earlier: Program
     program: Program
 
@@ -41,7 +41,8 @@ class PassReport:
 
     @property
     def removed(self) -> dict[str, int]:
-        """How many of each operation the pass removed (negative: added)."""
+        """The number of removed operations, by operation; a negative number counts operations that the pass
+        added. Operations whose number did not change are omitted."""
         before, after = self.before, self.after
         # The names are sorted, so that reports do not depend on the order of the statements.
         change = {n: before.get(n, 0) - after.get(n, 0) for n in sorted({*before, *after})}

@@ -1,4 +1,5 @@
-"""The traversal that local passes share: visit assignments in order, and replace them or their values."""
+"""The traversal that several passes share: a rule is applied to each assignment of a program in order, and
+may keep, replace or remove the assignment."""
 
 from __future__ import annotations
 
@@ -60,11 +61,13 @@ class Rewriter:
         if isinstance(statement, Assign):
             self._visit(statement)
             return self._out
-        # Starts are read before the block: they are renamed before the body defines new values.
+        # The starts (initial values of the unknowns) are read before the block, so they are renamed before
+        # the body defines new values.
         starts = tuple(self.now(v) for v in statement.starts)
         for assign in statement.body:
             self._visit(assign)
-        # Images and residuals are read after the body, when all values of the body have their new names.
+        # Images and residuals are results of the body. They are renamed last, when all values of the body
+        # have their new names.
         images = tuple(self.now(v) for v in statement.images)
         residuals = tuple(self.now(v) for v in statement.residuals)
         body = tuple(self._out)
@@ -77,7 +80,8 @@ def rewrite(program: Program, rule: Callable[[Rewriter, Assign], tuple[Var, ...]
 
 
 def defined(program: Program) -> Iterable[Var]:
-    """Yield every variable: inputs, targets, unknowns."""
+    """Yield every variable that a program defines: its inputs, the unknowns of its blocks, and the targets of
+    its assignments."""
     yield from program.inputs
     for statement in program.body:
         if isinstance(statement, Solve):

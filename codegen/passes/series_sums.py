@@ -53,14 +53,15 @@ class SeriesSums:
         """
         for target in assign.targets:
             self.definitions[target] = assign
-        # Only a closed form 1 + b ad + c ad^2 can be nested; other groups evaluate term by term.
+        # The nested form needs closed forms 1 + b ad_x + c ad_x^2. If the group has none, the caller adds the
+        # terms one by one.
         group = self.scene.group.offers(ClosedFormSeries)
         if not assign.terms or group is None:
             return None
         sums = self._groups(assign)
         if not sums:
             return None
-        # The nested sum already contains the terms of the groups; the remaining terms are added to it.
+        # Each group of terms becomes one nested sum. The terms that are in no group are added at the end.
         inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
@@ -72,7 +73,8 @@ class SeriesSums:
         return result
 
     def _groups(self, assign: Assign) -> list[list[Term]]:
-        """Return the groups of two or more terms that are functions of ad of multiples of one x."""
+        """Return the groups of terms for nested sums, each with at least two terms. The terms of a group are
+        functions of ad_y for multiples y of one value x."""
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)

@@ -1,4 +1,4 @@
-"""A sum that is the negative of an earlier sum is computed as that negative, which costs nothing.
+"""Compute a sum as the negative of an earlier sum, if possible. A change of sign costs nothing.
 
 The pass is exact. Commutator-free and Crouch-Grossman methods use both exp(x) and dexp*_{-x}; with this pass
 the sum x is computed once. The pass is the last of all, because other passes would multiply the factor -1

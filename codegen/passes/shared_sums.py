@@ -24,7 +24,8 @@ h, the first has coefficient one."""
 
 
 def run(program: Program) -> Program:
-    """Return the program with linear maps of common sums computed once."""
+    """Return the program in which a linear map is applied only once to a combination of values that several
+    sums contain."""
     while True:
         # The search is repeated, because values formed in one round may be terms of a combination in the next
         # round.
@@ -69,8 +70,11 @@ def _rule(
 
 
 def _worthwhile(program: Program) -> set[Share]:
-    """Return the combinations to factor: for each linear map that has fewer combinations than values in these
-    combinations, the combinations of two or more values."""
+    """Return the combinations of two or more values that are to be factored.
+
+    The combinations of a linear map are factored only if there are fewer different combinations than values
+    in them: otherwise factoring would not reduce how often the map is applied.
+    """
     worthwhile: set[Share] = set()
     for statement in program.body:
         # Only blocks are searched: a map in a block is evaluated in every sweep, but a map outside blocks is
@@ -92,8 +96,8 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return, for each linear map in a sum, the combination of the values of the map in this sum, and the
-    factor of this combination."""
+    """Return a dictionary from combinations to factors, with one entry for each linear map in a sum. The
+    factor times the combination is the part of the sum that consists of values of this map."""
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
         source = definitions.get(arg)

@@ -62,8 +62,8 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # The removed unknown may be the image of other unknowns; their image becomes the image of the removed
-    # unknown.
+    # If the image of another unknown is the removed unknown, that image is replaced by the image of the
+    # removed unknown.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 

@@ -1,6 +1,6 @@
-"""Printers: a kernel becomes source text, with one package for each target and a common infix notation.
+"""Printers translate a kernel to source text. Each target, for example C, has its own package of printers.
 
-A :class:`Target` contains everything that the rest of the compiler and the lab need to know about a target.
+A :class:`Target` contains everything that the other packages need to know about a target.
 :func:`register` adds a target, and :func:`target` returns it by name.
 """
 

@@ -51,7 +51,7 @@ class Style:
 
 
 DOUBLES = Style()
-"""Constants as doubles, functions by their own names."""
+"""The default style: constants are printed as doubles, and functions keep their names."""
 
 
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
@@ -102,7 +102,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
 
 
 def signed(x: Rendering) -> tuple[str, ...]:
-    """Return the segments with the sign."""
+    """Return the segments of ``x`` with its sign; a negative sum is printed in parentheses."""
     if not x.negative:
         return x.segments
     if x.precedence == SUM:

@@ -14,7 +14,7 @@ from typing import ClassVar
 from codegen.run.terms import Term
 
 CHOICE, OR, AND, NOT, COMPARED, SUM, PRODUCT, SIGN, ATOM = range(9)
-"""Precedence, weakest first."""
+"""Levels of precedence, from the weakest to the strongest binding."""
 
 LEVELS = {
     "or": OR,

@@ -99,7 +99,7 @@ class Interface:
 
     @property
     def newton(self) -> bool:
-        """True if statistics count matrices of Newton's method."""
+        """True if Newton's method solves a block; the statistics then also count its matrices."""
         return NEWTON in self.solvers
 
     @property

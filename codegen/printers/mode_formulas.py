@@ -13,7 +13,9 @@ from codegen.printers.expression import Style, render
 
 @dataclass(frozen=True)
 class Lines:
-    """A formula with several outputs: named values, computed in order, and the texts of the outputs."""
+    """The text of a formula with several outputs. ``assignments`` are pairs of a name and the text of its
+    value, in the order of evaluation. ``outputs`` are the texts of the outputs, which may contain the names.
+    """
 
     assignments: tuple[tuple[str, str], ...]
     outputs: tuple[str, ...]
@@ -23,8 +25,8 @@ class Lines:
 class ModeFormulas:
     """Writes the formulas of a step.
 
-    ``style`` contains the constants and function names of the target. ``names`` maps symbols of the scene to
-    identifiers, and no named value has an identifier in ``reserved``.
+    ``style`` determines the text of constants and function names in the target. ``names`` maps symbols of the
+    scene to identifiers. ``reserved`` are identifiers that an intermediate value must not have.
     """
 
     step: ModeStep
@@ -50,14 +52,15 @@ class ModeFormulas:
         return Lines(tuple(assignments), outputs)
 
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
-        """Return the text of a function of z, which is h times an eigenvalue of L. ``call`` returns the text
-        of a call, given a function and the text of its argument."""
+        """Return the text of a factor, a function of z. Here z is h times an eigenvalue of the linear part L.
+        ``call`` returns the text of a call, given a function and the text of its argument."""
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:
-        """Return the text of the values of a table, where ``f0``, ``f1``, ... are the factors of the step."""
+        """Return the text of the value of a table at one mode. The text names the values of the step's
+        factors at this mode ``f0``, ``f1``, ..."""
         number = {factor: f"f{k}" for k, factor in enumerate(self.step.factors)}
         words: list[str] = []
         for monomial, value in table.multiplier.key:
@@ -75,11 +78,12 @@ class ModeFormulas:
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
-        """Return the name of the spectrum of a term."""
+        """Return the name of the spectrum in a term: the old state, or a value of the nonlinear part."""
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
     def time(self, number: int, start: str) -> str:
-        """Return the text of the time of an evaluation in a step that begins at the time ``start``."""
+        """Return the text of the time of evaluation ``number``, given the text ``start`` of the time at which
+        the step begins."""
         c = self.step.evaluations[number].time
         if c.is_zero:
             return start

@@ -34,7 +34,7 @@ LONGEST_STATE = 64
 """An initial state with more than this many numbers is not printed in full in the usage example."""
 
 MOST_ENTRIES = 16
-"""The largest number of entries of a long state that the example sets."""
+"""The usage example sets the nonzero entries of a long initial state only if there are at most this many."""
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
@@ -87,8 +87,8 @@ def header(
     """Return the recipe's lines up to the usage example. A line is longer than ``width`` only if it is a
     single long word.
 
-    ``stack`` states the bound on the stack of a call, if the bound is known. ``inputs`` describes the
-    run-time inputs.
+    ``layout`` describes the state, ``counts`` the operations of a step, and ``inputs`` the run-time inputs.
+    ``stack`` states the bound on the stack of a call, if the bound is known.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']

@@ -39,7 +39,7 @@ def register(new: Target) -> Target:
 
 
 def unregister(name: str) -> None:
-    """Remove a target that was added by :func:`register`."""
+    """Remove a target that was added by :func:`register`; other names have no effect."""
     _registered.pop(name, None)
 
 

@@ -1,1 +1,2 @@
-"""The code around a kernel: solvers, warm start, continuation, step control, trajectories."""
+"""The emitted code around the arithmetic of a step: solvers, warm start, continuation, step control,
+trajectories."""

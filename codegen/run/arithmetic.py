@@ -1,4 +1,4 @@
-"""The arithmetic of a kernel as statements of the run representation: its body, its state, its inputs."""
+"""Statements of the run representation that evaluate a kernel, and load and store its state and inputs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ from codegen.run.warm_start import begun
 
 
 def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
-    """Return the statements of a kernel, in order, with ``after_loops`` after the last loop."""
+    """Return the statements of a kernel, in order, with ``after_loops`` after the last loop. If ``counting``
+    is true, the sweeps of loops are counted in the statistics."""
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
     # The solution is stored directly after the last loop, when all unknowns have their final values.
@@ -37,14 +38,16 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
-    """Return the statements that load those entries of an array whose symbols are in ``read``."""
+    """Return the statements that assign array entries to their symbols: entry i to ``symbols[i]``. Entries
+    whose symbols are not in ``read`` are omitted."""
     # Entries that are not read are not loaded, because C compilers warn of unused variables.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 
 
 def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Statement], list[Term]]:
-    """Return the statements that assign a kernel's outputs to names, and the names."""
+    """Return the statements that assign a kernel's outputs to names, and these names. An output that is
+    already a variable, and not an old entry of the state, keeps its name and needs no statement."""
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
@@ -59,7 +62,7 @@ def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Stat
 
 
 def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
-    """Return the statements that fill an array."""
+    """Return the statements that store values in an array, value k in entry k."""
     return [Assign(array[k], x) for k, x in enumerate(values)]
 
 

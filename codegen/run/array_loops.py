@@ -45,7 +45,8 @@ group (None for column 0) and the number of columns."""
 
 @dataclass(frozen=True)
 class ArrayLoops:
-    """Writes assignments of matrices; ``arrays`` are the names of arrays that are arguments."""
+    """Writes assignments of matrices as loops. ``arrays`` maps names of matrices to their arrays. Any other
+    matrix has an array with its own name."""
 
     arrays: dict[str, Term]
 
@@ -74,7 +75,7 @@ class ArrayLoops:
                 yield For(_ROW, whole(target.rows), (Assign(entry, entry + number(float(unit))),))
 
     def product(self, p: Multiplication) -> Iterator[Statement]:
-        """Yield the loops of a product."""
+        """Yield the loops of a product of two matrices."""
 
         def factor(row: Index, k: Term) -> Term:
             return self.entry(p.left, k, row) if p.left_transposed else self.entry(p.left, row, k)
@@ -108,7 +109,11 @@ class ArrayLoops:
         added: bool = False,
         before: Sequence[Statement] = (),
     ) -> Iterator[Statement]:
-        """Yield the statements that compute some entries of one or two rows as sums of products."""
+        """Yield the statements that compute entries of the target in the given rows and columns.
+
+        An entry is the sum of factor(row, k) other(k, column) for k < ``inner``. If ``added`` is true, the
+        sum is added to the old entry. The statements ``before`` are executed once for each k.
+        """
         totals: list[tuple[Term, Index, Index]] = []
         terms = [*before]
         for r, row in enumerate(rows):
@@ -125,7 +130,7 @@ class ArrayLoops:
             yield Assign(self.entry(target, row, column), total)
 
     def combination(self, c: Combination) -> Iterator[Statement]:
-        """Yield the loops of a linear combination."""
+        """Yield the loops of a linear combination of matrices."""
         target = c.target
         full = [t for t in c.terms if t.shape == (target.rows, target.columns)]
         weights: dict[int, Term | None] = {}
@@ -152,7 +157,8 @@ class ArrayLoops:
         return number(0.0) if result is None else result
 
     def summand(self, term: Summand, place: _Place) -> Term:
-        """Return the entry of a term's matrix, or of its transpose if the term is transposed, at a place."""
+        """Return the entry of a term's matrix at a place. For a transposed term it is the entry of the
+        transposed matrix."""
         turned = _Place(place.column, place.row) if term.transposed and place.column is not None else place
         return self.at(term.matrix, turned)
 
@@ -260,9 +266,9 @@ class _Place:
 def constant_entry(
     given: Entry, table: str, row: Term, column: Term, place: Term
 ) -> tuple[list[Statement], Term]:
-    """Return statements, and an entry of a constant matrix that may be read after these statements. If the
-    entry is a formula in its row or column, the statements convert these indices to reals; otherwise there
-    are none.
+    """Return an entry of a constant matrix, and the statements that must be executed before the entry is
+    read. If the entry is a formula in its row or column, the statements convert these indices to reals;
+    otherwise there are no statements.
 
     If the entries are numbers and not formulas, ``table`` is the name of their table, and ``place`` is the
     index in this table.
@@ -368,7 +374,8 @@ def _sign(c: Expr) -> int:
 
 
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
-    """Return the sum ``total`` plus the product of ``weight``, ``entry`` and the sign of the coefficient."""
+    """Return ``total`` plus ``weight`` times ``entry``, or minus if the coefficient of the term is -1. A
+    total of None counts as 0, and a weight of None as 1."""
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry
     if total is None:

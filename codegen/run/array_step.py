@@ -187,8 +187,9 @@ class _Exponential:
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
-        # -trace((G S)^2) is the square of the Frobenius norm of B S B^T. The eigenvalues of a skew matrix are
-        # pairs with equal absolute values, so half of the square bounds the square of the spectral norm.
+        # The exponent is the skew matrix E = B S B^T, and G = B^T B. The square of the Frobenius norm of E is
+        # -trace((G S)^2). The eigenvalues of E are pairs with equal absolute values, so half of this square
+        # bounds the square of the spectral norm of E.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))

@@ -22,8 +22,9 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # With run-time inputs the test would prove nothing: the values of the inputs may be the cause, and a
-    # shorter step reads other values.
+    # Steps with a warm start use the continuation instead of the function ``cause``. With run-time inputs the
+    # test would prove nothing: their values may be the cause of the failure, and a shorter step reads other
+    # values.
     return plan.start is None and not plan.kernel.inputs
 
 
@@ -50,7 +51,8 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
-    """Return the arguments of a step that follow its size. Statistics and the error estimate are absent."""
+    """Return the arguments after the step size in a call of the function that makes a step. The arguments for
+    the statistics and the error estimate are absent."""
     # The counters of the caller are omitted, because they count only the steps of the integration, and this
     # step is a test.
     counted = tuple(absent(x) for x in plan.counted)

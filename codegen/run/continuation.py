@@ -175,8 +175,8 @@ class _Continuation:
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # A failure replaces the factor by its square root, and a success squares the factor, so one success
-        # restores the factor after a failure.
+        # A success squares the factor. A failure after the first success replaces the factor by its square
+        # root, so the next success restores the factor.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),

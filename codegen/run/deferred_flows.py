@@ -108,7 +108,7 @@ def _scalars(plan: Plan) -> Sequence[str]:
 
 
 def _read(plan: Plan) -> tuple[Term, ...]:
-    """Return the scalars that a kernel's statements read."""
+    """Return those scalar arguments (time, step size, parameters, durations) that a kernel reads."""
     return plan.read(_scalars(plan))
 
 

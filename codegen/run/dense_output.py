@@ -36,7 +36,7 @@ class DenseOutput:
         return self.extend(), filling(self.mover, MOVED, about, self.inner), self.extended()
 
     def extend(self) -> Function:
-        """Return the function that computes the coefficients."""
+        """Return the emitted function that computes the coefficients of the extension of a step."""
         own, state = self.own, self.plan.state()
         body: list[Statement] = [
             *sampled(own),
@@ -51,7 +51,7 @@ class DenseOutput:
         return Function(EXTEND, about, parameters, tuple(body), guard=RAISES_NAN)
 
     def extended(self) -> Function:
-        """Return the function that evaluates the extension."""
+        """Return the emitted function that computes the state at a fraction theta of a step."""
         plan, state, m = self.plan, self.plan.state(), self.width
         pair, i, total = real("pair", self.mover.size), count("i"), real("total")
         entries = [self.powers[i + p * m] for p in range(self.extension.degree)]
@@ -71,10 +71,12 @@ class DenseOutput:
         return Function(EXTENDED, about, parameters, body)
 
     def coefficients(self, state: Term, t: Term, h: Term) -> Call:
-        """Return the call that computes the coefficients of the step of size h."""
+        """Return the call that computes the coefficients of the extension of one step. The step begins at the
+        time ``t`` with ``state`` and has the size ``h``."""
         own = self.own
         return Call(EXTEND, (state, *own.moment(t, h), *own.parameters, *own.sampled(), self.powers))
 
     def state_at(self, state: Term, theta: Term) -> Call:
-        """Return the call that computes the state at the fraction ``theta`` of the step."""
+        """Return the call that computes the state at the fraction ``theta`` of the step that begins with
+        ``state``. The coefficients of this step must have been computed."""
         return Call(EXTENDED, (state, self.powers, theta, self.inner))

@@ -139,7 +139,8 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of a function after an arithmetic error."""
+        """Return the result of a function after an arithmetic error: the status NOT_FINITE or, depending on
+        the guard, NaN. In the second case the arrays that the function changes are filled with NaNs."""
         # Exact numbers and mpmath numbers raise an exception where IEEE arithmetic computes an infinity or a
         # NaN.
         if function.guard == RAISES_STATUS:
@@ -159,7 +160,7 @@ def is_number(x: Any) -> bool:
 
 
 class _Compiler:
-    """Closures for the body of one function."""
+    """Compiles the body of one function to closures."""
 
     def __init__(self, machine: Machine, identifiers: Identifiers) -> None:
         self.machine, self.identifiers = machine, identifiers
@@ -208,8 +209,7 @@ class _Compiler:
         index, number, body = self.identifiers.of(loop.index), self.term(loop.count), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # The count is evaluated once, before the loop, because the body of a loop never changes its
-            # count.
+            # The count is evaluated once, because the body of a loop never changes it.
             places = range(number(env))
             for k in reversed(places) if loop.reverse else places:
                 env[index] = k
@@ -281,7 +281,7 @@ class _Compiler:
         return run
 
     def store(self, target: Term) -> Callable[[Environment, Any], None]:
-        """Return the function that assigns to a scalar."""
+        """Return the function that assigns a value to an entry, a field or a scalar variable."""
         if target.op == "item":
             array, index = self.term(target.args[0]), self.term(target.args[1])
 
@@ -347,7 +347,7 @@ class _Compiler:
         return lambda env: env[identifier]
 
     def constant(self, term: Term) -> Value:
-        """Return a constant; a flag or count is a Python number."""
+        """Return the function whose value is a constant; a flag or count is a Python integer."""
         value: Any = None
         if term.op == "status":
             value = STATUSES.index(term.text)
@@ -399,7 +399,7 @@ class _Compiler:
                 return self.function(term.text, args)
 
     def function(self, name: str, args: Sequence[Value]) -> Value:
-        """Return a function of the mathematical library."""
+        """Return the function that evaluates a call of the mathematical library."""
         domain, first = self.machine.domain, args[0]
         match name:
             case "abs":

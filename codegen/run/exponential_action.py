@@ -1,6 +1,7 @@
 """The emitted function that computes the product of a matrix exponential and a vector.
 
-The statements compute exactly what :mod:`codegen.ir.exponential_action` computes in doubles.
+In double precision the function executes the same operations in the same order as
+:mod:`codegen.ir.exponential_action`, so the results are equal.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ _ROW, _COLUMN, _PLACE, _PART = count("i"), count("j"), count("place"), count("pa
 
 
 def exponential_action(function: ExponentialAction, precision: Precision) -> Function:
-    """Return the function that computes exp(a) y."""
+    """Return the emitted function that computes exp(a) y. Its result is NaN if the norm of a is too large."""
     n, entries = function.n, len(function.places)
     a, y, result = real("a", entries), real("y", n), real("result", n)
     b, p, work = real("scaled", entries), real("p", n), real("work", n)
@@ -71,7 +72,8 @@ def _entries(function: ExponentialAction) -> str:
 
 
 def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
-    """Return the statements that compute the largest sum of absolute values in a row of the matrix."""
+    """Return the statements that compute the norm of a: for each row the absolute values of the entries are
+    added, and the norm is the largest of these sums."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
     if function.n > SPARSE:
@@ -86,7 +88,7 @@ def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
 
 
 def _product(function: ExponentialAction, a: Term, y: Term, result: Term) -> list[Statement]:
-    """Return the statements result = a y."""
+    """Return the statements that assign the product a y to ``result``."""
     if function.n > SPARSE:
         value = real("total")
         added = Assign(value, value + a[function.n * _ROW + _COLUMN] * y[_COLUMN])

@@ -25,11 +25,12 @@ class EmittedFloats(FloatDomain):
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
         super().__init__(h)
-        # The limit is computed once, because it depends on the kernel and not on the argument.
+        # For arguments above this limit the functions return NaN. The limit is computed once, because it
+        # depends only on the kernel.
         self.limit = limit(DOUBLE, chain)
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
-        """Return c_k(z) for several indices k, computed together."""
+        """Return the Stumpff functions c_k(z) for the indices ``orders``; common values are computed once."""
         # The branches are the same as in the emitted functions, because the result of another polynomial
         # would differ in the last bit.
         if z <= TINY and len(orders) < 3:
@@ -45,8 +46,8 @@ class EmittedFloats(FloatDomain):
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
-        # c_2 = (1 - cos s)/s^2 cancels for small s. The half angle gives c_2 = sin(s/2)^2/(2 (s/2)^2)
-        # without cancellation.
+        # With the angle s = sqrt(z), c_2 = (1 - cos s)/s^2 loses digits by cancellation if s is small. The
+        # half angle gives c_2 = sin(s/2)^2/(2 (s/2)^2) without cancellation.
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
@@ -66,7 +67,7 @@ class EmittedFloats(FloatDomain):
 
     # A single c_k is computed by ``together``, too, so that the branches are written only once.
     def call(self, function: str, *args: float) -> float:
-        """Call a function as emitted code does."""
+        """Return the value of a function, with the same roundings as in emitted code."""
         (z, *_) = args
         if function.startswith("signed_stumpff"):
             k = int(function[-1])
@@ -89,8 +90,8 @@ class EmittedFloats(FloatDomain):
         return total
 
     def _slope(self, k: int, z: float, *, signed: bool) -> float:
-        # The formula is a difference divided by z. For small z the difference loses digits by cancellation,
-        # so the series is used.
+        # The derivative of c_k is the difference c_(k-1) - k c_k divided by 2 z. For small z the difference
+        # loses digits by cancellation, so the Taylor series of the derivative is used.
         if abs(z) > 1.0:
             if signed:
                 before, c = (self.call(f"signed_stumpff{i}", z) for i in (k - 1, k))
@@ -105,7 +106,7 @@ class EmittedFloats(FloatDomain):
 
 
 def _hyperbolic(k: int, z: float) -> float:
-    """Return c_k(z) for z < 0."""
+    """Return the Stumpff function c_k(z) for z < 0, by hyperbolic functions or by its series."""
     r = math.sqrt(-z)
     if k == 0:
         return math.cosh(r)
@@ -127,8 +128,8 @@ def _terms(k: int, name: str) -> tuple[float, ...]:
 
 
 def _short(k: int, z: float, name: str) -> float:
-    """Return the value of a short polynomial: its terms are added in pairs, and the pairs from left to
-    right."""
+    """Return the Stumpff function c_k(z) for small z by a short polynomial. Its terms are added in pairs, and
+    the pairs from left to right."""
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
     # Terms are grouped in pairs as in the template ``stumpff_small``, because the grouping determines the
@@ -141,7 +142,8 @@ def _short(k: int, z: float, name: str) -> float:
 
 
 def _series(k: int, z: float) -> float:
-    """Return the Taylor polynomial; even and odd parts are summed separately, each in pairs of terms."""
+    """Return the Taylor polynomial of the Stumpff function c_k at z. The constant term is added last. In the
+    rest, even and odd powers are summed separately, each in pairs of terms."""
     first, *rest = _terms(k, "series")
     w = z * z
     even, odd = _chain(rest[::2], w), _chain(rest[1::2], w)

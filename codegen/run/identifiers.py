@@ -18,7 +18,8 @@ from codegen.run.terms import Term, names
 
 @dataclass(frozen=True)
 class Identifiers:
-    """The identifiers of the kernel's names in one function; array entries are ``array[k]``."""
+    """The identifiers of the kernel's names in one function; an entry of an array has the identifier
+    ``array[k]``."""
 
     by_name: Mapping[str, str]
 
@@ -34,7 +35,7 @@ class Identifiers:
 
 
 def plain_names(function: Function) -> frozenset[str]:
-    """Return the names that a function of the run representation itself uses."""
+    """Return the names in a function that belong to the run representation and not to the kernel."""
     used = (*function.parameters, *terms(function.body))
     return frozenset(t.text for t in used if t.op == "name" and not t.own)
 

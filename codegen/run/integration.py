@@ -153,7 +153,7 @@ class _Constant:
         return [*copied, Call("run", passed, (STATUS,))]
 
     def observed(self) -> Statement:
-        """Return the call that observes the step."""
+        """Return the call that searches the step for events and computes the states at its output times."""
         return self.observation.observe(self.plan.state(), self.trial, self.now, self.following, self.stop)
 
     def accept(self) -> tuple[Statement, ...]:
@@ -197,7 +197,7 @@ class _Adaptive(Controlled):
         )
 
     def limited(self) -> tuple[Statement, ...]:
-        """Return the statements that limit the size of the next step."""
+        """Return the statements that bound the size of the next step by LEAST and GREATEST."""
         return (
             If(self.length > GREATEST, (Assign(self.length, GREATEST),)),
             If(self.length < LEAST, (Assign(self.length, LEAST),)),

@@ -127,7 +127,7 @@ class _Jacobian:
         return Function("jacobian", "", parameters, tuple(body), Kind.STATUS, public=True)
 
     def single(self) -> list[Statement]:
-        """Return the call for a step without substeps."""
+        """Return the call of ``vary`` for a step without substeps."""
         plan = self.plan
         arguments = (*plan.moment(), *plan.parameters, *self.inputs)
         return [Call("vary", (plan.state(), self.vector, *arguments), (STATUS,))]

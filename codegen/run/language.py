@@ -4,15 +4,16 @@ Stopping rules, warm starts, continuation, runs and step control are written onc
 file for each concern. Printers translate it to a target; :mod:`codegen.run.execute` executes it over any
 scalars.
 
-A :class:`Function` has seven kinds of statement and comments (:class:`Note`): :class:`Assign`,
-:class:`Array`, :class:`For`, :class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a
-term. The rules of the representation suit targets in which a loop is a ``while_loop`` and a branch is a
+The body of a :class:`Function` consists of comments (:class:`Note`) and seven kinds of statement:
+:class:`Assign`, :class:`Array`, :class:`For`, :class:`While`, :class:`If`, :class:`Call` and :class:`Return`.
+The rules of the representation suit array languages, in which a loop is a ``while_loop`` and a branch is a
 ``select``:
 
 - A loop is never left from its middle; a status or flag in its test ends it.
 - Return is at the end of a function, or alone in an If of the outermost block. Such an If is called a guard.
   A target may compute the statements after a guard and then discard their results.
-- Statuses are values; there are no pointers. Arrays that a function receives may be changed in place.
+- A function returns its status as a value. There are no pointers, but a function may change the arrays that
+  it receives in place.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
 - ``Function.guard`` states the result after an arithmetic error, for targets that raise an exception where C
   computes an infinity or a NaN.
@@ -37,7 +38,8 @@ class Assign:
 
 @dataclass(frozen=True)
 class Array:
-    """The declaration of an array or record; the entries are undefined, zero, or the given values."""
+    """The declaration of an array or record. Its entries are set to ``values`` if these are given, and to
+    zero if ``zero`` is true; otherwise they are undefined."""
 
     name: Term
     values: tuple[Term, ...] = ()
@@ -50,7 +52,9 @@ class For:
 
     The passes through an ``independent`` or ``parallel`` loop may be executed in any order. A compiler should
     execute those of an independent loop with vector instructions, and those of a parallel loop on several
-    processors.
+    processors. A parallel loop changes no variable from outside the loop, except the ``reductions``: each is
+    an operation, ``+`` or ``max``, and the variable to which every pass applies the operation. If ``when`` is
+    given, the loop is parallel only if this test holds.
     """
 
     index: Term
@@ -59,6 +63,8 @@ class For:
     reverse: bool = False
     independent: bool = False
     parallel: bool = False
+    reductions: tuple[tuple[str, Term], ...] = ()
+    when: Term | None = None
 
 
 @dataclass(frozen=True)
@@ -84,7 +90,8 @@ class If:
 
 @dataclass(frozen=True)
 class Call:
-    """A call, results = function(arguments), of a function of the unit or of the target's library."""
+    """A call: results = function(arguments). ``function`` is the name of a function of the unit, of the
+    target's library, or of the caller of the unit (:data:`LANGUAGE`)."""
 
     function: str
     arguments: tuple[Term, ...]
@@ -106,24 +113,25 @@ class Note:
 
 
 LANGUAGE = frozenset({"sample", "measure"})
-"""The names in a :class:`Call` of the functions that the caller of the unit supplies: run-time inputs and
-event functions."""
+"""The functions that the caller of the unit supplies, by their names in a :class:`Call`: ``sample`` computes
+the run-time inputs, and ``measure`` the values of the event functions."""
 
 Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
-# Python raises exceptions where C continues with infinities and NaNs. With a guard both targets return the
-# same result.
+# After a division by zero, for example, Python raises an exception, and C continues with an infinity or a
+# NaN. A function with a guard returns the same result in both targets.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
-"""The effect of an arithmetic error: the function returns the status NOT_FINITE, or its result and the arrays
-that it changes are filled with NaNs."""
+"""The values of ``Function.guard``. After an arithmetic error, a function with RAISES_STATUS returns the
+status NOT_FINITE. With RAISES_NAN, its result and the arrays that it changes are filled with NaNs."""
 
 
 @dataclass(frozen=True)
 class Function:
-    """A function of the unit. ``public`` functions can be called from outside the unit; functions marked
-    ``often`` should be inlined. A function marked ``near`` evaluates functions of reals without branches
-    (:mod:`codegen.run.batch`)."""
+    """A function of the unit. ``about`` is its comment, and ``returns`` is the kind of its result (None if it
+    returns nothing). ``public`` functions can be called from outside the unit. Functions marked ``often``
+    should be inlined. In a function marked ``near``, sines, cosines and Stumpff functions have no branches.
+    They return NaN for arguments that are not near zero (:mod:`codegen.run.batch`)."""
 
     name: str
     about: str
@@ -138,7 +146,8 @@ class Function:
 
 @dataclass(frozen=True)
 class Record:
-    """Named values that persist between calls; a public record belongs to the caller."""
+    """A record type: values that functions keep from one call to the next, each with its name and a comment.
+    Records of a public type belong to the caller of the unit."""
 
     name: str
     about: str
@@ -159,7 +168,8 @@ class Table:
 class Unit:
     """All code around one kernel: records, tables, and functions, callees first.
 
-    ``scalars`` are the kernel's names that are arguments; they have the same identifiers in all functions.
+    ``scalars`` are the names of t, h and the parameters of the kernel. The identifier of each of these names
+    is the same in all functions.
     """
 
     scalars: tuple[str, ...]
@@ -178,7 +188,7 @@ class Unit:
 
 
 def blocks(statement: Statement) -> tuple[Body, ...]:
-    """Return the bodies inside a statement."""
+    """Return the bodies that a statement contains: one for a loop, two for a branch, otherwise none."""
     match statement:
         case For(body=body) | While(body=body):
             return (body,)
@@ -189,15 +199,16 @@ def blocks(statement: Statement) -> tuple[Body, ...]:
 
 
 def direct(statement: Statement) -> tuple[Term, ...]:
-    """Return the terms of a statement itself, targets first, without the terms of inner bodies."""
+    """Return the terms of a statement, without the terms in the bodies of a loop or branch. Terms that the
+    statement assigns come first."""
     match statement:
         case Assign(target, term):
             return (target, term)
         # The target comes first, because callers expect targets before the terms that are read.
         case Array(name, values):
             return (name, *values)
-        case For(index, count):
-            return (index, count)
+        case For(index, count, when=when):
+            return (index, count) if when is None else (index, count, when)
         case While(test) | If(test):
             return (test,)
         case Call(arguments=arguments, results=results):
@@ -235,7 +246,8 @@ def root(target: Term) -> Term:
 
 
 def assigned(statement: Statement) -> tuple[Term, ...]:
-    """Return the terms that a statement itself assigns."""
+    """Return the terms that a statement assigns. Assignments in the bodies of a loop or branch do not
+    count."""
     match statement:
         case Assign(target):
             return (target,)
@@ -252,8 +264,8 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 
 
 def reads(statement: Statement) -> Iterator[Term]:
-    """Yield the names that a statement itself reads. Changing an entry of an array counts as reading the
-    array."""
+    """Yield the names that a statement reads, without the bodies of a loop or branch. Changing an entry of an
+    array counts as reading the array."""
     given = assigned(statement)
     # An assignment to an entry keeps the other entries, so it depends on the old array.
     whole = {id(t) for t in given if t.op == "name"}

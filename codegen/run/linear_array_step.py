@@ -3,8 +3,9 @@
 The exponential of an exponent X is applied to y as in :mod:`codegen.ir.exponential_action`: X is halved s
 times, until a bound of its largest row sum is small. Then a Taylor polynomial of exp(2^-s X) of degree m is
 applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The remainder of each
-polynomial is below 2^-10 times the unit roundoff, relative to y. The bound of a sum is the sum of the bounds,
-and the bound of a commutator is twice the product of the bounds.
+polynomial is below 2^-10 times the unit roundoff, relative to y. The bound of a row sum follows two rules:
+the bound of a sum is the sum of the bounds of its terms, and the bound of a commutator [X, Y] is twice the
+product of the bounds of X and Y.
 """
 
 from __future__ import annotations
@@ -74,7 +75,8 @@ def linear_array_functions(plan: Plan, step: LinearArrayStep) -> tuple[Function,
 
 
 def linear_array_tables(step: LinearArrayStep, precision: Precision) -> tuple[Table, ...]:
-    """Return the tables of a step: entries of matrices that are given as numbers."""
+    """Return the tables of a step. They contain those entries of matrices that are given as numbers and not
+    by formulas."""
     return tuple(tables(step.matrix.constants(), precision))
 
 
@@ -113,11 +115,11 @@ class _Step:
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
-        """Return the array of a letter."""
+        """Return the array that contains the letter with the index ``number_of``."""
         return real(f"letter_{number_of + 1}", self.stored.letter_size)
 
     def letters(self, element: Element) -> tuple[Term, ...]:
-        """Return the arrays of the letters that an element contains, in order."""
+        """Return the arrays of all letters that an element and its commutators contain, sorted by index."""
         return tuple(map(self.letter, sorted(self._letters(element))))
 
     def _letters(self, element: Element) -> set[int]:
@@ -128,7 +130,8 @@ class _Step:
         return numbers
 
     def name(self, element: Element) -> str:
-        """Return the name of the function that applies an element with commutators."""
+        """Return the name of the function that multiplies a vector by ``element``, which contains
+        commutators."""
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
 
@@ -140,7 +143,7 @@ class _Step:
         return Call(PRODUCT, (self.letter(element.letter), x, y))
 
     def element(self, element: Element, done: set[int]) -> Function:
-        """Return the function that applies an element: result = X x."""
+        """Return the function result = X x, where X is ``element``, and add its id to ``done``."""
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
         body: list[Statement] = [Array(work)]
@@ -232,7 +235,7 @@ class _Step:
         return Function(name, about, (*given, state), body, Kind.STATUS)
 
     def norms(self, element: Element) -> tuple[Statement, ...]:
-        """Return the statements that compute a bound of the norm of an element."""
+        """Return the statements that compute ``norm``, a bound of the largest row sum of an element."""
         body: list[Statement] = []
         bounds: dict[int, Term] = {}
         for k in sorted(self._letters(element)):

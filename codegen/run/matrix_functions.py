@@ -60,7 +60,8 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 
 
 def used(functions: Iterable[Function]) -> list[VectorFunction]:
-    """Return the vector functions that functions of a unit call, sorted by name."""
+    """Return the vector functions, such as the matrix exponential, that ``functions`` call, sorted by
+    name."""
     called = {s.function for f in functions for s in statements(f.body) if isinstance(s, Call)}
     functions_called = map(vector_function, sorted(called))
     return [function for function in functions_called if function is not None]
@@ -84,13 +85,15 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # All exponentials of matrices of the same size share one function for the norm.
+        # Each name is listed once, because all exponentials of matrices of the same size call the same
+        # function for the norm.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
 
 def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> tuple[Table, ...]:
-    """Return the table of the coefficients of Taylor polynomials; none without an exponential."""
+    """Return the table of the coefficients 1/k! of Taylor polynomials, or no table if no function is an
+    exponential that reads it."""
     if not any(isinstance(f, MatrixExponential | SpecialUnitaryExponential) for f in functions):
         return ()
     row = tuple(precision.round(Fraction(1, factorial(k))) for k in range(DEGREES[-1] + 1))
@@ -160,7 +163,8 @@ class _Exponential:
     def _sum(
         self, a: Term, b: Term, factors: Sequence[tuple[int, int]], entry: Term, part: int
     ) -> list[Statement]:
-        """Return the statements that compute one entry of a product."""
+        """Return the statements that compute ``entry`` of a product of two jets a and b. The entry belongs to
+        the sum of a_p b_q over all pairs (p, q) in ``factors``, where a_p is matrix number p of a."""
 
         def terms(k: Term) -> list[Term]:
             return [self.entry(a, _ROW, k, p) * self.entry(b, k, _COLUMN, q) for p, q in factors]
@@ -213,8 +217,8 @@ class _Exponential:
         )
 
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
-        """Return the statements that evaluate the Taylor polynomial of the lowest degree that is
-        sufficient."""
+        """Return the statements that evaluate a Taylor polynomial of the exponential. Its degree is the
+        lowest one whose remainder is below rounding level for matrices of this norm."""
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
         first, second, third, _ = self.norms

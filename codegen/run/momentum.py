@@ -18,7 +18,7 @@ from codegen.run.terms import NOT_FINITE, OK, Kind, Term, all_finite, code, coun
 ENTER, LEAVE = "enter_body", "leave_body"
 
 MOVING = "moving"
-"""The name of the state with body momentum."""
+"""The name of the array with the state of a run, in which the momentum is in the body frame."""
 
 
 def momentum_before(plan: Plan) -> Term:
@@ -28,7 +28,8 @@ def momentum_before(plan: Plan) -> Term:
 
 
 def turning(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions that convert the momentum, and the functions that begin and end a run."""
+    """Return the functions that convert the momentum, and the functions that begin and end a run. If the run
+    does not use the momentum in the body frame, there are no such functions."""
     carried = plan.kernel.carried
     if carried is None:
         return ()

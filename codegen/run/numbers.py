@@ -1,4 +1,4 @@
-"""The number of scalars that a call stores at the same time, which bounds the size of its stack."""
+"""A bound of the number of scalars that a call of an emitted function keeps on the stack at the same time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ REGISTERS = 8
 
 
 def numbers_held(unit: Unit) -> int:
-    """Return the number of scalars in all private functions, plus the largest number in a public function."""
+    """Return a bound of the number of scalars that one call of a public function keeps on the stack: the sum
+    over all private functions, plus the largest number in a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
     # A public function that a private function calls is counted like a private function.

@@ -1,9 +1,9 @@
-"""Output at given times and events, inside the steps of a run.
+"""States at output times, and the search for events, inside the steps of a run.
 
-A state inside a step is the result of one step from the beginning of this step to the given time. It is on
-the manifold, and it has the order of the method, for every family. If a continuous extension was requested,
-it computes the states at output times (:mod:`codegen.run.dense_output`). The steps of the run do not depend
-on output times.
+To compute a state inside a step, one shorter step is made from the beginning of this step to the given time.
+The state is therefore on the manifold, and has the order of the method. If a continuous extension was
+requested, the extension computes the states at output times instead (:mod:`codegen.run.dense_output`). The
+steps of the run do not depend on output times.
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of
 sign between two of these times. Two zeros of one function between two of these times are not found. A value
@@ -71,8 +71,8 @@ RISING, FALLING = 1, 2
 
 
 class Observation:
-    """The arguments, variables and functions of output times and events; the arguments are those of the
-    public run."""
+    """Builds the functions for output times and events. The attributes are arguments of the public run, or
+    variables of these functions."""
 
     times, amount = real("times", 0, optional=True), count("count")
     written = count("written", 1, cell=True)
@@ -103,7 +103,8 @@ class Observation:
 
     @property
     def sound(self) -> Term:
-        """The test that a step was observed without an error."""
+        """The test that the observation of a step has succeeded: the status is OK, or EVENT if an event ends
+        the run."""
         good = STATUS.equals(code(OK))
         return either(good, STATUS.equals(code(EVENT))) if self.events else good
 
@@ -114,7 +115,7 @@ class Observation:
 
     @property
     def buffers(self) -> tuple[Term, ...]:
-        """The arguments for events."""
+        """The arguments for events; none if there are no event functions."""
         if not self.events:
             return ()
         return (
@@ -124,12 +125,13 @@ class Observation:
 
     @property
     def memory(self) -> tuple[Term, ...]:
-        """The signs and values of the event functions at the last time."""
+        """The arrays with the signs and values of the event functions at the time up to which events have
+        been searched; none if there are no event functions."""
         return (self.signs, self.values) if self.events else ()
 
     def begin(self, state: Term, now: Term, end: Term) -> tuple[Statement, ...]:
-        """Return the statements at the beginning of a run: output times are tested, and output at the initial
-        time is written."""
+        """Return the statements at the beginning of a run. They test the output times, write the output at
+        the initial time, and evaluate the event functions."""
         ordered = flag("ordered")
         place = self.written[0]
         first = (Assign(self.rows[place], state), Assign(place, place + 1))
@@ -179,7 +181,8 @@ class Observation:
         return Function(INSIDE, about, parameters, body, Kind.STATUS)
 
     def state_at(self, state: Term, elapsed: Term) -> tuple[Statement, ...]:
-        """Return the call of ``inside`` for a time after the beginning of the step."""
+        """Return the call of ``inside`` that computes the state when the time ``elapsed`` has passed since
+        the beginning of the step."""
         plan = self.plan
         moment = plan.moment(self.now, elapsed)
         return (Call(INSIDE, (state, *moment, *plan.parameters, *plan.sampled(), self.inner), (STATUS,)),)
@@ -210,7 +213,8 @@ class Observation:
         return Function(ORDERED, about, (self.now, self.end, self.times, self.amount), body, Kind.FLAG)
 
     def measure(self, time: Term, state: Term) -> tuple[Statement, ...]:
-        """Return the statements that evaluate the event functions."""
+        """Return the statements that evaluate the event functions. If a value is not finite, the status
+        becomes BAD_EVENT."""
         return (
             Call("measure", (EVENT_FUNCTIONS, time, state), (self.measured,)),
             If(negated(all_finite(self.measured)), (Assign(STATUS, code(BAD_EVENT)),)),
@@ -224,14 +228,15 @@ class Observation:
         return (For(i, whole(self.events), (Assign(self.signs[i], sign),)),)
 
     def changed(self, i: Term, values: Term) -> Term:
-        """Return the test that an event function has changed its sign; ``values`` are the new values."""
+        """Return the test that event function ``i`` has changed its sign; ``values`` are the new values of
+        all event functions."""
         # If the stored sign is zero, the last value was exactly zero: it was the first value of the run, or
-        # it was recorded as an event. The next value is then no change of sign, even if it is not zero.
+        # it was recorded as an event. A nonzero value after this zero does not count as a change of sign.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
     def crossed(self) -> Function:
-        """Return the function that tests for a change of sign."""
+        """Return the function that tests whether any event function has changed its sign."""
         i, any_changed = count("i"), flag("any_changed")
         inner = (If(self.changed(i, self.measured), (Assign(any_changed, truth(True)),)),)
         body = (
@@ -316,7 +321,8 @@ class Observation:
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
         """Return the statements that move the upper end of the interval to the middle, and those that move
         the lower end."""
-        # If the same end moves twice, the weight of the other end is halved (Illinois).
+        # If the same end moves in two successive trials, the weight of the values at the other end is halved
+        # (Illinois).
         moved_high: tuple[Statement, ...] = (
             Assign(high, self.middle),
             Assign(self.ahead, self.measured),
@@ -409,7 +415,8 @@ class Observation:
     known = flag("known")
 
     def begin_extension(self) -> tuple[Statement, ...]:
-        """Return the statements that prepare the computation of states inside a step."""
+        """Return the statements that prepare the continuous extension of a step; none without an
+        extension."""
         if self.dense is None:
             return ()
         # The array is cleared, because compilers cannot prove that it is filled before it is read.

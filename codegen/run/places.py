@@ -28,7 +28,8 @@ class Place:
 def places(kernel: Kernel) -> tuple[Place, ...]:
     """Return the positions of the blocks of a kernel's state.
 
-    The variation, if the kernel has one, is its last field and lies in a separate array.
+    A variation (a derivative of the state), if the kernel has one, is the last field of the state. It lies in
+    the separate array ``vector``.
     """
     # Callers of a Jacobian pass the variation separately, so the variation does not count as part of the
     # state.

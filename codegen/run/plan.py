@@ -48,7 +48,7 @@ class Plan:
 
     @property
     def symbols(self) -> tuple[str, ...]:
-        """The names of the state's numbers."""
+        """The symbols of the components of the state, in order."""
         return tuple(s for f in self.kernel.state for s in f.symbols)
 
     @property
@@ -69,7 +69,7 @@ class Plan:
 
     @property
     def parameters(self) -> tuple[Term, ...]:
-        """The run-time parameters."""
+        """The run-time parameters that the kernel reads."""
         return tuple(map(own, (s for s in self._used if s not in ("t", "h", LEAD, ELAPSED))))
 
     @property
@@ -90,7 +90,8 @@ class Plan:
 
     @property
     def remembers(self) -> bool:
-        """True if a step stores data for the next."""
+        """True if a step stores data for the next step: solutions of equations, or matrices of Newton's
+        method."""
         # Kernels without implicit equations store nothing, so their steps have no argument for a memory.
         return self.start is not None or self.newton
 
@@ -106,14 +107,15 @@ class Plan:
 
     @property
     def memories(self) -> Term:
-        """The memory of each substep, or of the step."""
+        """An array with the memory of each substep. If there are no substeps, it is the memory of the
+        step."""
         # Substeps differ in length, so the solutions of one substep cannot be extrapolated to the next
         # substep. Each substep has its own memory.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
 
     @property
     def statistics(self) -> Term:
-        """The optional statistics of the caller."""
+        """The argument for the record of statistics, which the caller may omit."""
         return record(STATISTICS, STATISTICS, optional=True)
 
     @property
@@ -126,22 +128,23 @@ class Plan:
         return real(name, self.size)
 
     def remembering(self, memory: Term) -> tuple[Term, ...]:
-        """Return the argument for the memory, none if steps store nothing."""
+        """Return a tuple with the argument ``memory``. It is empty if steps store nothing."""
         return (memory,) if self.remembers else ()
 
     @property
     def counted(self) -> tuple[Term, ...]:
-        """The argument for statistics, none if nothing is counted."""
+        """A tuple with the argument for statistics. It is empty if nothing is counted."""
         return (self.statistics,) if self.counting else ()
 
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:
-        """Return the arguments for the time, if it is read, and the step size."""
+        """Return the arguments for the time and the step size. The time is omitted if a step does not read
+        it."""
         # An unused argument would cause a warning of C compilers, and the time would be computed in vain in
         # each step.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
-        """Return the argument for run-time inputs, none if the kernel has no run-time inputs."""
+        """Return a tuple with the argument for run-time inputs. It is empty if the kernel has none."""
         return (inputs,) if self.kernel.inputs else ()
 
     @property
@@ -150,7 +153,7 @@ class Plan:
         return (real("held", len(self.kernel.inputs)),) if self.kernel.inputs else ()
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
-        """Return the scalars that the kernel's statements read."""
+        """Return the names of those ``scalars`` that the statements of the kernel read."""
         # Only the scheduled statements are searched, because scheduling may have removed all statements that
         # read a scalar.
         symbols = self.arrangement.symbols()

@@ -35,8 +35,8 @@ class Declarations:
     """The variables that are declared before each statement, and the variables that the statement itself
     declares.
 
-    Keys are ``id(statement)``. The values of ``by`` contain the names of variables, and for each name whether
-    the variable is constant.
+    Keys are ``id(statement)``. A value of ``by`` maps the name of each variable that the statement declares
+    to True if the variable is constant, and to False otherwise.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -136,15 +136,16 @@ class _Scopes:
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # The body of a For loop is executed at least once, because counts are positive. The body of a
-            # While with the test first, or of a branch, may be skipped.
+            # The body of a For loop is assumed to be executed at least once. The body of a While with the
+            # test first, or of a branch, may be skipped.
             if isinstance(statement, For) or (isinstance(statement, While) and statement.at_least_once):
                 return self.begins(statement.body, name)
             return False
         return False
 
     def declare(self, body: Body, places: list[int], name: str, variable: Term) -> None:
-        """Declare a variable in this block."""
+        """Declare a variable in the block ``body``. ``places`` are the indices of the statements that mention
+        the variable."""
         first = body[places[0]]
         # Assignments in inner blocks are counted, too: a variable that an inner block assigns again is not
         # constant.
@@ -170,7 +171,7 @@ class _Scopes:
         return self.counts[id(statement)]
 
     def own(self, statement: Statement) -> frozenset[str]:
-        """Return the variables that a statement itself mentions."""
+        """Return the variables that a statement mentions, without those of its inner blocks."""
         if id(statement) not in self.known_own:
             read = frozenset(self.identifiers.variable(x) for x in names(direct(statement)))
             self.known_own[id(statement)] = read

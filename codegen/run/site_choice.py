@@ -12,7 +12,8 @@ from codegen.run.solver_choice import Choice
 def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
     """Return the choice of a solver for each block of a lattice; ``name`` is the name of the scene.
 
-    MethodError is raised for an implicit method if a solver is requested that lattices do not have.
+    MethodError is raised if the method is implicit and ``asked`` is ``newton``. Lattices have only
+    fixed-point iteration, and chains have simplified Newton, too.
     """
     step = kernel.sites
     assert step is not None

@@ -1,12 +1,13 @@
 """The emitted functions of lattice steps that compose the flows of the parts of a field.
 
-Each part, with the number K, has two functions, or three if it calls sines or Stumpff functions. ``flow_K``
-contains a loop over adjacent sites, or over pairs of neighbours that have no site in common. Along the axis
-of the part, the first site of every pair has an even index in one set of pairs, and an odd index in the other
-set. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of a set. ``whole_K`` computes the same as
-``flow_K``, but with variants of sines and Stumpff functions that accept all arguments
-(:mod:`codegen.run.sites`). A kick reads neighbours and changes only momenta. Its functions are those of a
-sweep of :mod:`codegen.run.sites`, which changes the new state in place.
+The functions of a part have its number K in their names. ``flow_K`` contains a loop over adjacent sites, or
+over pairs of neighbours that have no site in common. Along the axis of the part, the first site of every pair
+has an even index in one set of pairs, and an odd index in the other set. ``part_K`` calls ``flow_K`` for all
+sites, or for all pairs of a set. If the part calls sines or Stumpff functions, ``whole_K`` computes the same
+as ``flow_K``, but with variants of these functions that accept all arguments (:mod:`codegen.run.sites`). In a
+periodic lattice, a part along the last axis also has ``pair_K``, which computes the pair of the last and the
+first site of a row. A kick reads neighbours and changes only the momenta of the new state, in place. It has
+the same functions as a sweep of :mod:`codegen.run.sites`.
 """
 
 from __future__ import annotations
@@ -22,12 +23,16 @@ from codegen.run.site_terms import (
     ARRAYS,
     BAD,
     COLUMNS,
+    FIRST,
     INDEX,
     NUMBER,
     PLACE,
     SITE,
     SITES,
+    SIZE,
     WHOLE,
+    chunks,
+    distributed,
     shape_of,
     split,
 )
@@ -43,6 +48,7 @@ from codegen.run.sites import (
 )
 from codegen.run.terms import Kind, Term, count, own, select, value, whole
 
+_PART_BAD = count("part")
 _NEAR, _START, _COLOUR, _PAIR, _ROW, _OTHER = (
     count(name) for name in ("near", "start", "colour", "pair", "row", "other")
 )
@@ -169,7 +175,8 @@ class _Part:
         return body
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
-        """Return the call that applies the flow to all sites or to all pairs of a set."""
+        """Return the call that applies the flow to all sites or to all pairs of a set. A flow of single sites
+        reads the old state if ``first`` is true; all other flows change the new state in place."""
         old, new = ARRAYS[STATE], ARRAYS[RESULT]
         scalars = tuple(duration if x is STEP else x for x in self.scalars)
         if self.paired:
@@ -195,11 +202,10 @@ class _Part:
         body = [Assign(BAD, whole(0)), *body, Return(BAD)]
         return Function(name, about, parameters, tuple(body), Kind.COUNT, often=True, near=near)
 
-    def _called(self, arguments: tuple[Term, ...]) -> list[Statement]:
+    def _called(self, arguments: tuple[Term, ...], *results: Term) -> list[Statement]:
         """Return the call of the function with the loop. If there are two such functions, the flag ``whole``
         selects ``whole_K`` or ``flow_K``."""
         given = (*arguments, SITES, *self.arrays, *self.scalars)
-        results = () if self.paired else (BAD,)
         call = Call(f"flow_{self.index}", given, results)
         if not self.special:
             return [call]
@@ -208,7 +214,8 @@ class _Part:
     def all_sites(self) -> Function:
         """Return the function ``part_K`` for a flow of single sites; it calls the function with the loop."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
-        body = self._called((whole(0), SITES))
+        call = self._called((FIRST, SIZE), _PART_BAD)
+        body: list[Statement] = [chunks(SITES, [*call, Assign(BAD, BAD + _PART_BAD)], (("+", BAD),))]
         return self._function(f"part_{self.index}", f"All sites: {self.own.about}.", parameters, body)
 
     def pairs(self) -> Function:
@@ -221,7 +228,11 @@ class _Part:
         body: list[Statement]
         if self.strided:
             body = [Assign(_ROW, first_site(outer, shape))]
-            body += self._called((_ROW + _COLOUR, (COLUMNS - _COLOUR) // 2))
+            pairs = (COLUMNS - _COLOUR) // 2
+            if last:
+                body += self._called((_ROW + _COLOUR, pairs))
+            else:
+                body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
                 # The last pair of the odd set consists of the last and the first site of a row.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
@@ -230,14 +241,17 @@ class _Part:
             body = self._rows(outer, shape)
         for e in range(last - 1, -1, -1):
             mine = e == self.own.axis
-            body = [For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))]
+            loop = For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))
+            # No two pairs of a set have a common site, so the pairs can be computed in any order.
+            body = [loop if e else distributed(loop)]
         parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
         first = [Assign(COLUMNS, shape[last])]
         about = f"The even (colour 0) or odd (colour 1) pairs: {self.own.about}."
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 
     def _rows(self, outer: list[Term], shape: Term) -> list[Statement]:
-        """Return the statements that apply the flow to all pairs of sites in two adjacent rows."""
+        """Return the statements that apply the flow to the pairs of two adjacent rows. Each pair has one site
+        in each row."""
         axis, length = self.own.axis, shape[self.own.axis]
         index = outer[axis]
         there = count("there")

@@ -1,7 +1,8 @@
 """Newton's method for the equations of a chain, with a block-tridiagonal matrix.
 
-The matrix 1 - g', to first order in h, is computed and factored once in each step. Let A_i, B_i and C_i be
-the blocks of site i for the unknowns of its left neighbour, of the site itself, and of its right neighbour.
+The equations are u = g(u), with the same number of unknowns at each site. The matrix 1 - g', to first order
+in h, is computed and factored once in each step. Let A_i, B_i and C_i be the blocks of site i for the
+unknowns of its left neighbour, of the site itself, and of its right neighbour.
 Block elimination (the Thomas algorithm) computes D_i = B_i - A_i D_{i-1}^{-1} C_{i-1} from left to right. The
 blocks are replaced by D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i. Rows are exchanged only within a block D_i.
 
@@ -18,7 +19,7 @@ from dataclasses import dataclass
 from codegen.ir.site_step import OWN, SiteBlock, SiteNewton, SiteStep
 from codegen.run.language import Array, Assign, Call, For, Function, If, Return, Statement
 from codegen.run.plan import STEP, TIME, Plan, symbols_of
-from codegen.run.site_terms import ARRAYS, MEASURED, PLACE, SITES, entry_of, moved, split
+from codegen.run.site_terms import ARRAYS, MEASURED, PLACE, SITES, distributed, entry_of, moved, split
 from codegen.run.terms import Kind, Term, count, greatest, number, own, real, select, size, whole
 
 _INNER, _LAST, _BASE, _FIRST = count("inner"), count("last"), count("base"), count("first")
@@ -83,8 +84,8 @@ class ChainSolver:
         return self.work[_BASE + site * (3 * n * n) + inner]
 
     def border(self, site: Term, i: Term, j: Term) -> Term:
-        """Return entry i, at a site, of column j of the border: the columns for the unknowns of the last
-        site."""
+        """Return entry i of a site in column j of the border. The border consists of those columns of the
+        matrix that multiply the unknowns of the last site."""
         return self.work[(self.newton.border + self.step.size + j * self.n + i) * SITES + site]
 
     def opening(self) -> list[Statement]:
@@ -120,7 +121,7 @@ class ChainSolver:
         stores = [
             Assign(self.work[_ENTRY + k] if k else self.work[_ENTRY], end) for k, end in enumerate(ends)
         ]
-        loop = For(PLACE, SITES, (*body, *inside, first, *stores))
+        loop = distributed(For(PLACE, SITES, (*body, *inside, first, *stores)))
         arrays = {x.row.array for x in newton.loads} | {"work"}
         scalars = tuple(x for x in (TIME, STEP, *self.plan.parameters) if x.text in read)
         given = tuple(array for name, array in ARRAYS.items() if name in arrays)
@@ -215,7 +216,8 @@ class ChainSolver:
         return [Assign(_LAST, _INNER - 1), For(place, n * n * SITES, (zero,)), *ends]
 
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
-        """Return the statements that solve for the border and invert the remaining block of the last site."""
+        """Return the statements that solve the equations of the other sites with the border as right-hand
+        side, and then compute and invert the block that remains for the last site."""
         n = self.n
         first = (self.newton.border + self.step.size + _J * n) * SITES
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
@@ -231,7 +233,8 @@ class ChainSolver:
         return [solved, self.both(pivot), invert, counted, self.both((stored,))]
 
     def correct(self) -> Function:
-        """Return the function that solves for the residuals and adds the solution to the unknowns."""
+        """Return the function that solves the linear equations with the residuals as right-hand side, and
+        adds the solution to the unknowns."""
         first = self.row(self.newton.residual)
         most, moves, largest, change = real("most"), real("moves"), real("largest_unknown"), real("change")
         rows = {load.symbol: load.row for load in self.step.sweeps[self.block.last].loads}
@@ -262,7 +265,8 @@ class ChainSolver:
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
-        """Return the statements that compute the unknowns of the last site, and then those of all sites."""
+        """Return the statements that compute the solution at the last site, and then subtract its
+        contribution from the solution at all other sites."""
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:

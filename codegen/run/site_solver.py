@@ -19,7 +19,7 @@ from codegen.kernel.schedule import METHODS
 from codegen.run.language import Array, Assign, Call, For, Function, If, Note, Return, Statement, While
 from codegen.run.plan import STEP, Plan
 from codegen.run.site_newton import ChainSolver, unsolved
-from codegen.run.site_terms import ARRAYS, MEASURED, SITES
+from codegen.run.site_terms import ARRAYS, MEASURED, SITES, distributed
 from codegen.run.statistics import SWEEPS
 from codegen.run.stopping import CHANGE, SCALE, Stopping
 from codegen.run.terms import (
@@ -40,7 +40,8 @@ from codegen.run.terms import (
 )
 
 MEASURE, REACH = "measured", "largest_state"
-"""The names of the functions that compute maxima over all sites: of changes and unknowns, and of states."""
+"""The names of two functions. The first computes the maxima of the changes and of the unknowns over all
+sites, and the second the largest absolute value in the states of all sites."""
 
 _REACH, _PLACE = real("reach"), count("place")
 
@@ -61,8 +62,8 @@ class _Stopping(Stopping):
 
 
 def loop_of(block: SiteBlock) -> Loop:
-    """Return the block as a loop without a warm start. The stopping rule reads the bounds and the name of
-    this loop."""
+    """Return a loop without a warm start that has the label and the unknowns of the block. The stopping rule
+    reads its label and its bounds."""
     newton = None if block.newton is None else Newton((), (), leading=True)
     # The loop gets a starting value, because a loop without starting values would have a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
@@ -119,15 +120,17 @@ def _measure(step: SiteStep) -> Function:
     )
     start = [count("changes"), count("sizes")]
     most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")
+    change = real("change")
+    reductions = (("max", most), ("max", largest), ("+", all_changes))
     body = (
-        Assign(most, greatest([most, work[start[0] + _PLACE]])),
-        Assign(all_changes, all_changes + work[start[0] + _PLACE]),
+        Assign(change, work[start[0] + _PLACE]),
+        Assign(most, greatest([most, change])),
+        # The sum is 0 or NaN. Therefore it does not depend on the order in which processors add the changes.
+        Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )
-    about = (
-        "The maxima over all sites of the changes and of the unknowns, and the sum of all changes, which is "
-    )
-    about += "finite only if all changes are."
+    about = "The maxima over all sites of the changes and of the unknowns, and 0, or NaN if a change is not "
+    about += "finite."
     return Function(
         MEASURE,
         about,
@@ -136,7 +139,7 @@ def _measure(step: SiteStep) -> Function:
             Assign(start[0], change_row),
             Assign(start[1], size_row),
             *(Assign(x, number(0.0)) for x in (most, all_changes, largest)),
-            For(_PLACE, SITES, body),
+            distributed(For(_PLACE, SITES, body), reductions),
             *(Assign(MEASURED[k], x) for k, x in enumerate((most, largest, all_changes))),
         ),
     )
@@ -146,10 +149,11 @@ def _reach(step: SiteStep) -> Function:
     """Return the function that computes the largest entry of the state."""
     state, most = ARRAYS[STATE], real("most")
     entry = Assign(most, greatest([most, size(state[_PLACE])]))
+    loop = distributed(For(_PLACE, step.size * SITES, (entry,)), (("max", most),))
     return Function(
         REACH,
         "The largest absolute value in the states of all sites.",
         (SITES, state),
-        (Assign(most, number(0.0)), For(_PLACE, step.size * SITES, (entry,)), Return(most)),
+        (Assign(most, number(0.0)), loop, Return(most)),
         Kind.REAL,
     )

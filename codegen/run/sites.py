@@ -1,8 +1,8 @@
 """The emitted functions for steps and runs of a lattice (:mod:`codegen.ir.site_step`).
 
-The number of sites in each dimension is an argument, ``shape``, so the text does not depend on it. Arrays are
-structures of arrays: row k contains component k of all sites. Within a row of an array, the last index of a
-site changes fastest.
+The emitted text does not depend on the number of sites in each dimension, because this number is an argument
+(``shape``). Arrays are structures of arrays: row k contains component k of all sites. Within a row of an
+array, the last index of a site changes fastest.
 
 For each sweep, with the number K, there are three functions. ``sweep_K`` computes adjacent sites whose
 neighbours all exist, in a loop without branches, which compilers turn into vector instructions. ``site_K``
@@ -39,13 +39,17 @@ from codegen.run.site_terms import (
     BAD,
     COLUMN,
     COLUMNS,
+    FIRST,
     INDEX,
     NUMBER,
     PLACE,
     ROW,
     SITE,
     SITES,
+    SIZE,
     WHOLE,
+    chunks,
+    distributed,
     entry_of,
     moved,
     shape_of,
@@ -166,7 +170,8 @@ class Loop:
         return entry_of(self.step, row, place)
 
     def loaded(self, load: Load, place: Term, around: dict[int, Term]) -> Term:
-        """Return the entry that a load reads."""
+        """Return the entry that a load reads. ``around`` maps the number of each neighbour to the index of
+        its site."""
         return self.entry(load.row, place if load.neighbour == OWN else around[load.neighbour])
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
@@ -204,8 +209,8 @@ class Loop:
         body: list[Statement] = [
             Assign(c, size(x - u)) for c, x, u in zip(changes, images, unknowns, strict=True)
         ]
-        # A maximum may lose a NaN. Therefore the sum of the changes minus itself is added to the maximum: it
-        # is zero, or NaN if a change is not finite.
+        # A maximum may lose a NaN. Let s be the sum of the changes. The difference s - s is NaN if a change
+        # is not finite, and zero otherwise, so it is added to the maximum.
         sum_of_changes = real("total")
         body.append(Assign(sum_of_changes, total(changes)))
         largest = (greatest(changes) + (sum_of_changes - sum_of_changes), greatest(map(size, unknowns)))
@@ -241,7 +246,7 @@ class Loop:
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
-        """Return the loads of the sweep's own kernel."""
+        """Return those loads whose symbols the kernel of the sweep reads, and the loads of the unknowns."""
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 
@@ -292,10 +297,12 @@ class Loop:
     def all_sites(self) -> Function:
         """Return the function for all sites."""
         body = self._row()
+        bad = (("+", BAD),) if self.last else ()
         step, shape = self.step, shape_of(self.step)
         outer = [count(f"i{e}") for e in range(step.dimension - 1)]
         for e in range(step.dimension - 2, -1, -1):
-            body = [For(outer[e], shape[e], tuple(body))]
+            loop = For(outer[e], shape[e], tuple(body))
+            body = [loop if e else distributed(loop, bad)]
         parameters = (WHOLE, shape, SITES, *self.arrays, *self.scalars)
         about = f"Sweep {self.index} over all sites; if whole is true, each site is computed alone."
         first = [Assign(COLUMNS, shape[step.dimension - 1])]
@@ -323,10 +330,18 @@ class Loop:
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
-        body.append(self._peeled(_LEAD, INDEX))
+        chain = self.step.dimension == 1
+        bad = (("+", BAD),) if self.last else ()
+        lead = self._peeled(_LEAD, INDEX)
+        # If each site is computed alone, this loop computes all sites of a chain.
+        body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
-        arguments = (_plus(ROW, low), _INNER, *starts, SITES, *self.arrays, *self.scalars)
-        body.append(If(_INNER > 0, tuple(self._called("sweep", arguments))))
+        places, number = [_plus(ROW, low), *starts], _INNER
+        if chain:
+            places, number = [place + FIRST for place in places], SIZE
+        arguments = (places[0], number, *places[1:], SITES, *self.arrays, *self.scalars)
+        sweep = self._called("sweep", arguments)
+        body.append(If(_INNER > 0, (chunks(_INNER, sweep, bad),) if chain else tuple(sweep)))
         body.append(self._peeled(COLUMNS - _LEAD - _INNER, _LEAD + _INNER + INDEX))
         return body
 
@@ -390,8 +405,8 @@ def _too_small(step: SiteStep) -> Term:
 
 
 def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
-    """Return the public function, which makes some steps of equal size. With ``twice``, a failed step is
-    repeated once, with the variants of functions that accept all arguments."""
+    """Return the public function, which makes several steps of equal size. If ``twice`` is true, a step whose
+    result is not finite is repeated once, with the variants of functions that accept all arguments."""
     later = exact_time(TIME, _DONE, STEP)
 
     def advance(old: Term, new: Term, separately: bool) -> Call:
@@ -413,7 +428,7 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
         If(STATUS.equals(code(OK)), (Assign(_DONE, _DONE + 1),)),
     )
     place = count("place")
-    copied = For(place, step.size * SITES, (Assign(_STATE[place], _WORK[place]),))
+    copied = distributed(For(place, step.size * SITES, (Assign(_STATE[place], _WORK[place]),)))
     statements: tuple[Statement, ...] = (
         If(given(_COMPLETED), (Assign(_COMPLETED[0], whole(0)),)),
         If(_too_small(step), (Return(code(BAD_SHAPE)),)),

@@ -77,7 +77,7 @@ take thousands of sweeps.
 
 
 NONLINEAR = 2
-"""The degree of expressions that are not linear."""
+"""The number that represents all degrees above one."""
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ class Choice:
 
 
 def known_solver(name: str) -> str:
-    """Return the name; UnknownName if it is not in :data:`CHOICES`."""
+    """Return ``name`` unchanged. UnknownName is raised if it is not in :data:`CHOICES`."""
     if name not in CHOICES:
         raise UnknownName(f"unknown solver {name}", expected=" or ".join(CHOICES))
     return name
@@ -254,7 +254,9 @@ def measured(trial: Trial, k: int) -> str:
 
 
 class _Selection:
-    """The choice for one program: candidates by solver, and the reasons why other solvers are left out."""
+    """The choice for one program. ``candidates`` contains the solvers that were tried, ``left_out`` the
+    reasons why others were not tried, and ``refused`` the errors of those for which no kernel can be
+    built."""
 
     def __init__(self, program: Program, scene: Problem, initial: tuple[float, ...], fixed: Kernel) -> None:
         self.program, self.scene, self.initial, self.fixed = program, scene, initial, fixed
@@ -355,8 +357,9 @@ class _Selection:
         """Return the candidate with the best solver of each block.
 
         If one solver is the best for all blocks, its candidate has been tried already. Otherwise the kernel
-        with several solvers is tried. If it is less robust than the fastest candidate with one solver for all
-        blocks, the latter is returned.
+        with several solvers is tried. It is returned if it is robust. It is also returned if it converges and
+        the fastest candidate with one solver for all blocks is not robust. Otherwise that candidate is
+        returned.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
@@ -368,8 +371,8 @@ class _Selection:
     def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
         """Return the choice if no solver converges directly: the cheapest solver with continuation in h.
 
-        If the continuation fails, or is not tried, the choice is Newton's method. If Newton's method is not
-        possible, the choice is fixed-point iteration.
+        The continuation is not tried for more than LARGE unknowns. If it fails or is not tried, the choice is
+        Newton's method. If there is no kernel with Newton's method, the choice is fixed-point iteration.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE

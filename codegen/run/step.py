@@ -1,7 +1,8 @@
 """One step: the kernel applied to a state, with checks of the result, and the composition of substeps.
 
-A step changes the state if it succeeds, and leaves it unchanged otherwise. The step size, the new state, and
-the entries of the old state that the kernel does not read must be finite.
+A step changes the state if it succeeds, and leaves it unchanged otherwise. It fails, among other cases, if an
+infinity or a NaN is in the step size, in the new state, or in an entry of the old state that the kernel does
+not read.
 """
 
 from __future__ import annotations
@@ -90,7 +91,8 @@ def kernel_step(plan: Plan) -> Function:
 
 
 def _remembered(plan: Plan) -> list[Statement]:
-    """Return the statements that store the solution and extrapolate the solution of the next step."""
+    """Return the statements that store the solution of the equations for the warm start, and extrapolate the
+    solution of the next step; no statements without a warm start."""
     if plan.start is None:
         return []
     solution = real("solution", len(plan.start.unknowns))

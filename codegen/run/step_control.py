@@ -15,7 +15,8 @@ If the caller gives no step size, the first trial covers 1/16 of the interval. A
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
 a few rejected steps; a guess that is too small would make many of the steps of a short run too small.
 
-Each step starts without memory, because solutions of steps of another size are bad initial guesses.
+An implicit step does not use the solutions of earlier steps, because solutions of steps of another size are
+bad initial guesses.
 """
 
 from __future__ import annotations
@@ -141,8 +142,8 @@ class Controlled:
 
     def body(self) -> tuple[Statement, ...]:
         """Return the statements of the run."""
-        # Integration backwards in time is allowed, so the test has a case for each direction. For a NaN both
-        # tests are false.
+        # Integration backwards in time is allowed, so the test has a case for each direction. If a time is a
+        # NaN, both comparisons are false, and no step is made.
         moving = either(self.now < self.end, self.now > self.end)
         return (
             *self.begin(),
@@ -162,7 +163,7 @@ class Controlled:
         # The arguments are tested once, before the loop. This is enough, because the loop only multiplies
         # step sizes by bounded factors.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
-        # The comparisons are false for a NaN, so a NaN is refused as well.
+        # If a tolerance is a NaN, its comparison is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
         # A rough first step size is sufficient: a rejection divides the step size by up to 5, and an accepted

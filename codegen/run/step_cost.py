@@ -142,7 +142,7 @@ class StepCost:
         return total
 
     def block(self, k: int, sweeps: float, matrices: float) -> Amounts:
-        """Return the amounts that one block adds."""
+        """Return the amounts that block number ``k`` adds to a step."""
         loop = self.kernel.loops[k]
         return of_sweep(loop, self.work).times(sweeps) + of_matrix(loop, self.work).times(matrices)
 

@@ -54,8 +54,8 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""The loop adds the last change to the unknowns before it stops, and the relative error of this change is
-about LEAST_RATE. The stopping test therefore adds LEAST_RATE to the rate of convergence.
+"""A loop over residuals adds the last change to the unknowns before it stops. The relative error of this
+change is about LEAST_RATE, so the stopping test adds LEAST_RATE to the rate of convergence.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
@@ -83,7 +83,8 @@ class Stopping:
 
     @property
     def rate(self) -> Term:
-        """The rate of convergence; in the first sweep, the rate stored by the step before."""
+        """The rate of convergence. In the first sweep it is the rate that the previous step has stored, or 1
+        if no rate is stored."""
         return real(f"rate_{self.number}")
 
     @property
@@ -119,7 +120,8 @@ class Stopping:
         ]
 
     def rates(self) -> list[Statement]:
-        """Return the statements that store the error of the initial guess, and the rate."""
+        """Return the statements that store the error of the initial guess, and the rate of convergence. There
+        are no such statements for a loop without a warm start."""
         if not self.warm:
             return []
         first = self.plan.memory.field("first")
@@ -163,8 +165,8 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test that h times the change is below the rounding errors of the state, or of the
-        variation."""
+        """Return the test that h times the change is below the rounding errors of the state. In a loop that
+        solves equations for a variation (a derivative of the state), the variation replaces the state."""
         # The unknowns of a variation do not change the state, so they are compared with the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
@@ -216,8 +218,8 @@ class Stopping:
                     # after a single sweep.
                     both(
                         SWEEPS > 1,
-                        # A small change that still decreases is no rounding error: at the rate 0.9, later
-                        # changes add nine times as much.
+                        # A small change that still decreases is no rounding error: at the rate 0.9, the sum
+                        # of all later changes is nine times this change.
                         either(
                             CHANGE * rate <= close * SCALE * (1.0 - rate),
                             both(rate >= 1.0, either(CHANGE <= tolerance * SCALE, self.lost())),
@@ -228,10 +230,11 @@ class Stopping:
         ]
 
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
-        """Return the statement that converts the flag ``converged`` to a status. The status is NOT_FINITE if
-        the value of the term ``finite`` is not finite.
+        """Return the statement that sets the status: NOT_FINITE if the value of the term ``finite`` is not
+        finite, otherwise OK if the flag ``converged`` is true, and NOT_CONVERGED if it is false.
 
-        ``possible`` is false if the matrix is singular. The flag ``converged`` is then meaningless.
+        If the matrix is singular, ``converged`` is meaningless and the test ``possible`` is false. Then the
+        status is not OK.
         """
         # The test for finite numbers comes first: comparisons with a NaN are false, so the loop would
         # otherwise continue.

@@ -2,8 +2,9 @@
 
 A banded matrix is stored diagonal by diagonal. Each diagonal has n places, and the entry a_{i, i + d} is at
 place i of its diagonal; places for which i + d is not a column of the matrix contain zeros. The entries of a
-full matrix are computed from formulas in the indices i and j. Only the values of those subexpressions are
-stored that contain neither i nor j, and each product computes the entries of the matrix from these values.
+full matrix are computed from formulas in the indices i and j. The entries themselves are not stored. Only the
+subexpressions that contain neither i nor j are stored, and each product with a vector computes the entries
+from their values.
 """
 
 from __future__ import annotations
@@ -128,7 +129,8 @@ class StoredMatrix(ABC):
         return list(indices.values())
 
     def hoist(self, given: Entry) -> Entry:
-        """Return an entry in which names replace the subexpressions without indices."""
+        """Return an entry in which names replace the subexpressions without indices. An entry that is a tuple
+        of numbers is returned unchanged."""
         return given if isinstance(given, tuple) else self.hoisted.formula(given)
 
 
@@ -277,7 +279,8 @@ class FullMatrix(StoredMatrix):
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
-        """Return the statement that adds a term on one diagonal."""
+        """Return the statement that adds ``weight`` times an entry of a diagonal, if the current row and
+        column lie on this diagonal."""
         # The index of an entry in the table of its diagonal is the smaller of its row and column. The test
         # below adds |offset| to this index and compares the sum with the larger of row and column. It
         # subtracts nothing, because counts must not become negative.
@@ -294,7 +297,8 @@ class FullMatrix(StoredMatrix):
 
 
 def stored_matrix(matrix: TimeMatrix, columns: int, nodes: int) -> StoredMatrix:
-    """Return the arrays and functions for a matrix; ``nodes`` is the number of nodes of the method."""
+    """Return the arrays and functions for a matrix. ``columns`` is the number of columns of the state, and
+    ``nodes`` the number of times t_i at which a step evaluates the matrix."""
     kind = BandedMatrix if matrix.is_banded else FullMatrix
     return kind(matrix, columns, nodes)
 

@@ -63,7 +63,8 @@ statement."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
-    """Return the statements of one loop; if the loop fails, the function returns the status of the loop."""
+    """Return the statements of one loop. If the loop fails, the emitted function that contains them returns
+    the status of the loop. Sweeps are counted in the statistics if ``counting`` is true."""
     newton = iteration.loop.newton
     if newton is None:
         return _FixedPoint(plan, iteration, counting).statements()
@@ -86,7 +87,7 @@ class _Loop:
 
     @property
     def number(self) -> int:
-        """The number of the loop in the kernel."""
+        """The number of the loop in the kernel; the first loop has the number 1."""
         return self.iteration.number
 
     @property
@@ -326,11 +327,12 @@ class _Newton(_Loop):
         return [*sequence, *([If(self.age > 0, tuple(counted))] if counted else [])]
 
     def matrix_counted(self) -> list[Statement]:
-        """Return the statement that counts a matrix."""
+        """Return the statement that counts a matrix in the statistics; none if nothing is counted."""
         return [count_matrix(self.plan)] if self.counting else []
 
     def prepared(self) -> list[Statement]:
-        """Return the statements that compute and invert the matrix of one step, before its sweeps."""
+        """Return the statements that compute and invert the matrix of one step, before its sweeps. If the
+        matrix is singular, the emitted function returns the status SINGULAR."""
         sequence = self.entries()
         if self.newton.inverted:
             return sequence

@@ -79,7 +79,7 @@ ORDER_TERM = own(ORDER)
 
 def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the function of the adaptive run and the functions that it calls, except those that
-    :func:`polynomial_step` returns. The result is empty if the method does not choose its steps.
+    :func:`polynomial_step` returns. The result is empty if the method does not choose its step sizes.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
@@ -98,8 +98,9 @@ def polynomial_step(plan: Plan) -> tuple[Function, ...]:
 
 
 def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
-    """Return the statements that compute the inner sums of order n = k + 1 of all products: the sums of
-    a_j b_{n-j} over 0 < j < n."""
+    """Return the statements that compute the inner sums of order n = k + 1 of all products of two series a
+    and b: the sums of a_j b_{n-j} over 0 < j < n. Row j - 1 of ``left`` contains a_j for all products, and
+    row j - 1 of ``right`` contains b_j. The number of columns is ``width``."""
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:

@@ -146,8 +146,8 @@ class Term:
 
 Operand = Term | float | int
 
-# A Python number gets the kind of the other operand. The index of an array has no other operand, so this
-# count is used there.
+# A Python number gets the kind of the other operand. The index of an array has no other operand, so _COUNT
+# is used in its place.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
@@ -208,7 +208,7 @@ STATUS = Term("name", (), Kind.STATUS, "status")
 
 
 def code(name: str) -> Term:
-    """Return a status code."""
+    """Return the constant for the status code ``name``, one of :data:`STATUSES`."""
     return Term("status", (), Kind.STATUS, name)
 
 
@@ -218,7 +218,7 @@ def number(x: float) -> Term:
 
 
 def whole(n: int) -> Term:
-    """Return a count."""
+    """Return a constant count."""
     return Term("number", (), Kind.COUNT, number=n)
 
 
@@ -310,8 +310,9 @@ def paired(terms: Iterable[Term]) -> Term:
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)
-    # The pairs are independent of one another, so n / 2 dependent additions remain. The grouping is chosen
-    # here, because compilers must not regroup a sum: floating-point addition is not associative.
+    # The pairs are independent of one another, so only about half of the additions depend on an earlier one.
+    # The grouping is chosen here, because compilers must not regroup a sum: floating-point addition is not
+    # associative.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 
@@ -332,7 +333,7 @@ def holding(inputs: Term) -> Term:
 
 
 def fresh(of: Term) -> Term:
-    """Return a record whose fields are all zero."""
+    """Return a record of the same type as ``of``, whose fields are all zero."""
     return Term("fresh", (), Kind.RECORD, record=of.record)
 
 

@@ -134,7 +134,8 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 
 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statements that call a step and set the status."""
+    """Return the statements that call a step and set the status. If a step with a warm start and without
+    substeps fails, they also call the continuation."""
     # A run with steps of constant size does not read the error estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
     call = Call(ADVANCE, (state, *given_arguments, *error), (STATUS,))

@@ -62,7 +62,8 @@ class Trials:
         self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]
 
     def run(self, steps: int, longer: int = 1) -> Trial:
-        """Make ``steps`` steps, each ``longer`` times as long as the steps of the usage example."""
+        """Make ``steps`` steps, each ``longer`` times as long as the steps of the usage example. Return the
+        counts of these steps."""
         first, last = self.span
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops
         counts, state = self.machine.record(STATISTICS), list(self.initial)

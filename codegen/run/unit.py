@@ -91,7 +91,7 @@ def _array_functions(plan: Plan) -> tuple[Function, ...]:
 
 def _causes(plan: Plan) -> list[Function]:
     """Return a list with the function that finds the cause of a failure. The list is empty if the
-    continuation finds the cause."""
+    continuation finds the cause, or if the kernel has run-time inputs."""
     return [cause(plan, ADVANCE, step_arguments(plan))] if is_searched(plan) else []
 
 

@@ -74,7 +74,8 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
 def _polynomial(
     y: Term, norm: Term, result: Term, coefficient: Term, precision: Precision
 ) -> list[Statement]:
-    """Return the statements that evaluate the Taylor polynomial of the lowest degree that is sufficient."""
+    """Return the statements that evaluate a Taylor polynomial of the exponential. Its degree is the lowest
+    one whose remainder is below rounding level for this norm."""
     first, second, third, _ = largest_norms(precision.bits)
     groups, group = count("groups"), count("group")
     trace, det = real("half_trace"), real("determinant")
@@ -113,8 +114,10 @@ def _coordinates(array: Term) -> tuple[Term, ...]:
 
 
 def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | None) -> list[Statement]:
-    """Return the statements of one step P := i^k/k! + H P of Horner's rule, where P is a polynomial of degree
-    2 in H. ``part`` contains the real or the imaginary parts of the coefficients of P."""
+    """Return the statements of one step P := i^k/k! + H P of Horner's rule. P is a polynomial of degree 2 in
+    H, because the characteristic equation H^3 = trace H + det replaces H^3. ``part`` contains the real or the
+    imaginary parts of the coefficients of P. ``added`` is the pair (1/k!, k), or None if i^k/k! does not
+    belong to ``part``."""
     last = real("last")
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [

@@ -1,4 +1,4 @@
-"""Single assignments of a kernel, and its calls, as statements of the run representation."""
+"""Translation of the assignments and calls of a kernel to statements of the run representation."""
 
 from __future__ import annotations
 

@@ -106,7 +106,8 @@ def memory_record(plan: Plan) -> Record:
 
 
 def differences(start: Start) -> Table:
-    """Return the coefficients of backward differences, by order."""
+    """Return the table of the coefficients of backward differences. Row k contains those of order k, the
+    coefficient of the latest solution first."""
     rows = tuple(
         tuple(float((-1) ** j * comb(order, j)) for j in range(order + 1)) for order in range(start.depth + 1)
     )
@@ -205,7 +206,8 @@ class WarmStart:
         ]
 
     def difference_size(self) -> Function:
-        """Return the function for the size of a difference."""
+        """Return the function that computes the size of a backward difference: the sum of the absolute values
+        of its components."""
         order, row, size_now = count("order"), real("row", self.n), real("size")
         body = (
             Array(row),
@@ -290,7 +292,8 @@ class WarmStart:
         adapt = (
             # If the motion is smooth on the scale of h, differences decrease with the order until rounding
             # errors dominate. Rounding errors double with each order. The order of the least difference is
-            # the best degree. The best degree changes slowly, so comparing with the two neighbours is enough.
+            # the best degree. It changes slowly, so comparing with the next lower and higher degree is
+            # enough.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
             # A difference of order k needs k + 1 solutions.

@@ -1,7 +1,7 @@
-"""Arrays that a step passes, tests and copies as a whole, instead of entry by entry.
+"""Arrays that an emitted step passes to functions and copies as a whole, instead of entry by entry.
 
 The state of a large matrix group is one array, and so is the result of a product of matrices. Without this
-module, each call, the test of the result and the assignment of the new state would list all entries.
+module, emitted code would list all entries wherever such an array is passed, tested or assigned.
 """
 
 from __future__ import annotations
@@ -15,13 +15,15 @@ from codegen.run.language import Array, Call, Statement, terms
 from codegen.run.terms import Term, own
 
 SHORTEST = 25
-"""The least number of entries of an array that is treated as a whole: a matrix with five rows. Shorter
-results stay in registers."""
+"""The least number of entries of an array that is treated as a whole: those of a 5 x 5 matrix. Each entry of
+a shorter array is a scalar variable, which compilers can keep in a register."""
 
 
 def whole_result(outputs: Sequence[Expr]) -> Term | None:
-    """Return the array of the results of a call, if the outputs are the entries 0, 1, 2, ... of this array in
-    this order; else None."""
+    """Return the array that contains the results of a call, if ``outputs`` are all its entries in order.
+
+    Return None for other outputs, and for fewer than SHORTEST outputs.
+    """
     if len(outputs) < SHORTEST:
         return None
     results = [result_of(x.payload) if x.op == "sym" else None for x in outputs]
@@ -34,9 +36,11 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
 
 
 def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term) -> list[Statement]:
-    """Return the statements without unnecessary copies: an array that contains consecutive entries of the
-    state is removed, and calls get a part of the array ``state`` in its place. ``symbols`` are the names of
-    the entries of the state."""
+    """Return the statements without unnecessary copies of the array ``state``.
+
+    An array of at least SHORTEST consecutive entries of the state is such a copy. It is removed, and calls
+    get a part of ``state`` in its place. ``symbols`` are the names of the entries of the state.
+    """
     places = {s: k for k, s in enumerate(symbols)}
     parts: dict[str, Term] = {}
     result: list[Statement] = []
@@ -56,7 +60,7 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
 
 
 def names_in(body: Iterable[Statement]) -> frozenset[str]:
-    """Return the names that the statements contain."""
+    """Return the names of all variables that the statements contain."""
     names = set()
     values = []
     for term in terms(body):

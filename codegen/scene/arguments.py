@@ -26,8 +26,8 @@ def check_group(name: str, group: object) -> None:
 
 
 def check_points(reader: Reader, group: LieGroup, action: object) -> None:
-    """Raise :class:`SceneError` if the argument is not an action, or if the group cannot act on the
-    points.
+    """Raise :class:`SceneError` if ``action`` is not an action, or if the group cannot act by it on points
+    with the coordinates of the scene.
     """
     if not isinstance(action, Action):
         _refuse(reader.name, "action", action, "Rotation()")
@@ -44,7 +44,7 @@ def check_points(reader: Reader, group: LieGroup, action: object) -> None:
         )
     try:
         width = len(action.velocity(domain, group, zero, y))
-    # The formula of an action may combine tuples of different lengths and then fail.
+    # For a point of a wrong size, the formula of an action may index or zip tuples of wrong lengths.
     except (ValueError, IndexError):
         width = -1
     if width != len(y):

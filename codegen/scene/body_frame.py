@@ -1,8 +1,9 @@
 """A Hamiltonian in the body frame: H as a function of q and P = Ad*_q mu, and its field.
 
-With W = D_P H and tau_b = -d/deps H(q exp(eps e_b), P) at fixed P, the field in the body frame is
+Let W = D_P H and tau_b = -d/deps H(q exp(eps e_b), P) at eps = 0 and fixed P. The field in the body frame is
+(W, N), and it determines the field (xi, n) in the space frame:
 
-    xi = Ad_q W,   n = Ad*_{q^-1} N,   N = tau + ad*_W P.
+    N = tau + ad*_W P,   xi = Ad_q W,   n = Ad*_{q^-1} N.
 
 If the inertia is fixed in the body, the kinetic energy becomes a quadratic form of P with constant
 coefficients. Then W is a constant matrix times P, and the inverse of this matrix gives P from W.
@@ -47,7 +48,7 @@ class BodyField:
     inverse: tuple[tuple[Number, ...], ...] | None
 
     def momentum(self, domain: Domain, W: Vector[S]) -> Vector[S]:
-        """Return P, given W."""
+        """Return P, given W; this requires that ``inverse`` is not None."""
         assert self.inverse is not None
         result: list[S] = []
         for row in self.inverse:
@@ -61,8 +62,8 @@ class BodyField:
 
 
 def body_field(group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonian: Expr) -> BodyField:
-    """Return the field of a Hamiltonian in the body frame; ``q`` and ``mu`` are the names of the symbols in
-    the Hamiltonian."""
+    """Return the field of a Hamiltonian H(q, mu) in the body frame; ``q`` and ``mu`` are the names of the
+    coordinates in its formula."""
     space = hamiltonian.space
     domain = ExprDomain(space)
     element, P = tuple(space.sym(s) for s in q), tuple(space.sym(s) for s in mu)
@@ -126,8 +127,8 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        # The potential is singular at the neutral element, so the kinetic energy cannot be separated there.
-        # The kinetic energy is then replaced by zero, so that the test below fails and H is not split.
+        # The kinetic energy would be computed at the neutral element, but the potential is singular there.
+        # With zero in its place the test below fails, and H is not split.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
@@ -178,7 +179,7 @@ def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None
 
 
 def _inverse(rows: Sequence[list[Number] | None]) -> tuple[tuple[Number, ...], ...] | None:
-    """Return the inverse of a matrix of exact numbers; None for a singular matrix or a missing row."""
+    """Return the inverse of a matrix of exact numbers; None if it is singular or a row is None."""
     n = len(rows)
     zero, one = Number.rational(0), Number.rational(1)
     work: list[list[Number]] = []

@@ -143,12 +143,13 @@ class _Leaf:
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the formula for the group element in the right-hand sides of the equations."""
+        """Return the group element as a formula in the coordinates ``own``, for the right-hand sides."""
         return own if self.cover is None else self.cover.covering(d, own)
 
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the formula for the group element in the state of the scene; the element satisfies the
-        equations of the group exactly.
+        """Return the group element for the state of the scene, as a formula in ``own``.
+
+        If there is a cover, the element is in the group even if numerical errors moved ``own`` off the cover.
         """
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
@@ -161,8 +162,10 @@ class _Leaf:
         return group.require(LeftTranslation).left_velocity(d, own, x) if body else group.velocity(d, x, own)
 
     def start(self, d: ExprDomain, initial: Vector[float]) -> Vector[Expr]:
-        """Return formulas in the symbols of the scene; they compute the coordinates of the factor in the
-        form."""
+        """Return the coordinates of the factor in the form, as formulas in the symbols of the scene.
+
+        The formulas are valid near ``initial``, the coordinates of the factor in the initial state.
+        """
         g = tuple(d.space.sym(s) for s in self.symbols)
         if self.cover is None:
             return g
@@ -209,7 +212,11 @@ def fresh(name: str, count: int, taken: set[str]) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class _Change:
-    """A change of coordinates: to the covers of the factors if ``covered``, to the body frame if ``body``."""
+    """A change of coordinates from a scene to a form.
+
+    If ``covered`` is True, the form has coordinates on covers of the factors of the group. If ``body`` is
+    True, velocities and momenta are in the body frame.
+    """
 
     problem: Problem
     covered: bool
@@ -217,7 +224,7 @@ class _Change:
 
     @cached_property
     def domain(self) -> ExprDomain:
-        """The domain in which the formulas of the form are computed."""
+        """The number domain of the formulas of the form: its elements are expressions."""
         return ExprDomain()
 
     @cached_property
@@ -287,7 +294,7 @@ class _Change:
         return " and ".join((f"{frame} {what}", *dict.fromkeys(nouns)))
 
     def state(self) -> str:
-        """Return a description of the state."""
+        """Return a text that describes the coordinates of the state of the form."""
         parts = [f"{leaf.own[0]} to {leaf.own[-1]}: {leaf.noun}{self.layout(leaf)}" for leaf in self.leaves]
         if self.momenta:
             frame = "body" if self.body else "space"
@@ -296,11 +303,11 @@ class _Change:
 
     @staticmethod
     def layout(leaf: _Leaf) -> str:
-        """Return a text that states in which order the coordinates of a factor are stored."""
+        """Return a text that describes the order of the coordinates of a factor in the form."""
         return (leaf.group if leaf.cover is None else leaf.cover.cover).layout
 
     def conversion(self) -> str:
-        """Return a description of the map to the scene."""
+        """Return a text that describes the map from the state of the form to the state of the scene."""
         parts = [leaf.cover.covering_formula for leaf in self.leaves if leaf.cover is not None]
         if self.body and self.momenta:
             parts.append("the momentum of the scene is Ad*_{g^-1} P (for rotation matrices: the product g P)")
@@ -311,7 +318,7 @@ class _Change:
         return self.body and leaf.group.offers(LeftTranslation) is not None and not leaf.group.abelian
 
     def evaluated(self, roots: Sequence[Expr], known: Bindings) -> tuple[Expr, ...]:
-        """Return formulas in which the symbols in ``known`` are replaced by their values."""
+        """Return ``roots`` with each symbol in ``known`` replaced by its value; other symbols stay."""
         space = self.domain.space
         values: Bindings = {n.payload: space.sym(n.payload) for n in walk(roots) if n.op == "sym"}
         return tuple(evaluate(roots, self.domain, values | known))
@@ -322,7 +329,10 @@ class _Change:
             yield leaf, tuple(self.domain.space.sym(s) for s in leaf.own)
 
     def rates(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the time derivative of the state of the form, given the components of f or of (xi, n)."""
+        """Return the time derivative of the state of the form.
+
+        ``roots`` are the components of the field of the scene: f, or xi and n.
+        """
         problem, d = self.problem, self.domain
         element = tuple(x for leaf, own in self.blocks() for x in leaf.element(d, own))
         momenta = tuple(d.space.sym(s) for s in self.momenta)

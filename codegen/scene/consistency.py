@@ -38,7 +38,8 @@ SLOPE_DIGITS of them are compared.
 
 
 def check_problem(problem: Problem, stated: Stated) -> None:
-    """Raise :class:`SceneError` if two formulas of the scene contradict each other."""
+    """Raise :class:`SceneError` for an initial state outside the manifold, for two formulas of a pair in
+    ``stated`` that differ, for parts that do not add up to H, and for an invariant that changes."""
     orbit = orbit_of(problem)
     check_start(orbit)
     for what, (formulas, derived) in stated.items():

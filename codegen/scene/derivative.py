@@ -24,8 +24,8 @@ class Dx(sympy.Function):  # type: ignore[misc]
 
     @classmethod
     def eval(cls, formula: sympy.Expr, order: object = 1) -> Any:
-        """Return 0 if ``formula`` is a constant. If it is a derivative Dx(u, m), return Dx(u, m + order).
-        Return None for all other formulas; sympy then keeps the expression ``Dx(formula, order)``."""
+        """Return 0 if ``formula`` is a constant. If ``formula`` is a derivative Dx(u, m), return Dx(u, m +
+        order). Return None for all other formulas; sympy then keeps the expression ``Dx(formula, order)``."""
         number = next((m for m in range(1, MOST_DERIVATIVES + 1) if m == order), 0)
         if not number:
             raise SceneError(

@@ -61,13 +61,15 @@ class Conservative(Protocol):
 
 
 def energy_of(problem: Conservative) -> Expr | None:
-    """Return the Hamiltonian, or the invariant called ``energy``; None if the problem has neither of them."""
+    """Return the Hamiltonian or, without a Hamiltonian, the invariant called ``energy``; else None."""
     return problem.hamiltonian if problem.hamiltonian is not None else problem.invariants.get(ENERGY)
 
 
 def apply(problem: Conservative, d: Domain, name: str, args: Values) -> Value:
-    """Return the value of one of :data:`OPERATIONS`; raise KeyError if the operation needs an energy and the
-    problem has none."""
+    """Return the value of the operation ``name``, one of :data:`OPERATIONS`.
+
+    KeyError is raised if the problem has no energy, but the operation reads the energy.
+    """
     match name:
         case "energy":
             return evaluate([_root(problem)], d, problem.values(d, *args))[0]

@@ -36,8 +36,9 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 @dataclass(frozen=True)
 class Evolution:
-    """Coordinates of a scene and their equations: ``inner`` is the problem on R^m in m such coordinates, and
-    ``outer`` is the scene as a field.
+    """Coordinates in which Taylor polynomials of a scene are computed, and their equations.
+
+    ``inner`` is the problem on R^m in these m coordinates, and ``outer`` is the scene as a field.
 
     ``body`` is the group if the coordinates contain the momentum in the body frame; it is None if they
     contain the momentum in space. ``missing`` are the indices of the coordinates that are omitted.
@@ -49,9 +50,9 @@ class Evolution:
     missing: tuple[int, ...] = ()
 
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
-        """Return the coordinates of a state.
+        """Return the coordinates of the state y.
 
-        If ``frame`` is given, the state contains the momentum in the body frame, and ``frame`` is the group.
+        If y contains the momentum in the body frame, ``frame`` is the group, otherwise None.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)
@@ -63,10 +64,10 @@ class Evolution:
     def leave(
         self, domain: Domain, moved: Vector[S], y: Vector[S], frame: Coadjoint | None = None
     ) -> Vector[S]:
-        """Return the state with the coordinates ``moved``, on the manifold that contains the state y.
+        """Return the state with the coordinates ``moved``, projected onto the manifold that contains y.
 
-        If ``frame`` is given, y and the result contain the momentum in the body frame, and ``frame`` is the
-        group.
+        If the state y contains the momentum in the body frame, so does the result, and ``frame`` is the
+        group. Otherwise ``frame`` is None.
         """
         z = self._completed(domain, moved)
         if self.body is None:
@@ -85,8 +86,9 @@ class Evolution:
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
-        """Return the coordinates after the time h. The Taylor polynomial of the solution through y is
-        evaluated.
+        """Return the coordinates after a step from the state y at the time t.
+
+        They are the values of the Taylor polynomial of the solution, of the given degree, at t + h.
         """
         # Each coefficient contains its power of h, so the polynomial is the sum of the coefficients.
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
@@ -104,21 +106,21 @@ class Evolution:
     def coefficients(
         self, domain: Domain, degree: int, start: Sequence[S], t: S | None, scale: S
     ) -> list[list[Coefficient]]:
-        """Return the coefficients 0, ..., degree of each coordinate, in powers of the time divided by
-        ``scale``.
+        """Return for each coordinate the Taylor coefficients of the degrees 0 to ``degree``.
 
-        A coefficient that is zero for all states is None.
+        The variable of the polynomials is the time since t, divided by ``scale``. A coefficient that is zero
+        for all states is None.
         """
         return self.recurrence(domain, start, t, scale).extend(degree)
 
     def recurrence(self, domain: Domain, start: Sequence[S], t: S | None, scale: S) -> Recurrence:
-        """Return the recurrence of the coefficients."""
+        """Return the recurrence for the coefficients that :meth:`coefficients` returns."""
         inner = self.inner
         values = inner.values(domain, start, t)
         return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
 
     def products(self) -> int:
-        """Return the number of products of series, each of which costs one sum for each coefficient."""
+        """Return the number of products of series in the recurrence. Each costs a sum for every degree."""
         domain = ExprDomain()
         start = tuple(map(domain.space.sym, self.inner.symbols))
         recurrence = self.recurrence(domain, start, domain.space.sym(TIME), domain.space.one)
@@ -164,13 +166,13 @@ def evolution(scene: Problem) -> Evolution:
 
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
-    """Return the evolution that contains all coordinates."""
+    """Return the evolution in all coordinates of ``outer``; ``roots`` are their time derivatives."""
     return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
 
 
 def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) -> Problem:
     space = roots[0].space
-    # The initial values are not used, because a step sets the coordinates.
+    # These initial values are never used: each step begins with the coordinates that it is given.
     start = tuple(space.zero for _ in symbols)
     return replace(
         scene,

@@ -24,8 +24,9 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 
 def extended(problem: Problem) -> Problem:
-    """Return the extended problem; raise SceneError for a field scene that is not linear, and for a problem
-    whose Hamiltonian does not depend on time.
+    """Return the problem on the extended phase space.
+
+    SceneError is raised for a field scene that is not linear, and for a Hamiltonian without the time.
 
     A linear problem is extended by :mod:`codegen.scene.linear_extension`. For a Hamiltonian problem the new
     coordinates are called tau and u; underscores are appended to a name that is taken. The summand u is added

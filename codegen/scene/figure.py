@@ -43,8 +43,8 @@ class Run:
     """A run of emitted code from the initial state of a scene.
 
     The run makes ``steps`` steps of size ``h`` with a method, and the figure shows every ``stride``-th state.
-    ``label`` is the name of the run in the figure, by default the method. ``scene`` is the name of another
-    scene, for which the run is made; the name ``+u`` denotes the extension of the scene by the momentum of
+    ``label`` is the name of the run in the figure, by default the method. ``scene`` is the name of a scene
+    that the run uses in place of this scene; ``+u`` denotes this scene, extended by the momentum conjugate to
     the time. If ``tolerance`` is positive, the method chooses its steps with this relative and absolute
     tolerance, and ``h`` is the interval between output times. With a ``sweep`` there is one run for each
     value, and the figure shows the final states of these runs.
@@ -139,8 +139,8 @@ class Motion(Figure):
     """The motion of a body that consists of bars, as an animation, in orthogonal projection.
 
     ``bars`` maps labels to the two ends of a bar. The figure also shows the curve that the point ``trace``
-    describes, and the bars at ``stills`` equally spaced times. The motion takes ``seconds`` and is repeated;
-    it stops while the pointer is on the figure. ``fixed`` maps labels to points that do not move.
+    describes, and the bars at ``stills`` equally spaced times. The animation lasts ``seconds`` and is
+    repeated; it stops while the pointer is on the figure. ``fixed`` maps labels to points that do not move.
     ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees. There is
     one run.
     """
@@ -193,8 +193,8 @@ class LatticeMeans(Figure):
     """Means over all sites of a lattice against time. ``quantities`` maps labels to formulas.
 
     The formulas contain the coordinates of a site and, if the lattice is periodic, those of neighbours.
-    ``shape`` contains the number of sites in each dimension. ``start`` is the function from this shape to the
-    initial states, an array of shape (n1, ..., nd, size).
+    ``shape`` contains the number of sites in each dimension. ``start`` is a function that maps this shape
+    (n1, ..., nd) to the initial states: an array of shape (n1, ..., nd, coordinates of a site).
     """
 
     shows_lattices: ClassVar[bool] = True

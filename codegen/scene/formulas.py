@@ -57,7 +57,10 @@ class Reader:
         return dict(sorted(self.defaults.items()))
 
     def _admit(self, symbol: Parameter) -> None:
-        """Record a parameter's default."""
+        """Record the default value of a parameter.
+
+        SceneError is raised for a reserved name, for the name of a coordinate, and for a second default.
+        """
         self._allow(symbol.name)
         value = Number.rational(*symbol.default)
         if symbol.name in self.coordinates or self.defaults.setdefault(symbol.name, value) != value:

@@ -63,7 +63,7 @@ def HamiltonianScene(
     :class:`SceneError` is raised in the same cases as by :func:`FieldScene`.
     """
     _check_coordinates(name, coordinates)
-    reader = _reader(name, group, q, mu)
+    reader = phase_space_reader(name, group, q, mu)
     if wrench is not None and parts:
         _refuse_parts(name, parts)
     system = _CanonicalSystem.read(reader, group, q, mu, H, parts or {}, wrench)
@@ -112,7 +112,7 @@ def _refuse_parts(name: str, parts: Mapping[str, sympy.Expr]) -> NoReturn:
     )
 
 
-def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
+def phase_space_reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
     """Return the object that reads the formulas of a scene; raise SceneError for a wrong group or a wrong
     number of coordinates.
     """
@@ -158,7 +158,7 @@ class _CanonicalSystem:
         parts: Mapping[str, sympy.Expr],
         wrench: Column | None,
     ) -> _CanonicalSystem:
-        """Read H, its parts and the wrench, and differentiate."""
+        """Read H, its parts and the wrench, and compute xi and n by differentiation of H."""
         hamiltonian = reader.scalar(H, "H")
         summands = {key: reader.scalar(part, f"part {key}") for key, part in parts.items()}
         qs, mus = tuple(s.name for s in q), tuple(s.name for s in mu)
@@ -204,7 +204,7 @@ class _CanonicalSystem:
                     where=self.reader.name,
                     expected=f"a flow for one of the parts {known}"
                     if known
-                    else "parts, whose flows are given",
+                    else "a scene with parts, because flows belong to parts",
                 )
             element = self.reader.column(q, len(self.qs), f"q of the flow of {key}", more=(TAU,))
             momentum = self.reader.column(mu, len(self.mus), f"mu of the flow of {key}", more=(TAU,))

@@ -16,15 +16,15 @@ from typing import TYPE_CHECKING
 from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.base import LieGroup
-from codegen.groups.capabilities import Coadjoint
 from codegen.ir.differentiate import gradient
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.values import Kind
-from codegen.scene.arguments import check_group, read_span
+from codegen.scene.arguments import read_span
 from codegen.scene.canonical_equations import force
 from codegen.scene.consistency import check_problem
 from codegen.scene.formulas import Reader
+from codegen.scene.hamiltonian_scene import phase_space_reader
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem, StateField
 from codegen.scene.site_scene import PERIODIC, outside_states, with_frozen_neighbours
@@ -78,7 +78,7 @@ def HamiltonianSiteScene(
     bonds. :class:`SceneError` is raised in the same cases as by :func:`codegen.scene.HamiltonianScene` and
     :func:`codegen.scene.SiteScene`, and for bonds that contain the momentum.
     """
-    reader = _reader(name, group, q, mu)
+    reader = phase_space_reader(name, group, q, mu)
     qs, mus = tuple(reader.coordinates[: len(q)]), tuple(reader.coordinates[len(q) :])
     hamiltonian = reader.scalar(H, "H")
     summands = {key: reader.scalar(part, f"part {key}") for key, part in (parts or {}).items()}
@@ -107,22 +107,6 @@ def HamiltonianSiteScene(
     return problem
 
 
-def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
-    """Return the object that reads the formulas of a scene; raise SceneError for a wrong group or a wrong
-    number of coordinates."""
-    check_group(name, group)
-    group.require(Coadjoint, where=name)
-    reader = Reader(name, [*q, *mu])
-    if (len(q), len(mu)) != (group.size, group.dim):
-        raise SceneError(
-            f"{len(q)} coordinates of q and {len(mu)} of mu",
-            where=name,
-            expected=f"{group.size} and {group.dim} coordinates for {group.name}",
-            hint='use group.point("q") and group.dual("mu")',
-        )
-    return reader
-
-
 def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
     """Return the offsets of all bonds and the negatives of these offsets, sorted."""
     given = [tuple(int(x) for x in bond.offset) for bond in bonds]
@@ -130,7 +114,7 @@ def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
         raise SceneError(
             "a lattice without bonds",
             where=name,
-            expected="a list with a Bond",
+            expected="a list of one Bond or more",
             hint="use HamiltonianScene, and emit --batch for many independent systems",
         )
     if len({len(offset) for offset in given}) > 1:
@@ -145,7 +129,7 @@ def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
 def _of_bonds(
     reader: Reader, group: LieGroup, q: Sequence[sympy.Symbol], bonds: Sequence[Bond]
 ) -> tuple[Expr, ...]:
-    """Return the components of the force of all bonds on a site."""
+    """Return the components of the force that all bonds together exert on a site."""
     space = reader.space
     qs = tuple(reader.coordinates[: len(q)])
     total = (space.zero,) * group.dim
@@ -165,9 +149,9 @@ def _of_bonds(
                 where=reader.name,
                 expected="a formula in the coordinates of q and of neighbour(q, offset)",
             )
-        # The site is the first site of this bond ...
+        # The derivative by q_i for the bond that begins at the site i: V(q_i, q_{i+offset}).
         first = gradient(V, qs)
-        # ... and the second site of the bond that begins at the site i - offset.
+        # The derivative by q_i for the bond that ends at the site i: V(q_{i-offset}, q_i).
         moved = {s: space.sym(s) for s in sorted(map(str, read))}
         moved |= {s: space.sym(b) for s, b in zip(qs, back, strict=True)}
         moved |= {s: space.sym(a) for s, a in zip(there, qs, strict=True)}
@@ -181,7 +165,10 @@ def _of_bonds(
 def _with_momenta(
     outside: Column | Mapping[Sequence[int], Column] | None, mu: Column
 ) -> Column | dict[Sequence[int], Column] | None:
-    """Return ``outside`` with momenta appended: the momentum ``mu`` of the site, which no formula reads."""
+    """Return ``outside`` with ``mu`` appended to each column, because a state contains a momentum.
+
+    No formula reads the momentum of a neighbour.
+    """
     if outside is None:
         return None
     if isinstance(outside, Mapping):

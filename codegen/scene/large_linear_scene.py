@@ -33,8 +33,7 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of GL(n).
 
-The formulas are needed where step programs are interpreted, for example for measurements. There are n^2
-formulas."""
+The interpreter of step programs needs these n^2 formulas for n rows; measurements use the interpreter."""
 
 
 def LargeLinearScene(
@@ -49,12 +48,14 @@ def LargeLinearScene(
     """Return the scene y' = A(t) y for vectors y, or for n x k matrices y with k = ``columns``.
 
     ``A`` is the result of :func:`codegen.scene.banded` or :func:`codegen.scene.full`, or a sum of multiples
-    of such matrices. The entries of these matrices and their factors are formulas in the indices, in ``t``
-    and in parameters. ``y0`` is the initial state row by row, or a function of the indices, counted from 0;
-    by default its columns are the first unit vectors. ``span`` is the rational time interval.
+    of such matrices. The entries are formulas in the indices, in ``t`` and in parameters; the scalar factors
+    are formulas in ``t`` and in parameters. ``y0`` is the initial state row by row, or a function of the
+    indices, counted from 0; by default its columns are the first unit vectors. ``span`` is the rational time
+    interval.
 
     Emitted steps of the families magnus, cf_magnus and fer, and of rkmk, cf and cg, apply exponentials to y
-    by products of A and vectors (:mod:`codegen.ir.linear_array_step`). Their text does not depend on n.
+    by products of A and vectors (:mod:`codegen.ir.linear_array_step`). The length of the code does not depend
+    on n, unless the entries are given as lists.
     :class:`SceneError` is raised for a matrix that is not square, for a matrix that contains an unknown, and
     for a state of a wrong size.
     """

@@ -15,7 +15,7 @@ from codegen.scene.matrix_field import MatrixField
 
 @dataclass(frozen=True)
 class LinearField(MatrixField):
-    """The field A(t) X on n x k matrices X; ``program`` computes A(t) X from ``matrix``."""
+    """The field A(t) X on n x k matrices X. ``matrix`` is A(t); ``program`` computes the product A(t) X."""
 
     matrix: TimeMatrix
     linear: ClassVar[bool] = True
@@ -23,7 +23,7 @@ class LinearField(MatrixField):
     def generator(
         self, domain: Domain, x: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> tuple[Scalar, ...]:
-        """Return A(t) row by row; this is for small matrices only. X is not read."""
+        """Return A(t) row by row, for small matrices only. The argument ``x`` has no effect."""
         n = self.rows
         entries = [domain.rational(0)] * (n * n)
         for coefficient, matrix in self.matrix.terms:

@@ -69,7 +69,7 @@ class _Factor:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A matrix of the program, or its transpose."""
+    """A value that the program has stored: the matrix ``matrix``, or its transpose if ``transposed``."""
 
     matrix: Matrix
     transposed: bool = False
@@ -90,8 +90,8 @@ Summand = tuple[Expr, tuple[_Factor, ...]]
 def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayProgram:
     """Return the program that computes a formula in the unknown ``x``.
 
-    :class:`SceneError` is raised for another unknown, for wrong sizes, for entries that cannot be read, and
-    for a summand without X.
+    :class:`SceneError` is raised for an unknown other than ``x``, for wrong sizes, for entries that cannot be
+    read, and for a summand without X.
     """
     if not isinstance(formula, MatrixFormula) or (formula.rows, formula.columns) != (x.rows, x.columns):
         size = f"{formula.rows} x {formula.columns}" if isinstance(formula, MatrixFormula) else repr(formula)
@@ -102,7 +102,7 @@ def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayPr
 
 
 def matrix_terms(reader: Reader, formula: MatrixFormula) -> tuple[tuple[Expr, ConstantMatrix], ...]:
-    """Return a sum of multiples of given matrices as pairs: a coefficient and a matrix.
+    """Return the summands of a sum of multiples of constant matrices, each as its coefficient and its matrix.
 
     :class:`SceneError` is raised for products of matrices, for an unknown, and for entries that cannot be
     read.
@@ -132,7 +132,7 @@ class _Compiler:
     constants: dict[tuple[int, bool], ConstantMatrix] = field(default_factory=dict)
 
     def program(self, formula: MatrixFormula) -> ArrayProgram:
-        """Return the program."""
+        """Return the program that computes the formula."""
         one = self.reader.space.one
         stored = self.total(tuple(self.summands(formula, one, False)), self.x.rows, self.x.columns)
         result = Matrix(RESULT, self.x.rows, self.x.columns)
@@ -145,7 +145,7 @@ class _Compiler:
         return Matrix(ARGUMENT, self.x.rows, self.x.columns)
 
     def summands(self, formula: MatrixFormula, c: Expr, transposed: bool) -> Iterable[Summand]:
-        """Yield the products whose sum is c times a formula or its transpose."""
+        """Yield the products whose sum is c F, where F is the formula, or its transpose if ``transposed``."""
         match formula:
             case Scaled(factor=factor, matrix=matrix):
                 own = self.reader.scalar(factor, "a coefficient of the velocity")
@@ -186,8 +186,11 @@ class _Compiler:
                 return self.reader.space.one, (self.factor(formula, transposed),)
 
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
-        """Yield the summands of a product. A factor that is a sum is multiplied out if one of its terms is a
-        constant matrix, or if it has n^2 entries."""
+        """Yield the summands of c times a product.
+
+        A factor that is a sum is multiplied out if one of its terms is a constant matrix, or if both its
+        numbers of rows and columns exceed the number of columns of X. Other sums stay factors.
+        """
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
             alone = [inner for _, inner in parts if len(inner) == 1 and inner[0].constant is not None]
@@ -215,7 +218,7 @@ class _Compiler:
         return Matrix(f"value {len(self.body) + 1}", rows, columns)
 
     def product(self, factors: tuple[_Factor, ...]) -> _Stored:
-        """Return a product; each product is computed once."""
+        """Return the stored product of the factors; equal products are computed and stored only once."""
         if factors not in self.known:
             self.known[factors] = self._product(factors)
         return self.known[factors]
@@ -250,7 +253,10 @@ class _Compiler:
         )
 
     def applied(self, factor: _Factor, other: _Stored, from_right: bool) -> _Stored:
-        """Return the product of a constant matrix and another matrix."""
+        """Return the product of a constant matrix and the matrix ``other``.
+
+        The constant matrix is the right factor if ``from_right`` is True, otherwise the left factor.
+        """
         assert factor.constant is not None
         constant = self.constant(factor.constant)
         # C Z^T = (Z C^T)^T: instead of transposing the stored matrix Z, the program multiplies it from the
@@ -317,8 +323,10 @@ def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
 
 
 def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...]) -> float:
-    """Return the number of scalar multiplications in the product of two matrices that are products
-    themselves; infinity if both are constant."""
+    """Return the number of scalar multiplications for the product of two matrices, given by their factors.
+
+    Return infinity if both are constant, because the program does not multiply constant matrices.
+    """
     rows, inner, columns = left[0].rows, right[0].rows, right[-1].columns
     first, second = (side[0].constant if len(side) == 1 else None for side in (left, right))
     if first is not None and second is not None:
@@ -382,7 +390,10 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
 
 
 def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], size: int, what: str) -> Entry:
-    """Return entries as a formula or as numbers."""
+    """Return the entries of a matrix or a diagonal: a formula in the indices, or ``size`` numbers.
+
+    SceneError is raised for a list of another length, and for an entry that is not rational.
+    """
     if callable(given):
         given = given(*indices)
     numbers = _flat(given)

@@ -29,7 +29,7 @@ from codegen.ir.domain import Domain, FloatDomain
 
 
 class Place(Enum):
-    """The set that contains the values of a formula."""
+    """A set of matrices: the Lie algebra, the group, or all matrices. It contains all values of a formula."""
 
     ALGEBRA = "algebra"
     GROUP = "group"
@@ -38,7 +38,7 @@ class Place(Enum):
 
 @dataclass(frozen=True)
 class Evaluation(Generic[S]):
-    """The group, the number domain and the generator c -> A(t + c h) with which a formula is evaluated."""
+    """The data for evaluating a formula: the group, the number domain and the function c -> A(t + c h)."""
 
     group: MatrixElements
     domain: Domain
@@ -81,11 +81,11 @@ class MatrixFormula(ABC):
     @property
     @abstractmethod
     def place(self) -> Place:
-        """The set that contains the values."""
+        """The set that contains all values of the formula."""
 
     @abstractmethod
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the matrix, row by row."""
+        """Return the value of the formula, a matrix, row by row."""
 
     @abstractmethod
     def text(self) -> str:
@@ -96,8 +96,10 @@ class MatrixFormula(ABC):
         return ()
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield those exponentials and logarithms in the formula that are computed by closed forms; the
-        closed forms exist only for 2 x 2 matrices."""
+        """Yield the exponentials and logarithms in the formula that need closed forms.
+
+        The closed forms exist only for 2 x 2 matrices.
+        """
         for part in self.parts():
             yield from part.closed_forms()
 
@@ -126,11 +128,11 @@ class Generator(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The set that contains the values."""
+        """The set that contains all values of the formula."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the matrix, row by row."""
+        """Return the value of the formula, a matrix, row by row."""
         return at.group.hat(at.domain, at.generator(self.c))
 
     def text(self) -> str:
@@ -144,11 +146,11 @@ class Unit(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The set that contains the values."""
+        """The set that contains all values of the formula."""
         return Place.GROUP
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the matrix, row by row."""
+        """Return the value of the formula, a matrix, row by row."""
         n = at.group.order
         return tuple(at.domain.rational(int(i == j)) for i in range(n) for j in range(n))
 
@@ -181,7 +183,7 @@ class Sum(Binary):
         return Place.ALGEBRA if self._both(Place.ALGEBRA) else Place.MATRIX
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the matrix, row by row."""
+        """Return the value of the formula, a matrix, row by row."""
         return tuple(x + y for x, y in zip(self.left.value(at), self.right.value(at), strict=True))
 
     def text(self) -> str:
@@ -198,7 +200,7 @@ class Product(Binary):
         return Place.GROUP if self._both(Place.GROUP) else Place.MATRIX
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the matrix, row by row."""
+        """Return the value of the formula, a matrix, row by row."""
         return product(at.domain, self.left.value(at), self.right.value(at), at.group.order)
 
     def text(self) -> str:
@@ -215,7 +217,7 @@ class Commutator(Binary):
         return Place.ALGEBRA if self._both(Place.ALGEBRA) else Place.MATRIX
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the matrix, row by row."""
+        """Return the value of the formula, a matrix, row by row."""
         x, y, d, n = self.left.value(at), self.right.value(at), at.domain, at.group.order
         return tuple(a - b for a, b in zip(product(d, x, y, n), product(d, y, x, n), strict=True))
 
@@ -231,7 +233,7 @@ class Unary(MatrixFormula):
     of: MatrixFormula
 
     def parts(self) -> tuple[MatrixFormula, ...]:
-        """Return the part."""
+        """Return a tuple with the only part."""
         return (self.of,)
 
 
@@ -252,7 +254,7 @@ class Multiple(MatrixFormula):
         return (self.of,)
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the matrix, row by row."""
+        """Return the value of the formula, a matrix, row by row."""
         factor = at.domain.rational(*self.factor.value.as_integer_ratio())
         for _ in range(self.factor.power):
             factor = factor * at.domain.h
@@ -271,11 +273,11 @@ class Projected(Unary):
 
     @property
     def place(self) -> Place:
-        """The set that contains the values."""
+        """The set that contains all values of the formula."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the matrix, row by row."""
+        """Return the value of the formula, a matrix, row by row."""
         d, entries = at.domain, self.of.value(at)
         result = []
         for row in projection_matrix(at.group):
@@ -300,14 +302,16 @@ class Exponential(Unary):
         return Place.GROUP if self.of.place is Place.ALGEBRA else Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this formula if its argument is not in the algebra, and then the closed forms in its
-        argument."""
+        """Yield this formula unless the group computes it, that is, unless its argument is in the algebra.
+
+        Then yield the formulas in its argument that need closed forms.
+        """
         if self.of.place is not Place.ALGEBRA:
             yield self
         yield from super().closed_forms()
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the matrix, row by row."""
+        """Return the value of the formula, a matrix, row by row."""
         x = self.of.value(at)
         if self.of.place is Place.ALGEBRA:
             return at.group.exp(at.domain, at.group.vee(at.domain, x))
@@ -323,16 +327,16 @@ class Logarithm(Unary):
 
     @property
     def place(self) -> Place:
-        """The set that contains the values."""
+        """The set that contains all values of the formula."""
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this formula, then the closed forms in its argument."""
+        """Yield this logarithm, and then the formulas in its argument that need closed forms."""
         yield self
         yield from super().closed_forms()
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the matrix, row by row."""
+        """Return the value of the formula, a matrix, row by row."""
         return _logarithm(at.domain, self.of.value(at))
 
     def text(self) -> str:
@@ -381,13 +385,16 @@ class MatrixStep:
 
     @property
     def canonical(self) -> bool:
-        """True if the matrix is in the group for every A(t) in the algebra."""
+        """True if the type of the formula shows that M is in the group for every A(t) in the algebra."""
         return self.formula.place is Place.GROUP
 
 
 @lru_cache(maxsize=16)
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
-    """Return the orthogonal projection onto the algebra, as a matrix that acts on the entries of a matrix."""
+    """Return the matrix of the orthogonal projection onto the algebra.
+
+    It acts on the column of all entries of a matrix, row by row.
+    """
     from sympy import Matrix, Rational
 
     d = FloatDomain(0.0)

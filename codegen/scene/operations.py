@@ -1,7 +1,8 @@
 """The operations of step programs that a group or an action implements, by name.
 
-:mod:`codegen.ir.operations` describes the arguments. Some operations need a capability of the group: they
-raise :class:`codegen.errors.SceneError` for a group without this capability.
+:mod:`codegen.ir.operations` describes the arguments. Not every group has every operation; for example, some
+groups have no Cayley map. An operation that the group does not have raises
+:class:`codegen.errors.SceneError`.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ from codegen.groups.capabilities import BodyFrame, CayleyMap, Coadjoint
 from codegen.ir.domain import Domain, Value
 
 GroupOperation = Callable[..., Value]
-"""A function of a group, a domain and the arguments; the last argument is the truncation order, if there is
-one."""
+"""A function of a group, a number domain and the arguments of the operation. If the operation truncates a
+series, the last argument is the truncation order."""
 
 ON_GROUP: Mapping[str, GroupOperation] = {
     "identity": lambda group, d: group.identity(d),

@@ -109,19 +109,22 @@ class Orbit:
         return values is not None and all(isinstance(x, context.mpf) and context.isfinite(x) for x in values)
 
     def velocity(self, point: dict[str, mpmath.mpf]) -> tuple[mpmath.mpf, ...]:
-        """Return f.y in the coordinates of the state."""
+        """Return f.y, the time derivatives of the coordinates of the state, at a sample point."""
         f = tuple(evaluate(self.roots, self.domain, point))
         y = tuple(point[s] for s in self.symbols)
         return self.action.velocity(self.domain, self.group, f, y)
 
     def sized(self, total: mpmath.mpf, terms: Sequence[mpmath.mpf]) -> bool:
-        """Return True if a sum is zero up to rounding errors, relative to the size of its terms."""
+        """Return True if ``total``, the sum of ``terms``, is zero up to rounding errors of these terms."""
         size = sum((abs(x) for x in terms), self.domain.rational(0))
         relative, absolute = (self.domain.rational(*x.as_integer_ratio()) for x in (TOLERANCE, FLOOR))
         return bool(abs(total) <= relative * size + absolute)
 
     def vanish(self, roots: Sequence[Expr]) -> bool:
-        """Return True if all formulas vanish at all sample points."""
+        """Return True if all formulas are zero, up to rounding, at all sample points; else False.
+
+        The result is also False if a formula cannot be evaluated at one of the points.
+        """
         values = [self.values(roots, point) for point in self.points]
         return all(row is not None and all(self.sized(x, (1,)) for x in row) for row in values)
 

@@ -1,7 +1,7 @@
 """Tests whether the projection of a scene's action reaches the orbit of the initial state.
 
-If a group has no projection, its action returns a point unchanged (:meth:`Action.to_orbit`). Then the results
-of a method that relies on the projection stay on the orbit only if the orbit is open.
+The projection is :meth:`Action.to_orbit`. If the group has no projection, this method returns the point
+unchanged. A numerical method that relies on the projection then stays on the orbit only if the orbit is open.
 """
 
 from __future__ import annotations

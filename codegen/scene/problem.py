@@ -149,7 +149,7 @@ class Problem:
 
     @property
     def is_hamiltonian(self) -> bool:
-        """True if programs have the state (q, mu) and evaluate the operation ``hamilton``."""
+        """True if the state is (q, mu). Step programs then compute (xi, n) by the operation ``hamilton``."""
         return self.paired
 
     def dimension(self) -> int:
@@ -157,13 +157,16 @@ class Problem:
         return self.group.dim
 
     def require_formulas(self) -> None:
-        """Raise :class:`codegen.errors.SceneError` if the field has no formulas in coordinates."""
+        """Raise :class:`codegen.errors.SceneError` if the field has no formulas in coordinates.
+
+        This is the case for semilinear equations and for large matrices.
+        """
         if self.semilinear is not None:
             raise SceneError(
                 "a semilinear equation, which has no formulas in coordinates",
                 where=self.name,
                 expected="a scene with formulas in coordinates",
-                hint="use emit here, and codegen.load_spectral to run the emitted module",
+                hint="emit the scene, and run the emitted module with codegen.load_spectral",
             )
         if not self.roots:
             raise SceneError(
@@ -175,7 +178,10 @@ class Problem:
             )
 
     def as_field(self) -> Problem:
-        """Return a Hamiltonian problem as the field f = (xi, n) of the group T*G, which acts on itself."""
+        """Return a problem with the state (q, mu) as the field f = (xi, n) of T*G, which acts on itself.
+
+        Return any other problem unchanged.
+        """
         if not self.paired:
             return self
         q, mu = self.state
@@ -191,7 +197,10 @@ class Problem:
         return {**dict(zip(self.symbols, state, strict=True)), **self.scalars(domain, t)}
 
     def scalars(self, domain: Domain, t: S | None = None) -> Bindings:
-        """Return the values of the parameters and the time, as :meth:`values` does."""
+        """Return the values of the parameters and of the time t, which is 0 by default.
+
+        If the domain consists of expressions, run-time parameters stay symbols.
+        """
         values: Bindings = {}
         for name, number in self.parameters.items():
             if isinstance(domain, ExprDomain) and name in self.runtime:
@@ -255,8 +264,8 @@ class Problem:
 
     @cached_property
     def body(self) -> BodyField | None:
-        """The field in the body frame; None for a field without Hamiltonian and for a group without body
-        frame."""
+        """The field in the body frame. It is None without a Hamiltonian, for a group without body frame, for
+        signals that are read at run time, and if ``forced``."""
         group = self.group.offers(BodyFrame)
         if group is None or not self.paired or self.inputs or self.forced or self.hamiltonian is None:
             return None
@@ -272,8 +281,10 @@ class Problem:
         return tuple(evaluate(roots, domain, self.values(domain, (*q, *P), *time)))
 
     def _field(self, domain: Domain, args: Values) -> Values:
-        """Return f, or xi and n; ``args`` are the blocks of the state, and the time if the operation has a
-        time argument."""
+        """Return f, or xi and n if the state is (q, mu).
+
+        ``args`` are the blocks of the state, and the time if the operation has a time argument.
+        """
         blocks, time = args[: len(self.state)], args[len(self.state) :]
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots

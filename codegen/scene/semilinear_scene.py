@@ -34,7 +34,7 @@ SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
 
 
 DIGITS_OF_PI = 60
-"""The number of digits of pi in formulas. Printers round a product with pi to a double."""
+"""The number of digits of the rational number that replaces pi in formulas."""
 
 
 def SemilinearScene(
@@ -64,7 +64,7 @@ def SemilinearScene(
     Explicit methods of the families rkmk, cf and cg are possible. They use the action of affine maps
     exp(t L) u + c, and so they are exponential integrators. :class:`SceneError` is raised for an operator
     that does not map real functions to real functions, for nested derivatives, and for formulas that contain
-    other symbols or a choice between formulas.
+    other symbols or a choice between formulas, such as Piecewise.
     """
     parser = _Parser(name, u, k, x)
     reader, symbol = parser.reader, parser.symbol(L)
@@ -128,8 +128,11 @@ class _Parser:
         return tuple(read)
 
     def nonlinear(self, N: sympy.Expr) -> tuple[tuple[tuple[int, str], ...], dict[int, Expr]]:
-        """Return two results: the orders of the derivatives of u in N, each with its symbol; and a map from
-        orders to formulas, such that N is the sum of the derivatives of these formulas with these orders."""
+        """Return N as a pair (inner, terms).
+
+        ``inner`` contains the orders of the derivatives of u in N, each with its symbol. ``terms`` maps
+        orders to formulas: N is the sum over m of the derivative of order m of the formula ``terms[m]``.
+        """
         import sympy
 
         formula = self._sympified(N, "N")
@@ -174,8 +177,10 @@ class _Parser:
         return inner, terms
 
     def pointwise(self, formula: sympy.Expr, what: str, more: Iterable[str]) -> Expr:
-        """Return a formula as an expression. Its symbols may be those in ``more``, t and parameters. Raise
-        :class:`SceneError` for a derivative and for a choice between formulas."""
+        """Return a formula as an expression. Its symbols may be those in ``more``, t and parameters.
+
+        SceneError is raised for a derivative, and for a choice between formulas such as Piecewise or Max.
+        """
         import sympy
 
         if isinstance(formula, sympy.Expr) and formula.has(Dx):
@@ -189,14 +194,14 @@ class _Parser:
         return root
 
     def start(self, u0: sympy.Expr) -> Expr:
-        """Return the initial state."""
+        """Return the formula of the initial state, which may contain only x and parameters."""
         root = self.pointwise(u0, "u0", (self.x,))
         if any(n.op == "sym" and n.payload == TIME for n in walk([root])):
             raise SceneError("u0 contains t", where=self.name, expected="a formula in x and parameters")
         return root
 
     def constant(self, formula: sympy.Expr, what: str) -> Expr:
-        """Return a formula in parameters."""
+        """Return a formula that may contain only parameters, as an expression."""
         return self.reader.scalar(_with_digits(self._sympified(formula, what)), what, constant=True)
 
     def _sympified(self, formula: object, what: str) -> sympy.Expr:

@@ -137,8 +137,11 @@ def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> d
 
 
 def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
-    """Compare the sum of the velocities of all parts with the velocity of f: with all neighbours, and without
-    some of the neighbours."""
+    """Raise SceneError if the velocities of all parts do not add up to the velocity of f.
+
+    At an open boundary some neighbours do not exist. There the test is repeated without each neighbour, and
+    without all of them.
+    """
     axes = [part.axis for part in sites.parts if part.symbols]
     offsets = {*sites.offsets}
     for axis in axes:

@@ -142,7 +142,10 @@ def outside_states(
     outside: Sequence[sympy.Expr] | Outside | None,
     offsets: tuple[Offset, ...],
 ) -> tuple[tuple[Expr, ...], ...]:
-    """Return the formulas for the states of neighbours that do not exist, one column for each offset."""
+    """Return the formulas for the states of neighbours outside an open boundary, one column for each offset.
+
+    Return () for a periodic lattice. SceneError is raised for missing and for superfluous columns.
+    """
     if boundary not in (PERIODIC, OPEN):
         raise SceneError(f"the boundary {boundary!r}", where=reader.name, expected=f"{PERIODIC} or {OPEN}")
     if boundary == PERIODIC:

@@ -55,7 +55,8 @@ def StiefelScene(
     row; by default its columns are the first k unit vectors. ``span`` is the rational time interval.
 
     The generator of the motion is W X^T - X W^T with W = V - X (X^T V)/2. Emitted steps of the families rkmk,
-    cf and cg cost O(n k^2) operations besides V, and their text does not depend on n.
+    cf and cg cost O(n k^2) operations besides V. The length of the code does not depend on n, unless a
+    matrix in V is given by a list of its entries.
     :class:`SceneError` is raised for a wrong size, an initial matrix without orthonormal columns, and a
     velocity that is not tangent.
     """

@@ -72,7 +72,10 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 
 
 def neighbour_place(sites: Sites, index: Sequence[int], offset: Offset, shape: Sequence[int]) -> int | None:
-    """Return the position of a neighbour in the sequence of all sites; None if it does not exist."""
+    """Return the position of a neighbour in the sequence of all sites.
+
+    Return None if the neighbour is outside an open boundary.
+    """
     place = 0
     for i, d, n in zip(index, offset, shape, strict=True):
         if not sites.periodic and not 0 <= i + d < n:

@@ -83,7 +83,7 @@ BUILT_IN = frozenset((*GALLERY, *LATTICES, *SEMILINEAR))
 """The names of all scenes of the package."""
 
 EXTENDED = "+u"
-"""The suffix of a scene name that denotes the scene extended by the time and its conjugate momentum."""
+"""The suffix of a scene name that denotes the scene extended by u, the momentum conjugate to the time."""
 
 _REGISTERED: dict[str, tuple[Problem, str]] = {}
 """The registered scenes and their descriptions, by name."""
@@ -129,10 +129,10 @@ def load(name: str) -> Problem:
     """Return a gallery scene, a registered scene, or the variable ``scene`` of the Python file at the path
     ``name``.
 
-    ``NAME+u`` is a Hamiltonian scene extended by the time and its conjugate momentum
-    (:mod:`codegen.scene.extended_phase_space`). ``NAME[alpha=1/2,eps=3]`` is a scene in which parameters have
-    other values. :class:`SceneError` is raised for a file that fails or defines no scene; the message
-    contains the file and the line.
+    ``NAME+u`` is the scene NAME, extended by the momentum u conjugate to the time
+    (:mod:`codegen.scene.extended_phase_space`). The scene must be Hamiltonian or linear, and depend on time.
+    ``NAME[alpha=1/2,eps=3]`` is a scene in which parameters have other values. :class:`SceneError` is raised
+    for a file that fails or defines no scene; the message contains the file and the line.
 
     >>> load("driven_spin[nu=3/5]").parameters["nu"].text()
     '3/5'

@@ -4,10 +4,11 @@ H. Marthinsen's thesis, section 2.2.2: u' = L u + N(u). The group consists of th
 and f(u) = (1, N(u)). Lie-Euler is the exponential Euler method exp(h L) u + h phi(h L) N(u) with phi(z) =
 (exp(z) - 1)/z, and the other methods are exponential integrators. L is eps times the second difference
 quotient on points with the spacing 1/7, with u = 0 at both ends. The bracket of (L1, c1) and (L2, c2) has the
-translation L1 c2 - L2 c1; section 2.2.2 prints an additional c1.
+translation L1 c2 - L2 c1; the formula in section 2.2.2 has an additional term c1.
 
-A method with negative coefficients, such as ``cg3``, integrates diffusion backwards in a part of each step;
-its long steps lose all digits. Runs backwards in time grow without bound.
+Solutions grow without bound if diffusion is integrated backwards in time. A method with negative
+coefficients, such as ``cg3``, integrates backwards in a part of each step. If its steps are long, all digits
+are lost.
 """
 
 from sympy import Matrix, Rational, symbols

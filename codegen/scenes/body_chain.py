@@ -1,11 +1,11 @@
 """Chain of rigid bodies with elastic ball joints that hangs under gravity, on T*SE(3).
 
-Each body has joints at x + R b and x - R b, where x is its centre of mass and R its frame. A stiff spring
-joins the point x - R b of a body to the point x' + R' b of the next body. It replaces the constraint of a
-ball joint (R. Grossman, P. S. Krishnaprasad and J. E. Marsden 1988, see ``coupled_rigid_bodies``). The first
-body hangs at the origin: a fixed body in front of it is at b, so the point x - R b of this fixed body is the
-origin. At the free end, a body behind the last body has its joint at the joint of the last body, so the
-spring between them exerts no force. The inertia of the bodies is not symmetric.
+Each body has joints at x + R b and x - R b, where x is its centre of mass, R its rotation matrix, and b a
+constant vector. A stiff spring joins the point x - R b of a body to the point x' + R' b of the next body. The
+spring replaces the constraint of a ball joint (R. Grossman, P. S. Krishnaprasad and J. E. Marsden 1988, see
+``coupled_rigid_bodies``). The first body hangs at the origin, which is the joint of a fixed body with x = b
+and R = 1. The chain has a free end: the spring behind the last body has length zero and exerts no force. The
+three moments of inertia of a body differ.
 """
 
 from sympy import Matrix, Rational, eye

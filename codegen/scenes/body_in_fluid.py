@@ -1,11 +1,12 @@
 """Body in an ideal fluid: Kirchhoff's equations on se(3)*, under the coadjoint action of SE(3).
 
-The impulse of the body with the fluid, seen from the body, is (m, p): the angular and the linear impulse.
-m' = m x w + p x v and p' = p x w, where w = dH/dm and v = dH/dp are the angular velocity and the velocity
-(G. Kirchhoff, Ueber die Bewegung eines Rotationskoerpers in einer Fluessigkeit, Journal fuer die reine und
-angewandte Mathematik 71 (1870), 237-262; H. Marthinsen's thesis, section 2.2.2). H = (m.J^-1 m + p.M^-1 p)/2
-+ m.C p; the coupling C belongs to a body without planes of symmetry, such as a propeller. Every step keeps
-the Casimir functions p.p and m.p up to rounding. ``planar_body_in_fluid`` is the body in the plane.
+The state (m, p) consists of the angular and the linear impulse of body and fluid, in the body frame. The
+equations are m' = m x w + p x v and p' = p x w, with the angular velocity w = dH/dm and the velocity v =
+dH/dp (G. Kirchhoff, Ueber die Bewegung eines Rotationskoerpers in einer Fluessigkeit, Journal fuer die reine
+und angewandte Mathematik 71 (1870), 237-262; H. Marthinsen's thesis, section 2.2.2). H = (m.J^-1 m + p.M^-1
+p)/2 + m.C p; the coupling C is nonzero for a body without planes of symmetry, such as a propeller. Every step
+preserves the Casimir functions p.p and m.p up to rounding. ``planar_body_in_fluid`` is the problem in the
+plane.
 """
 
 from sympy import Matrix, Rational, diag, symbols

@@ -2,11 +2,12 @@
 
 R. Grossman, P. S. Krishnaprasad and J. E. Marsden, The dynamics of two coupled rigid bodies, in: Dynamical
 Systems Approaches to Nonlinear Problems in Systems and Circuits (SIAM, 1988), 373-378. The joint is at the
-point d_k of body k, on a principal axis, and eps is the reduced mass. The kinetic energy of the bodies
-alone is sum_k P_k.J_k^-1 P_k/2, where P_k is the momentum in the body. The joint subtracts b.S^-1 b/2. Here b
-is the velocity with which the bodies would separate at the joint. S = 1/eps + sum_k g_k C_k g_k^T with C_k =
-hat(d_k)^T J_k^-1 hat(d_k) is the inverse of the effective mass at the joint. Energy and total momentum are
-kept.
+point d_k of body k, on a principal axis, and eps is the reduced mass of the two bodies. Without the joint,
+the kinetic energy of their rotations would be sum_k P_k.J_k^-1 P_k/2. Here J_k is the inertia of body k, P_k
+its angular momentum in the body frame, and g_k its attitude. The joint subtracts b.S^-1 b/2, where b is the
+velocity with which the bodies would separate at the joint. The matrix S = 1/eps + sum_k g_k C_k g_k^T with
+C_k = hat(d_k)^T J_k^-1 hat(d_k) is the inverse of the effective mass at the joint. Energy and total angular
+momentum are conserved.
 """
 
 from sympy import Matrix, Rational, diag, eye
@@ -26,7 +27,7 @@ d1, d2 = Matrix([0, 0, 1]), Matrix([Rational(3, 4), 0, 0])
 
 
 def resistance(d: Matrix, J: Matrix) -> Matrix:
-    """Return hat(d)^T J^-1 hat(d)."""
+    """Return hat(d)^T J^-1 hat(d), where hat(d) is the matrix of v -> d x v."""
     hat = Matrix([[0, -d[2], d[1]], [d[2], 0, -d[0]], [-d[1], d[0], 0]])
     return hat.T * J.inv() * hat
 

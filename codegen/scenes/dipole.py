@@ -3,8 +3,11 @@
 H. Marthinsen's thesis, section 3.6. The gravity term has a plus sign in the Hamiltonian that the thesis
 prints; in this scene the sign is minus. With minus and h = 0.01, the energy errors over (0, 1000) are 1.0e-3
 (vcg:midpoint) and 1.4e-7 (vrkmk(2):gauss2), as in Fig. 3.3, where about 1e-3 and 1e-7 are stated. With plus
-they are 1.0e-4 and 1.3e-9. Theorem 3.5.3 requires r >= p - 2. In fact VRKMK(r) has order min(p, R + 2)
-with R = r + 1 for even r >= 2 and R = r otherwise. The reason is that the odd Bernoulli numbers after the
+they are 1.0e-4 and 1.3e-9.
+
+VRKMK(r) truncates the series of dexp^{-1} after the power r of ad. Let p be the order of its partitioned
+Runge-Kutta method. By Theorem 3.5.3, VRKMK(r) has order p if r >= p - 2. More precisely, its order is
+min(p, R + 2) with R = r + 1 for even r >= 2 and R = r otherwise, because the odd Bernoulli numbers after the
 first vanish. Thus r = 2 suffices for order 5, and r = 4 for order 7.
 """
 

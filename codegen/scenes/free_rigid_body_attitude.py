@@ -1,7 +1,8 @@
 """Free rigid body with its attitude: geodesics of a left-invariant metric on SO(3), as a flow on T*SO(3).
 
-g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). The right-trivialised momentum mu = g P is
-the angular momentum in space; it is constant, because n = ad*_xi mu.
+g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). Here g is the attitude, I the inertia, and W
+and P are the angular velocity and momentum in the body frame. The right-trivialised momentum mu = g P is the
+angular momentum in space. It is constant, because n = ad*_xi mu in mu' = n - ad*_xi mu.
 """
 
 from sympy import Matrix, Rational, diag, eye

@@ -1,8 +1,9 @@
 """Free rigid body with its attitude as a quaternion, on S^3 x R^3: the momentum in a vector space.
 
-q' = q (0, W)/2 with Hamilton's product, real part first, from the body to space; W = I^-1 P, P' = P x W
-(Hairer and Vilmart 2006). The moments of inertia are the same as in ``free_rigid_body_product``; the attitude
-has four coordinates in place of nine.
+q' = q (0, W)/2 with Hamilton's product, W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). The unit quaternion
+q, real part first, rotates vectors from the body frame to space. I is the inertia, and W and P are the
+angular velocity and momentum in the body frame. The moments of inertia are the same as in
+``free_rigid_body_product``; the attitude has four coordinates in place of nine.
 """
 
 from sympy import Matrix, Rational, diag
@@ -17,7 +18,7 @@ P0 = Matrix([Rational(9, 5), Rational(2, 5), Rational(-9, 10)])
 W = I.inv() * P
 axis = Matrix(q[1:])
 twice = 2 * axis.cross(W)
-w = W + q[0] * twice + axis.cross(twice)  # the angular velocity in space, q W q^c
+w = W + q[0] * twice + axis.cross(twice)  # angular velocity in space: q W q^c
 
 scene = FieldScene(
     title="Free rigid body with a quaternion, S^3 x R^3 (Hairer and Vilmart 2006)",

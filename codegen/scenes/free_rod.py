@@ -9,10 +9,12 @@ piece is concentrated in its cross section. As in P. Betsch and P. Steinmann (In
     Gamma_a = (d_a + d_a').(x' - x)/(2 ds) - delta_a3,
     V = ds/2 sum_a S_a Gamma_a^2 + 1/(2 ds) sum_a D_a |d_a' - d_a|^2.
 
-Here S = (GA, GA, EA). For a small rotation theta between two sections, the second sum is sum_a K_a theta_a^2
-with K = (EI, EI, GJ) if D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2. V is a polynomial and does not change if both
-sections move by the same rigid motion, so the total momentum is constant. Energies and momenta are divided by
-ds; this keeps the equations, and only V then depends on ds.
+V is the energy of two neighbouring sections; a prime denotes the second section. S = (GA, GA, EA) are the
+stiffnesses of shear and extension, K = (EI, EI, GJ) those of bending and torsion. With D_1 = D_2 = GJ/2 and
+D_3 = EI - GJ/2, the second sum is sum_a K_a theta_a^2 for a small rotation theta between the sections. V is a
+polynomial and does not change if both sections move by the same rigid motion, so the total momentum is
+constant. In the code, energies and momenta are divided by ds. The equations stay the same, and only V then
+depends on ds.
 """
 
 from collections.abc import Mapping, Sequence
@@ -46,17 +48,20 @@ stretching = sum(S * s**2 / 2 for S, s in zip((GA, GA, EA), strain, strict=True)
 bending = sum(D * d.dot(d) for D, d in zip((GJ / 2, GJ / 2, EI - GJ / 2), turns, strict=True)) / (2 * ds**2)
 
 Ends = Mapping[Sequence[int], Sequence[sympy.Expr]]
-"""Cross sections outside the rod, by offset."""
+"""A map from an offset, (-1,) or (1,), to the coordinates of a cross section outside that end of the rod."""
 
 normal = R[:, 0].cross(R[:, 1])
 FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
-"""Cross sections outside the rod in which all strains vanish, so they exert no force. The formula holds for
-any matrix R, so rounding errors in R do not change the total momentum."""
+"""Cross sections outside the rod. All strains between such a section and the end of the rod vanish, so the
+section exerts no force. The formula holds for any matrix R, so rounding errors in R do not change the total
+momentum."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
-    """Return a rod whose ends are free, or follow the cross sections ``ends``, with gravity in the direction
-    of -e1."""
+    """Return the scene of a rod, with gravity in the direction of -e1 unless ``gravity`` is None.
+
+    An end in ``ends`` is joined by a bond to the cross section that is given there; other ends are free.
+    """
     parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
     return HamiltonianSiteScene(
         title=title,
@@ -75,8 +80,10 @@ def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str 
 
 
 def straight(number: int, spacing: float) -> list[list[float]]:
-    """Return the states of the sections of a straight rod at rest along e3. The first is at ``spacing``
-    e3."""
+    """Return the states of the sections of a straight rod at rest along e3.
+
+    The centre of section i, i = 1, ..., number, is i ``spacing`` e3.
+    """
     frame = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
     return [[*frame, 0.0, 0.0, (i + 1) * spacing, *[0.0] * 6] for i in range(number)]
 

@@ -2,7 +2,7 @@
 
 The inertia tensor acts on the right-trivialised momentum, so the inertia is fixed in space. The scene
 ``fast_heavy_top`` is a top whose inertia is fixed in the body. The momentum about the body's third axis is
-conserved. `orderconds longrun heavy_top --properties` measures the properties of Table 2.1.
+conserved. `orderconds longrun heavy_top --properties` measures the properties in Table 2.1 of the thesis.
 """
 
 from sympy import Matrix, diag, eye

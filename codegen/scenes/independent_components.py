@@ -30,7 +30,7 @@ mixed = [[sum(map(mul, row, sample)) for sample in zip(*sources, strict=True)] f
 
 
 def mean(*factors: list[float]) -> float:
-    """Return the mean of the product of signals."""
+    """Return the mean over all samples of the product of the given signals."""
     return fsum(map(prod, zip(*factors, strict=True))) / SAMPLES
 
 
@@ -43,7 +43,7 @@ for signal in mixed:
     length = sqrt(mean(rest, rest))
     signals.append([a / length for a in rest])
 
-# The moments are rounded to twelve decimals, which are the same on every machine.
+# The moments are rounded to twelve decimals, because the last digits of a float may depend on the machine.
 moments: dict[tuple[int, ...], Rational] = {
     places: Rational(f"{mean(*(signals[k] for k in places)):.12f}")
     for places in combinations_with_replacement(PLACES, 4)
@@ -54,7 +54,7 @@ W = G.point("w")
 
 
 def cubic(i: int, d: int) -> Expr:
-    """Return E[y_i^3 x_d]."""
+    """Return E[y_i^3 x_d] for y = W x, as a polynomial in the entries of W."""
     terms = product(PLACES, repeat=3)
     return sum(W[i, a] * W[i, b] * W[i, c] * moments[*sorted((a, b, c, d))] for a, b, c in terms)
 

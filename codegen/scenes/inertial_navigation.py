@@ -1,10 +1,11 @@
 """Inertial navigation on SE_2(3): attitude, velocity and position from a gyroscope and an accelerometer.
 
-R' = R hat(w), v' = R a + g, p' = v, where w and a are measured in the vehicle (A. Barrau and S. Bonnabel,
-IEEE Transactions on Automatic Control 62 (2017), 1797-1812). The defaults of the six signals are those of a
-classical coning motion on an elliptic path: R turns by the angle alpha about an axis that rotates in the
-horizontal plane with the rate nu (P. G. Savage, Strapdown inertial navigation integration algorithm design,
-Journal of Guidance, Control, and Dynamics 21 (1998), 19-28), and p moves on an ellipse with the rate c.
+R' = R hat(w), v' = R a + g, p' = v (A. Barrau and S. Bonnabel, IEEE Transactions on Automatic Control 62
+(2017), 1797-1812). The angular velocity w and the acceleration a are measured in the frame of the vehicle.
+Their six components are input signals. By default they belong to a classical coning motion on an elliptic
+path: R turns by the angle alpha about an axis that rotates in the horizontal plane with the rate nu (P. G.
+Savage, Strapdown inertial navigation integration algorithm design, Journal of Guidance, Control, and Dynamics
+21 (1998), 19-28), and p moves on an ellipse with the rate c.
 The motion is known in closed form, so the drift of a method is its distance from this motion.
 """
 
@@ -17,7 +18,7 @@ t = Symbol("t")
 sin_alpha, cos_alpha, nu, c = Rational(5, 13), Rational(12, 13), 4, Rational(1, 2)
 gravity = Matrix([0, 0, -1])
 
-# The motion in closed form.
+# The closed form of the motion: the attitude R and the path p as functions of the time t.
 axis = Matrix([[0, 0, sin(nu * t)], [0, 0, -cos(nu * t)], [-sin(nu * t), cos(nu * t), 0]])
 attitude = eye(3) + sin_alpha * axis + (1 - cos_alpha) * axis**2
 path = Matrix([cos(c * t), sin(c * t), sin(c * t) / 4])

@@ -5,11 +5,11 @@ matrices (H. Marthinsen's thesis, paper 3, Table 4.1). The generator depends on 
 differential equation is linear: Magnus, Fer and Cayley methods accept it. Every step of these methods is a
 symplectic matrix. ``linear_oscillator`` is the same equation on T*R^4.
 
-The stated steps are *projection* (4.18), *ExpNonCan* and *ExpSymNonCan* of Table 4.1. The exponentials in the
-last two steps have products of matrices as arguments. For this equation the products are in sl(2), so both
-methods are canonical here. The printed errors of ExpNonCan (2.61) and ExpSymNonCan (0.149) do not follow from
-the printed formulas, which give 5.82e-2 and 5.45e-2; ExpSymNonCan has order 2. The printed eps = 0.6 of Fig.
-4.2 does not fit the axis of the figure, and eps = 0.1 does.
+The scene also defines three methods of the thesis by formulas: *projection* (equation 4.18), *ExpNonCan* and
+*ExpSymNonCan* (Table 4.1). In the last two methods, the arguments of exp are products of matrices. For this
+equation the products are in sl(2), so both methods are canonical (symplectic) here. The thesis prints the
+errors 2.61 for ExpNonCan and 0.149 for ExpSymNonCan, but the printed formulas give 5.82e-2 and 5.45e-2.
+ExpSymNonCan has order 2. For Fig. 4.2 the thesis prints eps = 0.6, but only eps = 0.1 fits its axis.
 """
 
 from fractions import Fraction

@@ -29,7 +29,7 @@ class Neighbours(MetaPathFinder):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return the specification of a neighbour; None for any other module."""
+        """Return the import specification of a module in the folder; None if ``fullname`` is no neighbour."""
         if path is not None or fullname not in self.names:
             return None
         return PathFinder.find_spec(fullname, [str(self.folder)], target)
@@ -37,16 +37,16 @@ class Neighbours(MetaPathFinder):
 
 @contextmanager
 def neighbours_of(file: Path) -> Iterator[None]:
-    """Return a context in which imports find the modules in the folder of a file. At the end these modules
-    are removed.
+    """Return a context in which imports find the neighbours of a scene file. At the end of the context the
+    neighbours are removed from ``sys.modules``.
     """
     folder = file.resolve().parent
     names = frozenset(name for name in _modules(folder) if not _installed(name))
     hidden = _taken(names)
     finder, cached = Neighbours(folder, names), sys.dont_write_bytecode
     sys.meta_path.insert(0, finder)
-    # No bytecode is written, because the folder belongs to the user, and because a cached file could hide a
-    # change within the same second.
+    # No bytecode is written, because the folder belongs to the user. Moreover, bytecode could be out of date:
+    # Python does not notice a second change of the source within one second.
     sys.dont_write_bytecode = True
     invalidate_caches()
     try:
@@ -78,6 +78,7 @@ def _installed(name: str) -> bool:
 
 
 def _taken(names: frozenset[str]) -> dict[str, ModuleType]:
-    """Remove the loaded modules with these names and their submodules; return the removed modules."""
+    """Remove the modules with these names, and their submodules, from ``sys.modules``. Return them by
+    name."""
     loaded = [name for name in sys.modules if name.partition(".")[0] in names]
     return {name: sys.modules.pop(name) for name in loaded}

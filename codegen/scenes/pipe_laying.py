@@ -1,9 +1,10 @@
 """Pipe-laying: a geometrically exact rod under gravity, clamped at one end, its other end moved by a vessel.
 
 Section 2.3.1 of H. Marthinsen's thesis describes the problem: a pipe between the bottom of the sea and a
-vessel. The rod is that of ``free_rod``. The section before the first site is clamped. The section after the
-last site belongs to the vessel: it moves up and down, and pitches about the axis e2 with the angle a sin(w
-t). Its distance from the clamp is the parameter ``length``, which must be (N + 1) ds for N sections.
+vessel. The rod is that of ``free_rod``: a chain of N cross sections at the distance ds. A further section
+before the first one is clamped. A further section after the last one belongs to the vessel: it moves up and
+down, and pitches about the axis e2 with the angle a sin(w t). The parameter ``length`` is the distance
+between these two further sections; it must be (N + 1) ds.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, eye, sin

@@ -1,7 +1,7 @@
 """Heisenberg spins on a plane lattice: the Landau-Lifshitz equation with exchange, anisotropy and a field.
 
-Each site has a spin S of length one. It turns about the effective field H, the sum of J S over the four
-neighbours, an anisotropy about the third axis, and an external field: S' = H x S. This is the equation of
+Each site has a spin S of length one, which turns about the effective field H: S' = H x S. H has three terms:
+the sum of J S over the four neighbours, an anisotropy, and an external field. This is the equation of
 L. D. Landau and E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) without damping. The lattice is
 periodic, and the energy is constant. The energy is split as in J. Frank, W. Huang and B. Leimkuhler
 (J. Comput. Phys. 133 (1997) 160-172). The parts have exact flows: two spins turn about their sum, and the
@@ -18,7 +18,7 @@ J, K, B = param("J", 1), param("K", Rational(1, 2)), param("B", Rational(1, 5))
 offsets = [(1, 0), (0, 1)]
 around = [neighbour(S, (x * i, x * j)) for i, j in offsets for x in (1, -1)]
 single = Matrix([0, 0, K * S[2] + B])
-# The generator J (S + S') turns both spins of a pair. Its part along the own spin has no effect.
+# J (S + T) turns both spins S and T of a pair. The term J S does not turn S, and J T does not turn T.
 sums = [J * (S + neighbour(S, offset)) for offset in offsets]
 
 scene = SiteScene(

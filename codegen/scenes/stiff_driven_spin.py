@@ -1,6 +1,7 @@
-"""Stiff driven spin on the sphere: the equation of ``driven_spin`` with rates of 2000 and 1000.
+"""Stiff driven spin on the sphere: the equation of ``driven_spin`` with K = 2000 and alpha = 1/2.
 
-Explicit methods need steps of about 1/1000, although the solution only follows the slowly rotating field.
+The rates of the equation are K = 2000 and alpha K = 1000. Explicit methods therefore need steps of about
+1/1000, although the solution only follows the slowly rotating field.
 """
 
 from dataclasses import replace
@@ -14,6 +15,6 @@ scene = driven_spin("Stiff driven spin on the sphere", 2000, Rational(1, 2), 100
 
 
 def stiff_variants() -> list[StiffVariant]:
-    """Return the scene itself as its only stiff variant."""
+    """Return one stiff variant, which is the scene itself."""
     named = replace(scene, name=__name__.rpartition(".")[2])
     return [StiffVariant("stiff driven spin", "rates 2000 and 1000", named, 2000.0)]

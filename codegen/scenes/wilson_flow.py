@@ -18,15 +18,15 @@ draw = Random(1006)
 
 
 def full(c: Matrix) -> Matrix:
-    """Return the real 6 x 6 matrix of a link.
+    """Return the real 6 x 6 matrix of a complex 3 x 3 matrix V; ``c`` is Re V above Im V.
 
-    Its transpose is the real matrix of the conjugate transpose of the link.
+    The transpose of the result is the real matrix of V^H.
     """
     return c.row_join(Matrix.vstack(-c[3:, :], c[:3, :]))
 
 
 def start() -> Matrix:
-    """Return a product of random elements of SU(2) in three subgroups of SU(3)."""
+    """Return a random link as a 6 x 3 matrix: a product of elements of SU(2) in three subgroups of SU(3)."""
     link = full(Matrix.vstack(eye(3), Matrix.zeros(3, 3)))
     for j, k in ((0, 1), (0, 2), (1, 2)):
         a, b, c, d = (draw.choice((-1, 1)) * Rational(x, 5) for x in draw.sample((1, 2, 2, 4), 4))
@@ -38,7 +38,10 @@ def start() -> Matrix:
 
 
 def generator(loop: Matrix) -> list[Expr]:
-    """Return the coordinates of the anti-Hermitian part of -P without its trace, for the loop P."""
+    """Return the coordinates in su(3) of the anti-Hermitian part of -P without its trace.
+
+    ``loop`` is the 6 x 3 matrix of P: Re P above Im P.
+    """
     X, Y = loop[:3, :], loop[3:, :]
     pairs = [(0, 1), (0, 2), (1, 2)]
     above = [x for j, k in pairs for x in ((X[k, j] - X[j, k]) / 2, -(Y[j, k] + Y[k, j]) / 2)]

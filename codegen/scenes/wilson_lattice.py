@@ -2,9 +2,9 @@
 
 V' = -g0^2 (dS(V)) V with the Wilson action S (M. Luescher, Properties and uses of the Wilson flow in lattice
 QCD, JHEP 08 (2010) 071, arXiv:1006.4518, section 1). Link a of a site goes to the next site along axis a. Its
-coordinates are a 6 x 3 matrix, Re V above Im V. A staple of a link is the product of the other three links of
-a plaquette. The generator of a link is the anti-Hermitian part, without its trace, of minus the link times
-the sum of its staples.
+coordinates are a 6 x 3 matrix, Re V above Im V. A plaquette is a square of four links. A staple of a link is
+the product of the other three links of a plaquette. Let X be the product of a link and the sum of its
+staples. The generator of the link is the anti-Hermitian part of -X without its trace.
 
 The variable ``energy`` is the density E of the action: the sum of 2 Re tr(1 - P) over the plaquettes P that
 begin at a site. The function ``start`` returns random links.
@@ -28,9 +28,9 @@ links = [x for k in axes for x in symbols(f"v{k}_0:6(0:3)", real=True)]
 
 
 def link(axis: int, *steps: tuple[int, int]) -> Matrix:
-    """Return the link along an axis that begins where ``steps`` end; a step is an axis and a sign.
+    """Return the link along ``axis`` from the site to which ``steps`` lead; a step is an axis and a sign.
 
-    The link is a real 6 x 6 matrix. Its transpose belongs to the inverse link.
+    The link is a real 6 x 6 matrix. The transposed matrix is the inverse link.
     """
     offset = [sum(sign for along, sign in steps if along == e) for e in axes]
     site = neighbour(links, offset) if any(offset) else links
@@ -38,7 +38,7 @@ def link(axis: int, *steps: tuple[int, int]) -> Matrix:
 
 
 def staples(a: int) -> Matrix:
-    """Return the sum of the staples of link a, as a 6 x 3 matrix."""
+    """Return the sum of the staples of the link along axis ``a``, as a 6 x 3 matrix."""
     total = zeros(6, 3)
     for b in [b for b in axes if b != a]:
         total += link(b, (a, 1)) * (link(a, (b, 1)).T * link(b).T[:, :3])
@@ -47,7 +47,10 @@ def staples(a: int) -> Matrix:
 
 
 def start(shape: Sequence[int]) -> np.ndarray:
-    """Return random links at all sites, an array of shape (n1, ..., nd, 18 d). The seed is fixed."""
+    """Return random links for a lattice of the given shape (n1, ..., nd). The seed is fixed.
+
+    The result has the shape (n1, ..., nd, 18 d), with the d links of a site in its last axis.
+    """
     draw, count = Random(1006), DIMENSION * int(np.prod(shape))
     parts = np.array([draw.gauss(0, 1) for _ in range(12 * count)]).reshape(count, 2, 2, 3)
     first, second = np.moveaxis(parts[:, 0] + 1j * parts[:, 1], 1, 0)

@@ -1,1 +1,1 @@
-"""Run-time helpers of emitted code; a module contains only the helpers that it calls."""
+"""Run-time helpers of emitted code. An emitted module contains only the helpers that it calls."""

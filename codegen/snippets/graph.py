@@ -35,11 +35,11 @@ class Snippet:
 
 
 def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippet, ...]:
-    """Return every snippet; the names are the same for all targets. If ``batch`` is True, variants without
-    branches are added for some functions, and the polynomials that these variants do not use are removed.
+    """Return every snippet; the names are the same for all targets.
 
-    Only double precision has shorter polynomials near zero. In single precision the full polynomial is
-    already short.
+    If ``batch`` is True, sine, cosine and the Stumpff functions also have variants without branches. Stumpff
+    functions use shorter polynomials near zero only in double precision and if ``batch`` is False. In single
+    precision the full polynomial is already short.
     """
     listed = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
     listed.append(Snippet("choose", "choose"))
@@ -97,7 +97,8 @@ def _shared_angle(
     # called rarely and is a separate function.
     far, small = f"{name}_far", float(stumpff.SMALL)
     listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-    # Three functions, each with two polynomials, would be too long for a C compiler to inline.
+    # With three or more functions, two short polynomials for each function would be too long for a C compiler
+    # to inline. Then each function has only one short polynomial.
     sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
     calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
     tiny = float(stumpff.TINY) if "tiny" in sizes else ""
@@ -125,7 +126,7 @@ def trigonometric(precision: Precision) -> list[Snippet]:
 
 
 def snippet_of_table(table: PiecewisePolynomial, precision: Precision = DOUBLE) -> Snippet:
-    """Return the helper that evaluates a table: a binary search and Horner's rule."""
+    """Return the helper that evaluates a piecewise polynomial: a binary search, then Horner's rule."""
     knots = tuple(map(precision.round, table.knots))
     pairs = zip(table.bases, table.rows, strict=True)
     rows = [tuple(map(precision.round, (base, *row))) for base, row in pairs]
@@ -146,7 +147,7 @@ def graph(precision: Precision = DOUBLE, batch: bool = False) -> nx.DiGraph:
 
 @dataclass(frozen=True)
 class Needed:
-    """The library functions that a set of functions needs, and the texts of the helpers that it needs.
+    """The names of library functions and the source texts of helpers that an emitted module needs.
 
     In ``texts``, each helper comes after the helpers that it calls.
     """
@@ -171,12 +172,12 @@ def needed(
 
     ``functions`` are the functions that the module calls. ``sweeps`` is true if the module calls them in
     sweeps over equations. C compilers may then inline all branches of Stumpff functions, because a function
-    call in a sweep would force the compiler to move many values from registers to memory. ``wide`` is
-    the common number of rows of all inverted matrices, and 0 if their sizes differ or are large; in C, loops
-    over rows of this length are unrolled. ``widest`` is the number of rows of the largest inverted matrix; C
-    code reserves memory for one row of this length. ``chain`` is the number of angles that depend on one
-    another (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of helpers in C, so that two
-    modules can share one translation unit. ``batch`` is true for modules with a function for many systems.
+    call in a sweep would force the compiler to move many values from registers to memory. ``wide`` is the
+    common number of rows of all inverted matrices, and 0 if their sizes differ or are large; in C, loops over
+    rows of this length are unrolled. ``widest`` is the number of rows of the largest inverted matrix; C code
+    reserves memory for one row of this length. ``chain`` is the number of angles that depend on one another
+    (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of helpers in C, so that two modules
+    can share one translation unit. ``batch`` is true if the module can integrate many systems at once.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())
@@ -212,7 +213,7 @@ def _text(target: str, snippet: Snippet, precision: Precision, given: dict[str, 
         text = precision.text(precision.round(x))
         return literal.render(text=text, f=precision.suffix, single=precision is not DOUBLE).strip()
 
-    # C appends "f" to the names of its library functions in single precision.
+    # In single precision the names of the functions in C's library end in "f", as in sinf.
     values: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
     # In C, NAN has the type float. The cast to double avoids the warning of -Wdouble-promotion.
     values["nan"] = "(double)NAN" if precision is DOUBLE else "NAN"

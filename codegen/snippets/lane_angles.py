@@ -14,7 +14,8 @@ from codegen.ir.precision import DOUBLE, Precision
 from codegen.snippets.stumpff import PI, economised
 
 LARGEST = {53: 2**20, 24: 2**9}
-"""The largest angle, for each number of bits of the significand. For larger angles the result is NaN."""
+"""The largest angle whose sine and cosine are computed, for each number of bits of the significand. For
+larger angles the result is NaN."""
 
 _PARTS = {53: (31, 31, 31), 24: (12, 11, 11)}
 _REDUCED = Fraction(5, 8)
@@ -24,7 +25,7 @@ _REDUCED = Fraction(5, 8)
 def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
     """Return the constants of the reduction: the largest angle, 2/pi, the parts of pi/2, and ``round``.
 
-    The constant ``round`` is so large that its addition rounds to an integer.
+    The constant ``round`` is so large that its floating-point sum with a small number is an integer.
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])
@@ -45,7 +46,10 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
 
 
 def polynomial(k: int, precision: Precision = DOUBLE) -> list[float]:
-    """Return the coefficients of c_k for reduced angles, from the lowest degree."""
+    """Return the coefficients of a polynomial for the Stumpff function c_k, from the lowest degree.
+
+    The polynomial is accurate for the squares of reduced angles.
+    """
     return [float(precision.round(c)) for c in economised(k, _REDUCED, precision.bits)]
 
 

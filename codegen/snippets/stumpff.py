@@ -33,7 +33,8 @@ function computes c_k of one argument for all k in the set."""
 
 
 LEFT = 10
-"""The number of correct bits after a step by the largest allowed angle; 10 bits are three digits."""
+"""The number of bits that are still correct after a rotation by the largest allowed angle. Ten bits are three
+decimal digits."""
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
@@ -60,9 +61,8 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
     """Return the Taylor coefficients of c_k up to the last term that matters at z = ``last``.
 
-    A term matters if it is larger than an eighth of the last bit.
-
-    By default ``last`` is the switch to the closed form.
+    A term matters if it is larger than an eighth of the last bit of c_k(0). The default of ``last`` is
+    SWITCH[k].
 
     >>> coefficients(1)[:3], len(coefficients(1)), len(coefficients(1, SMALL))
     ((Fraction(1, 1), Fraction(-1, 6), Fraction(1, 120)), 9, 6)
@@ -79,14 +79,15 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 
 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
-    """Return the shortest polynomial for c_k up to ``last`` with an error of at most 1/16 of the last bit.
+    """Return a short polynomial for c_k on 0 <= z <= ``last``, with an error of at most 1/16 of the last bit.
 
-    Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial. The Chebyshev polynomials
-    are stretched so that they vanish at zero; the value at zero therefore stays exact. Among the polynomials
-    with a given leading term, they have the smallest maximum. The error of the result is equally large
-    everywhere, and in a steady motion it always has the same sign. For a single value, an error of half a bit
-    would be small enough. In 64,000 steps, however, such an error makes the norm of a quaternion drift by
-    4e-12.
+    Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial to lower its degree. Among
+    the polynomials with a given leading term, Chebyshev polynomials have the smallest maximum. They are
+    stretched so that they vanish at zero; the value at zero therefore stays exact.
+
+    The bound is small because errors accumulate. In a steady motion z is nearly constant, so the error has
+    the same sign in every step. With an error of half a bit, the norm of a quaternion would drift by 4e-12 in
+    64,000 steps.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]
@@ -110,7 +111,7 @@ def _cosine(x: Fraction) -> Fraction:
 
 
 def _chebyshev(n: int, slope: Fraction, shift: Fraction) -> list[Fraction]:
-    """Return the coefficients of T_n(slope z + shift)."""
+    """Return the coefficients of the Chebyshev polynomial T_n(slope z + shift) in powers of z."""
     none = Fraction(0)
     before, now = [Fraction(1)], [shift, slope]
     for _ in range(n - 1):

@@ -1,7 +1,8 @@
-"""Jinja2 environments, one for each target, cached; an undefined variable is an error.
+"""Jinja2 environments, one for each target (``c``, ``python``, ...).
 
-``snippets/NAME.j2`` is a file of ``codegen/snippets/TARGET``, ``module/NAME.j2`` is a file of
-``codegen/templates/TARGET``.
+A variable that is not defined in a template raises an error.
+In an environment, ``snippets/NAME.j2`` denotes a file in ``codegen/snippets/TARGET``, and ``module/NAME.j2``
+denotes a file in ``codegen/templates/TARGET``.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from jinja2 import Environment, PackageLoader, PrefixLoader, StrictUndefined
 
 @cache
 def environment(target: str) -> Environment:
-    """Return the environment of a target by its name."""
+    """Return the environment of a target, such as ``c``; the same object is returned for later calls."""
     loader = PrefixLoader(
         {
             "module": PackageLoader("codegen.templates", target),

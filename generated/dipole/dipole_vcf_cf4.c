@@ -664,8 +664,8 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         const double w39 = g22 * xE2_1_0 - g20 * xE2_1_2;
         const double w40 = g20 * xE2_1_1 - g21 * xE2_1_0;
         const double w41 = g21 * xE2_1_2 - g22 * xE2_1_1;
-        const double Q2_7 = g21 + w39 * c1_1 + (xE2_1_0 * w40 - xE2_1_2 * w41) * c2_1;
-        const double Q2_8 = g22 + w40 * c1_1 + (xE2_1_1 * w41 - xE2_1_0 * w39) * c2_1;
+        const double Q2_7 = w39 * c1_1 + (xE2_1_0 * w40 - xE2_1_2 * w41) * c2_1 + g21;
+        const double Q2_8 = w40 * c1_1 + (xE2_1_1 * w41 - xE2_1_0 * w39) * c2_1 + g22;
         const double w42 = 3.26 - 3.0 * Q2_8;
         const double w43 = 0.3 * Q2_7;
         const double w44 = w42 - w43;
@@ -680,7 +680,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         const double gE2_1_3 = w6 + w8;
         const double gE2_1_6 = w29 - w28;
         const double a_0 = xi2_0 * gE2_1_0 + xi2_1 * gE2_1_3 + xi2_2 * gE2_1_6;
-        const double Q2_6 = g20 + w41 * c1_1 + (xE2_1_2 * w39 - xE2_1_1 * w40) * c2_1;
+        const double Q2_6 = w41 * c1_1 + (xE2_1_2 * w39 - xE2_1_1 * w40) * c2_1 + g20;
         const double E4_2_0 = gE4_2_0 * gE2_1_0 + gE4_2_1 * gE2_1_3 + gE4_2_2 * gE2_1_6;
         const double E4_2_3 = gE4_2_3 * gE2_1_0 + gE4_2_4 * gE2_1_3 + gE4_2_5 * gE2_1_6;
         const double E4_2_6 = gE4_2_6 * gE2_1_0 + gE4_2_7 * gE2_1_3 + gE4_2_8 * gE2_1_6;
@@ -732,8 +732,8 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         const double w92 = g22 * xE3_1_0 - g20 * xE3_1_2;
         const double w93 = g20 * xE3_1_1 - g21 * xE3_1_0;
         const double w94 = g21 * xE3_1_2 - g22 * xE3_1_1;
-        const double Q3_7 = g21 + w92 * c1_3 + (xE3_1_0 * w93 - xE3_1_2 * w94) * c2_3;
-        const double Q3_8 = g22 + w93 * c1_3 + (xE3_1_1 * w94 - xE3_1_0 * w92) * c2_3;
+        const double Q3_7 = w92 * c1_3 + (xE3_1_0 * w93 - xE3_1_2 * w94) * c2_3 + g21;
+        const double Q3_8 = w93 * c1_3 + (xE3_1_1 * w94 - xE3_1_0 * w92) * c2_3 + g22;
         const double w95 = 3.26 - 3.0 * Q3_8;
         const double w96 = 0.3 * Q3_7;
         const double w97 = w95 - w96;
@@ -761,7 +761,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         const double gE3_1_3 = w81 + w83;
         const double gE3_1_6 = w90 - w89;
         const double a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6;
-        const double Q3_6 = g20 + w94 * c1_3 + (xE3_1_2 * w92 - xE3_1_1 * w93) * c2_3;
+        const double Q3_6 = w94 * c1_3 + (xE3_1_2 * w92 - xE3_1_1 * w93) * c2_3 + g20;
         const double w116 = a_3_2 * a_3_0 + w101 * Q3_6;
         const double s_p1_1 = mu1 + w59 * (sum_Nr4_1 - w115) - w103 * w116;
         const double Nr1_2 = 0.01 * (xi1_0 * xi1_1) - w117;

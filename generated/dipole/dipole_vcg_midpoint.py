@@ -416,8 +416,8 @@ def _advance(state, h, memory, statistics):
             w4 = g22 * xE1_1_0 - g20 * xE1_1_2
             w6 = g20 * xE1_1_1 - g21 * xE1_1_0
             w7 = g21 * xE1_1_2 - g22 * xE1_1_1
-            Q1_7 = g21 + w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1
-            Q1_8 = g22 + w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1
+            Q1_7 = w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1 + g21
+            Q1_8 = w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1 + g22
             w8 = 3.26 - 3.0 * Q1_8
             w9 = 0.3 * Q1_7
             w10 = w8 - w9
@@ -429,7 +429,7 @@ def _advance(state, h, memory, statistics):
             Nr1_0 = Q1_7 * w14 + Q1_8 * w15 + 0.99 * (xi1_1 * xi1_2)
             w16 = w1 * Nr1_0
             w17 = mu0 + w16
-            Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1
+            Q1_6 = w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1 + g20
             w18 = xi1_0 * xi1_2 + w14 * Q1_6
             w19 = w1 * w18
             Nr1_2 = 0.01 * (xi1_0 * xi1_1) - w15 * Q1_6

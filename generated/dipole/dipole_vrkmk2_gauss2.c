@@ -549,8 +549,8 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
         const double w18 = g22 * X2_0 - g20 * X2_2;
         const double w19 = g20 * X2_1 - g21 * X2_0;
         const double w20 = g21 * X2_2 - g22 * X2_1;
-        const double Q2_7 = g21 + w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1;
-        const double Q2_8 = g22 + w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1;
+        const double Q2_7 = w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1 + g21;
+        const double Q2_8 = w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1 + g22;
         const double w21 = 3.26 - 3.0 * Q2_8;
         const double w22 = 0.3 * Q2_7;
         const double w23 = w21 - w22;
@@ -582,8 +582,8 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
         const double w44 = g22 * X1_0 - g20 * X1_2;
         const double w45 = g20 * X1_1 - g21 * X1_0;
         const double w46 = g21 * X1_2 - g22 * X1_1;
-        const double Q1_7 = g21 + w44 * c1_2 + (X1_0 * w45 - X1_2 * w46) * c2_2;
-        const double Q1_8 = g22 + w45 * c1_2 + (X1_1 * w46 - X1_0 * w44) * c2_2;
+        const double Q1_7 = w44 * c1_2 + (X1_0 * w45 - X1_2 * w46) * c2_2 + g21;
+        const double Q1_8 = w45 * c1_2 + (X1_1 * w46 - X1_0 * w44) * c2_2 + g22;
         const double w47 = 3.26 - 3.0 * Q1_8;
         const double w48 = 0.3 * Q1_7;
         const double w49 = w47 - w48;
@@ -602,11 +602,11 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
         dipole_vrkmk2_gauss2_stumpff_23(w55, &c2_3, &c3_3);
         const double w57 = X2_1 * w14 - X2_2 * w4;
         const double a_6_0 = v2_0 + w12 * w13 + w16 * w57;
-        const double Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1;
+        const double Q2_6 = w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1 + g20;
         const double w58 = a_6_2 * a_6_0 + w27 * Q2_6;
         const double w59 = X1_1 * w40 - X1_2 * w30;
         const double a_2_0 = v1_0 + w38 * w39 + w42 * w59;
-        const double Q1_6 = g20 + w46 * c1_2 + (X1_2 * w44 - X1_1 * w45) * c2_2;
+        const double Q1_6 = w46 * c1_2 + (X1_2 * w44 - X1_1 * w45) * c2_2 + g20;
         const double w60 = a_2_2 * a_2_0 + w53 * Q1_6;
         const double s_L_1 = mu1 - w1 * (w58 + w60);
         const double Nn2_2 = 0.01 * (a_6_1 * a_6_0) - w28 * Q2_6;

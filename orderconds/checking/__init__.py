@@ -4,6 +4,9 @@ Conditions of order 1, 2, ... are evaluated in the ring of the tableau's coeffic
 A claim states the exact order of the method. Therefore a claim also fails if the order of the method is
 higher than the claimed order.
 
+The residual of a condition is its left-hand side minus its right-hand side. If the coefficients are rounded,
+the residual is a ball: an approximate value with an error bound.
+
 Certificates. ``exact``: every residual up to the order is zero in an exact ring. ``ball``: the file states
 equations for its decimals, and interval arithmetic proves that the equations have exactly one solution within
 one unit of the last digits. The method whose coefficients are this solution has the stated order

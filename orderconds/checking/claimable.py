@@ -38,7 +38,7 @@ def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
 
 
 def unclaimed(tableau: Tableau) -> tuple[Family, ...]:
-    """Return the claimable families in which the file claims no order.
+    """Return the claimable families in which the file of the tableau claims no order.
 
     >>> from orderconds.tableau import find
     >>> unclaimed(Tableau.load(find("kutta3")))

@@ -1,5 +1,8 @@
-"""The order of a continuous extension: for each tree t, a polynomial in theta is compared with theta^|t| /
-gamma(t), coefficient by coefficient."""
+"""The order of a continuous extension, which has the weights b_i(theta) at the fraction theta of a step.
+
+The left-hand side of the order condition of a tree t is a polynomial in theta. Each of its coefficients is
+compared with the coefficient of theta^|t|/gamma(t), where gamma(t) is the density of t.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +47,10 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
 def _judged(
     method: RungeKutta, extension: Extension, ring: Ring, n: int
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Return the verdicts on the conditions of order n, and the conditions that fail."""
+    """Return the verdicts on the conditions of order n, and the conditions that fail.
+
+    The conditions for theta, theta^2, ... are evaluated in turn, up to the first power with a failure.
+    """
     family = families.get("rk")
     verdicts: set[str] = set()
     for p in range(1, max(extension.degree, n) + 1):
@@ -65,8 +71,8 @@ def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
 
 
 def _is_smooth(method: RungeKutta, extension: Extension, ring: Ring) -> bool | None:
-    """Return True if the derivative at the end of a step is the field at the new state, and the derivative at
-    the beginning is the field at the old state."""
+    """Return True if the derivative of the extension is the field at the old state at the beginning of a
+    step, and the field at the new state at its end. Return None if the ring cannot decide."""
     s = len(method.b)
     first, last = (tuple(ring.one if i == k else ring.zero for i in range(s)) for k in (0, s - 1))
     ends = extension.combined(tuple(ring.rational(p) for p in range(1, extension.degree + 1)))

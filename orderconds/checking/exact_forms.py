@@ -22,7 +22,7 @@ from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
 """A fraction with denominator q is accepted for a number if q^2, times the uncertainty of the number, is at
-most this bound."""
+most this bound. For larger products, the agreement could be a coincidence."""
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
 """The keys of a tableau file whose values contain no coefficients."""
@@ -33,8 +33,8 @@ MAX_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class ExactForms:
-    """The tableau with exact coefficients, the keys and values of its file, and the text of each recognised
-    number."""
+    """The ``tableau`` with exact coefficients, the ``data`` of its file, and ``texts``, which maps the name
+    of each recognised number to its exact text."""
 
     tableau: Tableau
     data: Data
@@ -42,8 +42,8 @@ class ExactForms:
 
 
 def exact_forms(tableau: Tableau) -> ExactForms | None:
-    """Return the tableau with exact coefficients near the given numbers. Return None if the numbers are not
-    recognised, or if the order of the exact tableau is not proved.
+    """Return the tableau with exact coefficients near the given numbers. Return None if no number is rounded,
+    if a number is not recognised, or if the order of the exact tableau is not proved.
 
     >>> rows = {"A": [[], ["0.6666666666666666d"]], "b": ["0.25", "0.75"]}
     >>> exact_forms(from_data({"name": "m", "family": "rk", **rows})).data["A"]
@@ -97,7 +97,7 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 
 
 def _fraction(x: Constant) -> Fraction | None:
-    """Return the simplest fraction near a number, or None if the agreement could be a coincidence."""
+    """Return the simplest fraction within the uncertainty of a number, or None if it may be a coincidence."""
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
 
@@ -128,7 +128,7 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Return a copy of the file's values in which each recognised number is replaced by its exact text."""
+    """Return a copy of ``x``, a value in a tableau file, with the exact text of each recognised number."""
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):

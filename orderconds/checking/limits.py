@@ -12,10 +12,10 @@ MAX_CONDITIONS = 50_000
 
 @dataclass(frozen=True)
 class Limits:
-    """The highest allowed number of ``conditions`` of one order, of ``seconds`` in total, and of
-    ``megabytes`` of memory. None means no limit.
+    """The limits of one check: the number of ``conditions`` of each order, the time in ``seconds``, and the
+    memory in ``megabytes``. None means no limit.
 
-    Time and memory are compared with their limits only after each batch of conditions, so the limits may be
+    Time and memory are compared with their limits only before each batch of conditions, so the limits may be
     exceeded during a batch.
     """
 
@@ -26,7 +26,7 @@ class Limits:
 
 @dataclass
 class Meter:
-    """A counter for the conditions that one check evaluates. It reports when a limit is reached.
+    """A counter for the conditions that one check evaluates; :meth:`stops` compares it with the limits.
 
     >>> meter = Meter(Limits(conditions=10))
     >>> meter.count(8)
@@ -50,7 +50,8 @@ class Meter:
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Return True if evaluating this number of further conditions would exceed a limit."""
+        """Return True if ``more`` further conditions would exceed the limit on the current order, or if the
+        limit on time or memory is already exceeded."""
         limits = self.limits
         if self.of_order + more > limits.conditions:
             return True
@@ -60,8 +61,8 @@ class Meter:
 
 
 def resident_megabytes() -> float:
-    """Return the memory that this process uses. If the system does not report this number, return the peak
-    memory of the process.
+    """Return the memory that this process uses, in megabytes. If the system does not report this number,
+    return the peak memory of the process, or 0 on Windows.
 
     >>> resident_megabytes() >= 0
     True

@@ -24,7 +24,7 @@ up to the first batch with a failure. The report then contains only the failing 
 no error norm."""
 
 STOPPED = "stopped"
-"""The verdict on an order that was not decided because of a limit."""
+"""The verdict on an order if a limit on the work ended the check before all its conditions were evaluated."""
 
 DOUBLE = "double"
 """The certificate of an order if coefficients in double precision agree with the order but do not prove
@@ -38,11 +38,12 @@ Tree = tuple[Key, Callable[[], OrderCondition]]
 class FamilyOrder:
     """The order of one tableau in one family, and the claimed or required order.
 
-    ``failing`` are the conditions of order ``order + 1`` that fail, ``error_norm`` the 2-norm of their
-    residuals. ``limit`` is the order at which the search stopped without a failing condition; None if a
-    condition failed. ``stopped`` is the number of conditions evaluated before a limit on work ended the
-    search. ``required`` is a lower bound that the order must reach. Without ``required``, the order must
-    equal ``claimed``.
+    ``decided`` is False if the coefficients have too few digits for the next order. ``failing`` are the
+    conditions of order ``order + 1`` that fail, and ``error_norm`` is the 2-norm of their residuals.
+    If a search limit or a limit on work ended the search, ``limit`` is the last order whose conditions all
+    hold; otherwise it is None. ``stopped`` is the number of evaluated conditions if a limit on work ended the
+    search; otherwise it is None. If ``required`` is given, the order must be at least ``required``. Otherwise
+    the order must equal ``claimed``.
     """
 
     family: str
@@ -66,7 +67,7 @@ class FamilyOrder:
 
     @property
     def verdict(self) -> str:
-        """``holds``, ``fails``, ``undecided`` or, without a claim and a required order, ``unclaimed``."""
+        """``holds``, ``fails`` or ``undecided``; ``unclaimed`` if no order is claimed or required."""
         if self.required is not None:
             sound = self.order >= self.required
             unknown = not self.decided or self.stopped is not None
@@ -172,8 +173,8 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest residual of each batch of conditions in which no condition fails, if the coefficients are
-    doubles."""
+    """The largest residual of each batch of conditions in which no condition fails; None unless the
+    coefficients are doubles."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -204,7 +205,11 @@ class _Search:
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
         """Return three values: the verdicts on the conditions of order n, the conditions that fail, and
-        whether all conditions were evaluated."""
+        whether all conditions were evaluated.
+
+        ``unlikely`` is true if most conditions probably fail. ``decimal`` is true if the certificate of the
+        lower orders is ``decimal``.
+        """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
@@ -230,11 +235,11 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield the conditions that decide order n. A small number of conditions is yielded at once, as
-    (conditions, True), a large number in batches, each as (batch, False).
+    """Yield the conditions that decide order n. At most ``EXHAUSTIVE`` conditions are yielded as one pair
+    (conditions, True). More conditions are yielded in batches, as pairs (batch, False).
 
-    These conditions imply all conditions of order n (:meth:`Family.decisive_conditions`). Each batch has
-    twice the size of the batch before.
+    These conditions imply all conditions of order n (:meth:`Family.decisive_conditions`). Each batch is twice
+    as large as the batch before.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)
@@ -260,7 +265,8 @@ def _norm(sizes: list[Decimal]) -> float:
 
 
 def _method(tableau: Tableau, family: Family) -> Method:
-    """Return the method of a tableau, converted to a format of the family."""
+    """Return the method of a tableau, converted to a format of the family. Raise InputError if there is
+    none."""
     method = family.read(tableau)
     if method is None:
         raise InputError(

@@ -18,9 +18,9 @@ from orderconds.tableau import Tableau, dumps
 class Refinement:
     """The result of :func:`refine`: the refined ``tableau``, and how its coefficients were obtained.
 
-    For a tableau with a table ``[proof]``, ``decimals`` maps names to the new decimals, ``pinned`` contains
-    the names of the decimals that were kept fixed, and ``proof`` is the proof. For doubles and other rounded
-    decimals, ``exact`` maps names to the recognised exact numbers.
+    If the file has a table ``[proof]``, ``decimals`` maps the names of the coefficients to their new
+    decimals, ``pinned`` contains the names of the decimals that were kept fixed, and ``proof`` is the proof.
+    Otherwise ``exact`` maps the names of doubles and rounded decimals to the recognised exact numbers.
     """
 
     tableau: Tableau
@@ -41,10 +41,10 @@ class Refinement:
 def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refinement:
     """Make the coefficients of a tableau exact or more precise.
 
-    If the tableau has a table ``[proof]``, its decimals are computed and proved to ``digits`` places (10 to
-    1000). Otherwise doubles and rounded decimals are recognised as fractions or numbers p + q sqrt(d); the
-    exact method has at least the order of the given method. ``tableau`` may also be a file or a name of the
-    library.
+    If the file has a table ``[proof]``, which states equations for the decimals, the decimals are computed
+    and proved to ``digits`` places (10 to 1000). Otherwise doubles and rounded decimals are replaced by
+    fractions or numbers p + q sqrt(d); the exact method has at least the order of the given method.
+    ``tableau`` may also be a file or a name of the library.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if
     the numbers are not recognised.

@@ -23,10 +23,10 @@ class EmbeddedOrder(Struct, frozen=True):
     """The orders of the embedded method. It consists of second weights, or of a second update, and serves to
     estimate the error.
 
-    ``claimed`` is the claimed order in the family ``own``, and ``orders`` are the computed orders by family.
-    ``certificates`` are the certificates of these orders, by family. ``own`` is ``rk`` if the embedded method
-    consists of weights, and ``cf`` if it is an update by exponentials. ``failing`` are the failing conditions
-    of the family ``own`` at the next order.
+    The family ``own`` is ``rk`` if the embedded method consists of weights, and ``cf`` if it is an update by
+    exponentials. ``claimed`` is the claimed order in this family, and ``failing`` are its failing conditions
+    of the next order. ``orders`` and ``certificates`` are the computed orders and their certificates, by
+    family.
     """
 
     claimed: int
@@ -73,8 +73,8 @@ class RegisterForm(Struct, frozen=True):
 
     ``A`` and ``B`` are the coefficients of K <- A_i K + F(Y), Y <- exp(h B_i K) Y as text. ``space`` is
     ``group`` if the scheme is equal to the method on every Lie group. It is ``vector space`` for a tableau
-    (A, b): the scheme is then equal to the method on vector spaces. ``holds`` is None if rounded decimals do
-    not decide the question.
+    (A, b): the scheme is then equal to the method on vector spaces. ``holds`` states whether there is such a
+    scheme; it is None if rounded decimals do not decide this.
     """
 
     holds: bool | None
@@ -108,7 +108,7 @@ class SymmetryOrder(Struct, frozen=True):
     at_least: bool = False
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of a symmetry."""
+        """Return the JSON object of the order of symmetry."""
         return {
             "family": self.family,
             "order": self.order,
@@ -154,7 +154,7 @@ class Report:
 
     @property
     def conclusion(self) -> str:
-        """The verdict in words; without a claim, a text with the computed orders."""
+        """The verdict as text; if no order is claimed or required, a text with the computed orders."""
         if self.verdict != UNCLAIMED:
             return self.verdict
         several = len(self.orders) > 1
@@ -165,8 +165,8 @@ class Report:
     def effective_symmetry(self) -> int | None:
         """The order to which an effectively symmetric method is symmetric; None for all other methods.
 
-        A method of order p is symmetric at least to the order 2 floor(p/2) + 1. If this order is larger for a
-        method that is not symmetric, the method is effectively symmetric.
+        Every method of order p is symmetric at least to the order 2 floor(p/2) + 1. A method is effectively
+        symmetric if it is symmetric to a higher order, but not symmetric.
         """
         if self.symmetry is None or self.symmetry.order is None or self.symmetry.at_least:
             return None

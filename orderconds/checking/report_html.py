@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from orderconds.checking.report import Report
 
 LONGEST = 120
-"""The maximal length of a formula or residual. Longer formulas and residuals are not shown."""
+"""The maximal number of characters of a condition in LaTeX. Longer conditions are not shown."""
 
 
 def report_html(report: Report) -> str:
@@ -44,7 +44,7 @@ def _row(order: FamilyOrder) -> str:
 
 
 def _failing(order: FamilyOrder) -> Iterator[str]:
-    """Yield a line with the first condition that fails in one family, if a condition fails."""
+    """If a condition fails, yield one line: the number of failing conditions and the first of them."""
     for failure in order.failing[:1]:
         count, n = len(order.failing), order.order + 1
         of_all = f"1 of {count} conditions" if count > 1 else "a condition"

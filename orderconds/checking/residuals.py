@@ -34,8 +34,7 @@ RESOLUTION = Decimal("1e-3")
 number 1/n! is the least of the integrals of order n in the series of the exact flow."""
 
 BITS = 256
-"""The precision of the balls in bits. With this precision, twenty digits of a non-zero residual are
-correct."""
+"""The precision of the balls in bits. It usually gives twenty correct digits of a non-zero residual."""
 
 ENCLOSING = Balls(BITS)
 DIGITS = 20
@@ -44,14 +43,14 @@ ROUNDED = Context(prec=DIGITS)
 
 @dataclass(frozen=True, eq=False)
 class Failure:
-    """A condition that does not hold: ``value`` is its left-hand side minus its right-hand side, in
-    ``ring``."""
+    """A condition that does not hold. The function ``exact`` returns its residual, the left-hand side minus
+    the right-hand side, as an element of ``ring``."""
 
     condition: OrderCondition
     ring: Ring = field(repr=False)
     exact: Callable[[], Element] = field(repr=False)
     enclosure: arb | None = field(default=None, repr=False)
-    """A ball of the library flint around the value, or None if no ball was computed."""
+    """A ball of the library flint that contains the residual, or None if no ball was computed."""
 
     @cached_property
     def value(self) -> Element:
@@ -60,7 +59,7 @@ class Failure:
 
     @cached_property
     def residual(self) -> str:
-        """The text of the residual, exact if the ring is exact."""
+        """The residual as text. The text is exact if the ring is exact."""
         return self.ring.text(self.value)
 
     @cached_property
@@ -111,7 +110,8 @@ def judge(
 ) -> tuple[set[str], tuple[Failure, ...]]:
     """Return the set of verdicts that occur for the given conditions, and the conditions that fail.
 
-    If ``sizes`` is a list and no condition fails, the largest residual is appended to it.
+    If ``sizes`` is a list, the residuals are balls and no condition fails, the largest absolute value of a
+    residual is appended to ``sizes``.
 
     Verdicts are ``zero``, ``fails``, ``supported`` (the residual is a narrow ball around zero) and
     ``undecided`` (it is a wide ball around zero). If ``balls_first`` is true, ball arithmetic is used before
@@ -200,8 +200,7 @@ class _OnDemand:
 
 
 def _rational(x: Element) -> fmpq | None:
-    """Return a rational number as a quotient of integers. Return None if the number is a ball or is not
-    rational."""
+    """Return ``x`` as a quotient of integers. Return None if ``x`` is a ball or an irrational number."""
     if isinstance(x, Algebraic):
         return x.rational_value if x.is_rational else None
     return x if isinstance(x, fmpq) else None

@@ -26,8 +26,8 @@ MOST_ROOTED, MOST_ORDERED = 8, 6
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
-    """Return the order to which a method is symmetric; None for a format other than Runge-Kutta and
-    commutator-free methods.
+    """Return the order to which a method is symmetric. Return None if the method is neither a Runge-Kutta
+    method nor a commutator-free method.
 
     ``symmetric`` states whether the method is known to be symmetric. A Runge-Kutta tableau is examined on
     vector spaces, a commutator-free method on groups.
@@ -54,7 +54,7 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
 
 def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
     """Return the family, the series of a step, the function that yields the trees of the series, and the
-    largest number of vertices."""
+    largest number of vertices to evaluate. Return None if the format of the tableau has no such series."""
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):
         weights = runge_kutta_series(ring, method.A, method.b)

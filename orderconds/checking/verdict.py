@@ -93,7 +93,8 @@ def check(
 
 
 def _register_form(tableau: Tableau) -> RegisterForm | None:
-    """Return the scheme with two registers to which the tableau can be rewritten, as text."""
+    """Return the scheme with two registers that is equal to the method, or the reason why there is none.
+    Return None for a method that is neither a tableau (A, b) nor commutator-free."""
     rewriting = low_storage(tableau)
     if rewriting is None:
         return None
@@ -110,8 +111,8 @@ def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:
 
 
 def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
-    """Return the order and the tolerance as numbers. Raises InputError for values of other types or outside
-    the bounds."""
+    """Return the order and the tolerance as numbers. Raises InputError if one of the three arguments has a
+    wrong type or is outside its bounds."""
     if limits is not None and not isinstance(limits, Limits):
         raise InputError(described(limits), where="limits", expected="Limits")
     return (
@@ -129,14 +130,13 @@ def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrd
 
 
 def _of_doubles(certificate: str) -> str:
-    """Return the certificate of an order of a tableau of doubles. The argument is the certificate that the
-    evaluation with balls around the doubles gave."""
+    """Return ``double`` if the certificate is ``decimal``; return any other certificate unchanged."""
     return DOUBLE if certificate == "decimal" else certificate
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a sentence that states exact numbers near the doubles of a tableau, or an empty text if there
-    are none."""
+    """Return a sentence that states exact numbers near the doubles of a tableau. The text is empty if there
+    are no such numbers or if a claim fails."""
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -152,10 +152,10 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded method in families whose stages do not depend on the weights.
+    """Return the orders of the embedded method, or None if there is none.
 
-    The families are those in ``wanted`` with this property, the classical family ``rk``, and the family of
-    the tableau format.
+    The families are the classical family ``rk``, the family of the format, and those families in ``wanted``
+    whose stages do not depend on the weights.
     """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
@@ -179,7 +179,8 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
     """Return the proof that the equations of the file have a solution near its decimals, and messages. A
-    message states why there is no proof, or that a decimal has wrong digits."""
+    message states why the proof failed, or that a decimal has wrong digits. Without equations in the file,
+    the result is None without messages."""
     if tableau.proof is None:
         return None, []
     from orderconds.proof.certificate import certify
@@ -226,8 +227,8 @@ order."""
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return further families whose orders may imply a claim beyond the search limit of the claimed
-    family."""
+    """If a claimed or required order reaches the search limit of its family, return further families whose
+    orders may imply this order. Otherwise return an empty list."""
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
     return _bounding(tableau, {family.label() for family, _ in wanted})
@@ -274,7 +275,7 @@ def _beyond(
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
     """Return the best upper bound of the order in ``family``: the lowest computed order in a family whose
-    conditions are a subset of the conditions of ``family``."""
+    conditions are a subset of the conditions of ``family``. Return None if there is no such family."""
     if not computed:
         return None
     from orderconds.proof.implications import consequences
@@ -285,8 +286,8 @@ def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | Non
 
 
 def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Return the decided orders by label, including the orders that are not proved but supported by rounded
-    decimals."""
+    """Return the decided orders by the label of the family. Orders with the certificate ``decimal`` are
+    included."""
     return {f.family: f.order for f in computed if f.decided}
 
 
@@ -298,11 +299,11 @@ def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
 def _settled(
     tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
-    """Return an order that follows from orders in other families, if it is at least the search limit of
-    ``family``.
+    """Return the order in ``family`` if it follows from the orders in other families and is at least the
+    search limit of ``family``; otherwise return None.
 
-    The failing conditions in the result belong to the family that bounds the order from above. If orders with
-    the certificate ``decimal`` are needed, the result has this certificate, too, unless theorems prove the
+    The failing conditions in the result belong to the family that bounds the order from above. If the result
+    requires orders with the certificate ``decimal``, it has this certificate, unless ``facts`` imply the
     order.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
@@ -333,8 +334,8 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """Return the order with the certificate ``ball`` in place of ``decimal`` if proved orders in other
-    families imply it."""
+    """Return ``computed``. If its certificate is ``decimal`` and the proved ``facts`` imply the order, the
+    certificate becomes ``ball``."""
     if computed.certificate != "decimal" or not facts:
         return computed
     from orderconds.proof.implications import implied
@@ -373,8 +374,8 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:
-    """Return the family of a claim. If there is no family of this name, raise an InputError with the key in
-    the file."""
+    """Return the family of a claim. Raise an InputError with the key in the file if there is no family of
+    this name, or if the family does not accept the format of the tableau."""
     where = f"{tableau.path or tableau.name}: claims.{label.partition('(')[0]}"
     try:
         family = families.get(label)
@@ -396,7 +397,8 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 def _broken_claims(
     tableau: Tableau, computed: dict[str, bool | None], embedded: EmbeddedOrder | None
 ) -> Iterator[str]:
-    """Yield a message for each false claim on a property or on the embedded method."""
+    """Yield a message for each claim on a property or on the order of the embedded method that does not
+    hold."""
     for name, claimed in tableau.claims.properties.items():
         holds = computed.get(name)
         if holds is not claimed:

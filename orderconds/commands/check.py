@@ -41,7 +41,8 @@ DIGITS = 12
 """The line about two registers shows at most this number of characters of each coefficient."""
 
 WIDTH = 200
-"""The maximal length of a formula or residual in the text output. The JSON output contains the full text."""
+"""Longer formulas and residuals are shortened to this number of characters in the text output. The JSON
+output contains the full text."""
 
 
 @click.command(
@@ -68,7 +69,7 @@ WIDTH = 200
 @click.option(
     "--complete",
     is_flag=True,
-    help="Require a claim for every family in which the tableau can have an order.",
+    help="Require a claimed order in every family, unless the order follows from another family.",
 )
 @click.option(
     "--certified",
@@ -139,8 +140,8 @@ def command(
 
     Files below a directory that contain no tableau are skipped, and their names are printed. With
     --require-claims, such a file is skipped only if it contains no array that resembles an array of a
-    tableau. Examples are a CSV file whose header names other columns, a JSON file without a matrix, a Python
-    module that assigns no matrix A and no list b, and a NumPy archive with other names.
+    tableau. Among the skipped files are CSV files whose header names other columns, JSON files without a
+    matrix, Python modules that assign neither A nor b, and NumPy archives with other array names.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
@@ -189,7 +190,8 @@ def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
 
 
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
-    """Return one job for each tableau. All jobs have the options of ``job``."""
+    """Return one job for each tableau, with the options of ``job``. Tableaux that are named in a file DECIMAL
+    need no proof."""
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
     return [
@@ -218,8 +220,8 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Disable garbage collection during the check of one file. A check creates many small objects that are
-    used until the check ends, so garbage collection would free nothing."""
+    """Return a context that disables garbage collection if there is only one job. A check uses almost all of
+    its objects until it ends, so garbage collection would only cost time."""
     collects = gc.isenabled()
     if len(jobs) == 1:
         gc.disable()
@@ -254,7 +256,8 @@ class _Outcome(Struct, frozen=True):
 
 
 def _checked(job: _Job) -> _Outcome:
-    """Check one tableau. For an unreadable file, return a message, so that the other files are checked."""
+    """Check one tableau. If its file cannot be read, return a message as the outcome instead of an error, so
+    that the other files are still checked."""
     from orderconds.checking import check, read
 
     try:
@@ -274,7 +277,7 @@ def _checked(job: _Job) -> _Outcome:
         import json
 
         return _Outcome(report.verdict, json.dumps(report.as_json()))
-    if not job.one_of_many:  # Only the main process writes to the terminal.
+    if not job.one_of_many:  # A single job runs in the main process, which may print to the terminal.
         if screen.is_shown(report.verdict == "holds"):
             _print_report(report, detailed=job.detailed)
         return _Outcome(report.verdict, "")
@@ -382,7 +385,7 @@ def _embedded(embedded: EmbeddedOrder) -> str:
 
 
 def _register_form(form: RegisterForm) -> str:
-    """Return one line with the scheme with two registers to which a tableau can be rewritten."""
+    """Return one line with the coefficients of the scheme with two registers that is equal to the method."""
     space = "on a vector space" if form.space == "vector space" else "on every group"
     A, B = (
         f"[{', '.join(x if len(x) <= DIGITS else x[:DIGITS] + '...' for x in row)}]"

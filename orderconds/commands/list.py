@@ -1,5 +1,5 @@
-"""``orderconds list``: list families, tableaux, and the listings of other packages (``codegen``: groups and
-scenes).
+"""``orderconds list``: list families, tableaux, and the listings of other packages, such as the groups and
+scenes of ``codegen``.
 
 Another package provides a listing by an entry point in the group ``orderconds.listings``. The entry point is
 a function without arguments that returns records {"name", "about"}; "about" is a description of one line.
@@ -57,8 +57,9 @@ def kinds_offered() -> list[str]:
 
 
 def listing(kind: str) -> Callable[[], Records]:
-    """Return the function that lists one kind. Entry points of installed packages are searched only if the
-    kind is not built in.
+    """Return the function that returns the records of one kind. Raise UnknownName if there is no such kind.
+
+    Entry points of installed packages are searched only if the kind is not built in.
 
     >>> next(iter(listing("families")()))["name"]
     'rk'

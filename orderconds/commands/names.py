@@ -11,9 +11,9 @@ Complete = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
 
 def completing(names: Callable[[], Iterable[str]], *, files: bool = False) -> Complete:
-    """Return a completion function of click for the names that ``names`` returns.
+    """Return a function for click that completes a word to one of the names that ``names`` returns.
 
-    With ``files`` the shell also completes paths if no name fits.
+    If ``files`` is true and no name fits, the shell completes the word to a path.
 
     >>> [item.value for item in completing(lambda: ["cf4", "rk4"])(None, None, "c")]
     ['cf4']

@@ -27,7 +27,8 @@ class Place(click.ParamType[str]):
         self.name, self.otherwise = name, otherwise
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the name."""
+        """Return ``value``, the name of the file or folder; raise an error of click if the name is
+        refused."""
         if not value.strip():
             self.fail(f"{value!r} is not the name of a {self.name}; {self.otherwise}", param, ctx)
         if value.startswith("--"):
@@ -45,10 +46,10 @@ FILE = Place("file", "omit the option to write to stdout")
 
 
 def put(path: str, content: bytes) -> None:
-    """Write a file under a temporary name and rename it; write directly to devices, and to pipes that have a
-    reader.
+    """Write a file atomically: under a temporary name, which is then changed to ``path``. Devices and pipes
+    are written directly.
 
-    Raises :class:`~orderconds.errors.InputError` if writing fails.
+    Raises :class:`~orderconds.errors.InputError` if writing fails or if no process reads the pipe.
 
     >>> import os
     >>> put(os.devnull, b"gone")

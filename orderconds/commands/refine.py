@@ -74,7 +74,8 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
 
 
 def _exact(tableau: Tableau, output: str | None, as_json: bool) -> int:
-    """Write the tableau with exact coefficients; return 1 if they are not recognised."""
+    """Write the tableau with exact coefficients and return 0. Return 1 if the exact coefficients are not
+    recognised, or if all coefficients are exact already."""
     from orderconds.checking.exact_forms import exact_forms
     from orderconds.exchange import export, format_of
 

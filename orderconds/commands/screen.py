@@ -45,7 +45,8 @@ def drawing_style(plain: bool = False) -> Style:
 
 @contextmanager
 def working(message: str) -> Iterator[Callable[[str], object]]:
-    """Show a message while a computation runs. The result is a function that replaces the message.
+    """Return a context that shows a message while a computation runs. The context returns a function that
+    replaces the message.
 
     The message is shown on a terminal. If the output is not a terminal, each message is a line on stderr, but
     only with ``--verbose``.
@@ -67,8 +68,8 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 
 @contextmanager
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
-    """Show the progress of work that consists of items. The result is a function that the caller calls with
-    the name of each finished item.
+    """Return a context that shows the progress of work on several items. The context returns a function,
+    which the caller calls with the name of each finished item.
 
     ``total`` is the number of items; if it is known, the remaining time is shown. On a terminal a progress
     bar is shown. If the output is not a terminal, each finished item is a line on stderr, but only with
@@ -110,7 +111,7 @@ def counting(message: str, total: int | None = None) -> Iterator[Callable[[str],
 
 
 def _on_terminal() -> bool:
-    """Return True if progress is drawn on a terminal."""
+    """Return True if progress may be drawn: stdout and stderr are terminals, and ``--quiet`` is not given."""
     return is_terminal() and sys.stderr.isatty() and not current_run().quiet
 
 
@@ -127,7 +128,8 @@ class _Lines:
             click.echo(f"{time.monotonic() - self.begin:7.1f} s  {text}", err=True)
 
     def finish(self, text: str) -> None:
-        """Count one item, and write a line with the remaining time."""
+        """Count one finished item and write a line with its name and, if ``total`` is known, the remaining
+        time."""
         self.finished += 1
         if self.total is None:
             self.show(f"{self.finished}  {text}")
@@ -137,7 +139,8 @@ class _Lines:
 
 
 def is_shown(held: bool) -> bool:
-    """Return True if a result is to be printed. With ``--quiet`` only failed results are printed.
+    """Return True if a result is to be printed. With ``--quiet``, only a failure (``held`` is false) is
+    printed.
 
     >>> is_shown(held=True), is_shown(held=False)
     (True, True)

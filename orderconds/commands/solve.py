@@ -119,8 +119,8 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     """Find a method of FAMILY with S stages and order P, prove its order, and write its tableau.
 
     Exits with 0 if a method was found and proved, 1 if no method was found or no method exists, 2 for
-    contradictory options. The same seed gives the same file for any number of processes. The checkpoint file
-    contains the finished batches of an interrupted search. The same command then continues the search.
+    contradictory options. The same seed gives the same file for any number of processes. If a search is
+    interrupted, the checkpoint file contains its finished batches, and the same command continues the search.
 
     \b
     Examples:
@@ -177,7 +177,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
             raise InputError(
                 "no such folder", where=f"{option} {given}", expected="a file in a folder that exists"
             )
-    # Path.resolve raises a RuntimeError for a link to itself.
+    # os.path.realpath accepts a link to itself, for which Path.resolve raises a RuntimeError.
     if output and path and os.path.realpath(output) == os.path.realpath(path):
         raise InputError(
             "this is also the file of --output", where=f"--checkpoint {path}", expected="a different file"
@@ -205,8 +205,8 @@ def _size(text: str | None) -> Fraction | None:
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):
-        # The pattern also matches some texts that are no numbers, such as 1/0 and 1/2e3. The size 0 leads to
-        # the error below.
+        # The pattern also matches texts that are not numbers, such as 1/0 and 1/2e3. For these the size is
+        # set to 0, which is refused below.
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")

@@ -92,7 +92,10 @@ class Butcher(TypedDict):
 
 
 def butcher(method: str) -> Butcher:
-    """Return the record of a method: NAME, or FAMILY:NAME.
+    """Return the order and the Butcher tableau of a method. ``method`` is the name of a tableau, or
+    FAMILY:NAME.
+
+    Without FAMILY, the order is that of the highest claim (:func:`_first`).
 
     >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
     (3, 2)
@@ -167,8 +170,8 @@ def row(name: str) -> tuple[str, ...]:
 
 
 def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
-    """Return the sort key of a family and its order. Higher orders come first; for equal orders, families on
-    groups come first."""
+    """Return the sort key of a claim. Claims of higher order come first. For equal orders, claims in families
+    on groups come first."""
     from orderconds import families
 
     family = families.get(claim.label)
@@ -177,7 +180,8 @@ def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
 
 
 def _around(path: str) -> tuple[str, str, str]:
-    """Return three texts: the whole file, the part before the table and the part after the table."""
+    """Return three texts: the whole file, the part before the table and the part after it. Raise InputError
+    if the file does not contain the markers of the table."""
     text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:

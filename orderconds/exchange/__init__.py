@@ -32,14 +32,14 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""For each format: the module that defines its functions ``write`` and ``read``, and its suffix."""
+"""For each format, the module with its functions ``write`` and ``read``, and the suffix of its files."""
 
 
 def export(data: Data, to: str) -> bytes:
     """Return the content of a file in the format ``to``.
 
     Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format
-    cannot represent.
+    cannot represent. The content is read back to verify that it gives the same tableau.
 
     >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
     ['name,euler', 'family,rk', 'A,0', 'b,1']
@@ -51,9 +51,9 @@ def export(data: Data, to: str) -> bytes:
 
 
 def _require_same(given: Tableau, back: Tableau, to: str) -> None:
-    """Raise an error unless reading the output gives an equal tableau.
+    """Raise InputError if ``back``, the tableau that was read from the output, differs from ``given``.
 
-    Balls are compared up to their common digits, because rounding may differ.
+    Rounded coefficients are compared up to their common digits, because rounding may differ.
     """
     same = (given.family, given.source, given.bibtex) == (back.family, back.source, back.bibtex)
     if not (same and equal_coefficients(given, back)):
@@ -67,7 +67,7 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:
     """Return the keys and values of a file in the format ``of``; ``name`` is used if the file has no name.
 
-    Files of other programs do not state the order of embedded weights, so this function computes the order.
+    If the file does not state the order of its embedded weights, this function computes the order.
     Raises :class:`~orderconds.errors.InputError` for content that cannot be read; the message contains
     ``where``.
 
@@ -107,7 +107,8 @@ PYTHON = "sympy"
 
 
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
-    """Return the tableau in a file with the suffix of a format other than TOML; None for any other file.
+    """Return the tableau in a file of another format than TOML; None if the suffix is that of TOML or
+    unknown.
 
     The tableau is named after the file if it has no name of its own. A Python module is executed only with
     ``execute``.
@@ -137,7 +138,7 @@ def name_of(path: str | Path) -> str:
 
 
 def left_out(data: Data, to: str) -> tuple[str, ...]:
-    """Return the keys that a file in the format ``to`` cannot contain.
+    """Return the keys of ``data`` that a file in the format ``to`` cannot contain.
 
     >>> left_out({"name": "m", "proof": {"conditions": "cg"}}, "csv")
     ('proof',)

@@ -121,8 +121,8 @@ def _products(data: Data) -> Arrays:
 
 
 def from_arrays(entries: Arrays, where: str) -> Data:
-    """Return the keys and values of the tableau file that the arrays represent. Raise TableauError for an
-    array with an unknown name.
+    """Return the keys and values of the tableau file that the arrays represent. Raise TableauError if an
+    array has an unknown name or a wrong type, or if arrays are missing.
 
     >>> from_arrays({"gamma": ["1"]}, "a table")
     {'family': 'composition', 'gamma': ['1'], 'base': 'symmetric-2'}
@@ -211,8 +211,8 @@ def _stages(entries: Arrays, where: str) -> Data:
 
 
 def with_family(data: Data) -> Data:
-    """Return the keys and values of a file, including ``family``. If the file has no key ``family``, its
-    arrays determine the family; for example, A and b determine ``rk``.
+    """Return the keys and values of a file, and add ``family`` if it is missing. The arrays of the file
+    determine the family; for example, A and b determine ``rk``. Without such arrays, nothing is added.
 
     >>> with_family({"A": [[]], "b": ["1"]})["family"]
     'rk'
@@ -225,7 +225,8 @@ def with_family(data: Data) -> Data:
 
 
 def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
-    """Return the arrays of a plain Butcher tableau: rows c, a_1, ..., a_s, then b and perhaps embedded b.
+    """Return the arrays of a Butcher tableau. Row i of ``stages`` contains c_i and row i of A. ``weights``
+    contains b and, if there are embedded weights, a second row with them.
 
     As in printed tableaux, a blank cell is zero; blank cells beyond the last stage are ignored.
 

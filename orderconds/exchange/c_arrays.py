@@ -1,4 +1,4 @@
-"""C arrays: correctly rounded doubles; a comment beside a rounded number gives its exact value.
+"""C arrays of correctly rounded doubles. A comment beside a rounded number contains its exact value.
 
 The reader accepts initialisers ``... NAME_A[..][..] = {{...}};``. If a number has such a comment, the reader
 uses the exact value in the comment.
@@ -61,7 +61,7 @@ def _cell(text: str, roots: str) -> str:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the keys of a tableau file.
+    """Return the keys and values of the tableau file that the C arrays represent.
 
     >>> read(b"double m_A[1][1] = {{1.0/2}}; double m_b[1] = {1};", "m.c")["A"]
     [['1.0/2']]
@@ -119,7 +119,8 @@ def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
 
 
 def _end(text: str, token: re.Match[str], where: str) -> int:
-    """Return the position in the text after a comment or a string."""
+    """Return the position after the comment or string that begins with ``token``. Raise TableauError if it is
+    not closed."""
     if token[0] == "//":
         end = text.find("\n", token.end())
         return len(text) if end < 0 else end

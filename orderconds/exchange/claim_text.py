@@ -13,7 +13,7 @@ _CLAIM = re.compile(r"([\w()]{1,64})\s*=\s*(\d{1,3}|true|false)", re.ASCII)
 
 
 def claims_from(text: str, where: str) -> Data:
-    """Return the table of claims that a text states.
+    """Return the claims in a text as a dictionary. Raise TableauError if the text contains anything else.
 
     >>> claims_from("rk=4, rkmk(1) = 3; explicit=true", "x.csv")
     {'rk': 4, 'rkmk(1)': 3, 'explicit': True}
@@ -36,7 +36,7 @@ def claims_from(text: str, where: str) -> Data:
 
 
 def json_table(text: str, where: str) -> Data:
-    """Return the table that a JSON text contains.
+    """Return the object in a JSON text as a dictionary. Raise TableauError for any other text.
 
     >>> json_table('{"rk": 4}', "claims")
     {'rk': 4}

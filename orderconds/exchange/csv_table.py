@@ -53,7 +53,7 @@ def write(data: Data) -> bytes:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the keys of a tableau file.
+    """Return the keys and values of the tableau file that the CSV text represents.
 
     >>> read(b"A,1/2\\nb,1\\n", "m.csv")
     {'family': 'rk', 'A': [['1/2']], 'b': ['1']}
@@ -89,10 +89,11 @@ def _is_plain(table: Table) -> bool:
 
 
 def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
-    """Return the arrays of a plain Butcher tableau.
+    """Return the arrays of a plain Butcher tableau. Raise TableauError unless there are one or two lines with
+    weights.
 
-    The first lines contain c and A. Each line with weights begins with an empty cell or with a name in
-    ``WEIGHTS``.
+    A line with weights begins with an empty cell or with a name in ``WEIGHTS``. Each other line contains c_i
+    and a row of A.
     """
     stages = [[coefficient(x) for x in row] for row in table if row[0] and row[0] not in WEIGHTS]
     weights = [[coefficient(x) for x in row[1:]] for row in table if not row[0] or row[0] in WEIGHTS]

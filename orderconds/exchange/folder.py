@@ -1,5 +1,4 @@
-"""Tableau files among other files: which files of a folder contain a tableau, and why other files are
-skipped."""
+"""Find the tableau files in a folder, and give the reason why each other file is skipped."""
 
 from __future__ import annotations
 
@@ -22,8 +21,8 @@ SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h
 """The suffixes of files that may contain a tableau."""
 
 EXCUSES = "DECIMAL"
-"""The name of a file that contains a list of tableaux in the same folder. For the tableaux in this list, a
-proof of the order is not required."""
+"""The name of a text file that a folder of tableaux may contain. The text file lists those tableaux of the
+folder whose order need not be proved."""
 
 NO_KEY = "no key of a tableau (family, A, b, ...)"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)
@@ -90,8 +89,8 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return why a file contains no tableau, or an empty text if the file must be read as a tableau.
 
-    A damaged file must be read, so that the error is reported. If ``strict`` is true, a file that resembles a
-    tableau must be read as well.
+    For a damaged file the text is empty, because an attempt to read the file reports the error. If ``strict``
+    is true, the text is also empty for a file that resembles a tableau.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root
@@ -133,8 +132,11 @@ def _is_matrix(value: object) -> bool:
 
 
 def _of_csv(content: bytes) -> Reason | None:
-    """Return the reason to skip a CSV file that contains neither a named array nor rows of weights. Return
-    None for other CSV files."""
+    """Return the reason to skip a CSV file, or None if the file must be read as a tableau.
+
+    A file must be read in three cases: it is not valid CSV; a row begins with the name of an array; a row
+    begins with an empty cell, as rows of weights do, and the header is not that of another kind of table.
+    """
     try:
         table = rows.read(content.decode(), csv_table.NAMES)
     except (csv.Error, UnicodeDecodeError):

@@ -1,8 +1,8 @@
-"""JSON: the keys and values of a tableau file, one to one.
+"""JSON files, which contain the same keys and values as a tableau file in TOML.
 
 The function :func:`orderconds.exchange.arrays.coefficient` interprets numbers with a decimal point: ``0.5``
 is exactly 1/2, and ``0.3333333333333333`` is a double. If a file states no family, its arrays determine the
-family. Claims may be a text such as ``"rk=4"``.
+family. The value of the key ``claims`` may be a text such as ``"rk=4"``.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from orderconds.tableau.file_format import Data
 
 
 def write(data: Data) -> bytes:
-    """Return JSON text.
+    """Return the keys and values of a tableau file as JSON text.
 
     >>> write({"name": "m"})
     b'{\\n  "name": "m"\\n}\\n'
@@ -25,7 +25,9 @@ def write(data: Data) -> bytes:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the object. A missing family is added, and numbers that are not integers become texts.
+    """Return the keys and values of a JSON object.
+
+    A missing key ``family`` is added. Numbers with a decimal point or an exponent become texts.
 
     >>> read(b'{"A": [[0.5]], "b": [0.3333333333333333], "order": 1}', "m.json")
     {'family': 'rk', 'A': [['0.5']], 'b': ['0.3333333333333333d'], 'order': 1}

@@ -1,4 +1,4 @@
-r"""LaTeX: a Butcher tableau as an ``array`` with rules, other methods as named matrices.
+r"""LaTeX: a Butcher tableau is an ``array`` with horizontal rules; other methods are named matrices.
 
 The reader accepts ``\begin{array}{c|cc}`` with c, A (blank cells are zeros), a rule and b, and
 ``A = \begin{pmatrix} ... \end{pmatrix}``.
@@ -35,7 +35,7 @@ _NAMED = re.compile(r"([A-Za-z_\\{}]{1,64})\s{0,9}=\s{0,9}$")
 
 
 def write(data: Data) -> bytes:
-    r"""Return LaTeX for a displayed formula.
+    r"""Return a tableau as LaTeX for a displayed formula. Its name and other texts become comments.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode())
     % name: m
@@ -70,7 +70,7 @@ def write(data: Data) -> bytes:
 
 
 def read(content: bytes, where: str) -> Data:
-    r"""Return the keys of a tableau file.
+    r"""Read a tableau from LaTeX, and return it as the keys and values of a tableau file.
 
     >>> read(rb"\begin{array}{c|c} \frac12 & \frac12 \\ \hline & 1 \end{array}", "m.tex")["A"]
     [['(1/2)']]
@@ -98,7 +98,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _texts(text: str) -> Arrays:
-    """Return the texts in the comments before the first formula."""
+    """Return the entries in the comments before the first formula, such as ``% name: heun``."""
     entries: Arrays = {}
     for line in text.split("\n"):
         if line.strip() and not line.startswith("%"):

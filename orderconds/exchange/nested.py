@@ -1,4 +1,5 @@
-"""Nested arrays in source text, ``{{1, 2}, {3, 4}}`` or ``[[1, 2], [3, 4]]``; nothing is executed."""
+"""Nested arrays in source text, such as ``{{1, 2}, {3, 4}}`` or ``[[1, 2], [3, 4]]``. The source is not
+executed."""
 
 from __future__ import annotations
 
@@ -13,8 +14,8 @@ MAX_DEPTH = 3
 
 
 def nested(text: str, opening: str, closing: str, where: str) -> Cells:
-    """Return the texts of the cells in one bracketed expression, as nested lists. A comma within parentheses
-    belongs to the cell and does not separate two cells.
+    """Return the texts of the cells in one bracketed expression, as nested lists. ``opening`` and ``closing``
+    are the brackets. A comma within parentheses does not separate two cells.
 
     >>> nested("[[1, Rational(1, 2)], [3, 4]]", "[", "]", "x")
     [['1', 'Rational(1, 2)'], ['3', '4']]

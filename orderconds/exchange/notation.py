@@ -14,7 +14,7 @@ from orderconds.tableau.grammar import Constant, Expression, Name, Power, parse
 
 
 def to_python(text: str) -> str:
-    """Return a coefficient as SymPy source, without rounding.
+    """Return a coefficient of a tableau file as Python source with SymPy's names, without rounding.
 
     >>> to_python("1/4 - sqrt(3)/6"), to_python("2^(1/3)"), to_python("-0.5")
     ('Rational(1, 4) - sqrt(3)/6', 'Integer(2)**Rational(1, 3)', 'Rational(-1, 2)')
@@ -27,10 +27,11 @@ def _number(x: Fraction) -> str:
 
 
 def _python(x: Expression, tight: int) -> str:
-    """Return x as Python source, with parentheses if ``tight`` requires them.
+    """Return x as Python source, with parentheses around x if ``tight`` requires them.
 
-    ``tight`` depends on the position of x in a larger expression. It is 1 for the first factor of a product
-    and after a minus sign, 2 for later factors and for divisors, and 0 for all other positions.
+    ``tight`` is 1 if x is the first factor of a product or follows a minus sign. It is 2 if x is a later
+    factor or a divisor, and 0 in all other positions. A sum needs parentheses if ``tight`` is 1 or 2, a
+    product only if ``tight`` is 2.
     """
     if isinstance(x, Constant):
         if x.is_double:
@@ -61,7 +62,8 @@ def _python(x: Expression, tight: int) -> str:
 
 
 def from_python(text: str) -> str:
-    """Translate SymPy source, or the text that SymPy prints, into a coefficient; nothing is executed.
+    """Return a coefficient that is given as SymPy source, or as SymPy prints it, in the notation of tableau
+    files. The source is not executed.
 
     >>> from_python("Rational(1, 4) - sqrt(3)/6"), from_python("2**(2/3)/3"), from_python("Float('0.57735')")
     ('(1/4) - sqrt(3)/6', '2^(2/3)/3', '0.57735~')
@@ -74,7 +76,8 @@ def from_python(text: str) -> str:
 
 
 def from_latex(text: str, where: str = "") -> str:
-    r"""Return a number in LaTeX as a coefficient.
+    r"""Return a number in LaTeX as a coefficient in the notation of tableau files. Raise TableauError for
+    LaTeX commands that are not supported.
 
     >>> from_latex(r"\frac{1}{4} - \tfrac{\sqrt{3}}{6}"), from_latex(r"-\sqrt[3]{2}")
     ('((1)/(4)) - ((sqrt(3))/(6))', '-(2)^(1/3)')

@@ -46,7 +46,8 @@ UNREADABLE = (
     zipfile.BadZipFile,
     zlib.error,
 )
-"""The errors of zip files and array headers that are damaged, encrypted or of an unknown version."""
+"""The errors that are raised if the archive, or the header of an array in it, is damaged, encrypted or of an
+unknown version."""
 INTEGERS = ("count", "start")
 EXPECTED = "an array of numbers (float64 or integers) with 1 or 2 axes"
 
@@ -55,7 +56,7 @@ Floats: TypeAlias = "float | list[Floats]"
 
 
 def write(data: Data) -> bytes:
-    """Return the archive.
+    """Return a tableau as the content of an ``.npz`` archive.
 
     >>> write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]})[:2]
     b'PK'
@@ -79,7 +80,8 @@ def write(data: Data) -> bytes:
 
 
 def floats(value: Cells, roots: str = "{}") -> Floats:
-    """Return the doubles nearest to coefficients. ``roots`` contains the definitions of named roots, as JSON.
+    """Return a coefficient as the nearest double, or nested lists of coefficients as nested lists of doubles.
+    ``roots`` contains the definitions of named roots, as JSON.
 
     >>> floats([["1/2", "1/3"]])
     [[0.5, 0.3333333333333333]]
@@ -91,7 +93,7 @@ def floats(value: Cells, roots: str = "{}") -> Floats:
 
 @lru_cache(maxsize=4096)
 def nearest(text: str, roots: str = "{}") -> float:
-    """Return the double nearest to a coefficient.
+    """Return the double nearest to a coefficient. ``roots`` contains the definitions of named roots, as JSON.
 
     >>> nearest("1/3 - sqrt(3)/6")
     0.04465819873852045
@@ -114,8 +116,10 @@ def nearest(text: str, roots: str = "{}") -> float:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the keys of a tableau file. If an array ``A`` has exact texts ``A_exact``, raise an error unless
-    each float in ``A`` is the double nearest to the exact value.
+    """Read a tableau from an archive, and return it as the keys and values of a tableau file.
+
+    If an array ``A`` has exact texts ``A_exact``, raise an error unless each float in ``A`` is the double
+    nearest to the exact value.
 
     >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
     [['1/3']]
@@ -131,9 +135,9 @@ def read(content: bytes, where: str) -> Data:
     entries: Arrays = {}
     for name, value in members.items():
         if not isinstance(value, np.ndarray):
-            raise TableauError(f"{name}: no array", where=where, expected="arrays")
+            raise TableauError(f"the member {name} is no array", where=where, expected="arrays")
         if name.endswith(EXACT) and value.dtype.kind != "U":
-            raise TableauError(f"{name}: {value.dtype}", where=where, expected="texts")
+            raise TableauError(f"the array {name} of type {value.dtype}", where=where, expected="texts")
     for name, value in members.items():
         if name.endswith(EXACT):
             continue
@@ -192,7 +196,7 @@ def _require_small(archive: zipfile.ZipFile, where: str) -> None:
     size = sum(member.file_size for member in archive.infolist())
     if size > LARGEST:
         raise TableauError(
-            f"arrays of {size} bytes", where=where, expected=f"arrays of at most {LARGEST} bytes"
+            f"arrays of {size} bytes in total", where=where, expected=f"at most {LARGEST} bytes"
         )
 
 

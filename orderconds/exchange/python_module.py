@@ -18,7 +18,8 @@ from orderconds.tableau.file_format import Data
 
 
 def execute(path: str | Path) -> Data:
-    """Run a module and return the keys of a tableau file. Text that the module prints goes to stderr.
+    """Run a module, and return the arrays and texts that it assigns as the keys of a tableau file. Text that
+    the module prints goes to stderr.
 
     Raises :class:`~orderconds.errors.TableauError` if the module raises an error, ends the program, or
     assigns values that are no coefficients.
@@ -63,7 +64,8 @@ def _arrays(assigned: Mapping[str, object], where: str) -> Arrays:
 
 
 def _cells(value: object, where: str) -> Cells:
-    """Return the coefficients of a nested list, an array or a number."""
+    """Return a number as the text of a coefficient, and a nested list or an array as nested lists of texts.
+    Raise TableauError for a value that is no real number."""
     listed = getattr(value, "tolist", None)
     value = listed() if listed is not None else value
     if isinstance(value, list | tuple):

@@ -35,7 +35,8 @@ _TEXT = re.compile(r"# (\w{1,64}): (.*)")
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the keys of a tableau file from Python source, which is not executed.
+    """Read a tableau from Python source, which is not executed. Return it as the keys and values of a tableau
+    file.
 
     >>> read(b"import numpy as np\\nh = 1/2\\nA = np.array([[0, 0], [h, 0.]])\\nb = [0, 1]", "m.py")["A"]
     [['0', '0'], ['1/2', '0']]
@@ -58,7 +59,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def reason_to_skip(content: bytes) -> str:
-    """Return why a module is no tableau, or an empty text if it assigns the arrays of a tableau.
+    """Return why a module contains no tableau, or an empty text if it assigns the arrays of a tableau.
 
     >>> reason_to_skip(b"import os"), reason_to_skip(b"A = [[0]]\\nb = [1]")
     ('no assignment to A and b', '')
@@ -78,7 +79,8 @@ def reason_to_skip(content: bytes) -> str:
 
 
 def is_plainly_other(content: bytes) -> bool:
-    """Return True if a Python module is valid and assigns no list or array to A, a or b.
+    """Return True if a Python module is valid and no value that it assigns to A, a or b contains a list or
+    tuple.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
     [True, False, True]
@@ -104,7 +106,8 @@ def _decoded(content: bytes, where: str) -> str:
 def _parsed(text: str, where: str) -> ast.Module:
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # the parser warns of doubtful literals in modules of users
+            # Without this filter, Python would print warnings about unusual literals in the user's module.
+            warnings.simplefilter("ignore")
             return ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as problem:
         line = getattr(problem, "lineno", None)
@@ -113,7 +116,7 @@ def _parsed(text: str, where: str) -> ast.Module:
 
 
 def _header(text: str) -> Arrays:
-    """Return the texts in the comments before the first statement."""
+    """Return the entries in the comments before the first statement, such as ``# name: heun``."""
     entries: Arrays = {}
     for line in text.split("\n"):
         if line.strip() and not line.startswith("#"):
@@ -163,7 +166,7 @@ def _follow(statement: ast.stmt, values: Values) -> None:
 
 
 def _import(statement: ast.ImportFrom, values: Values) -> None:
-    """Update the known names by an import such as ``from fractions import Fraction as F``.
+    """Record the names that an import such as ``from fractions import Fraction as F`` defines.
 
     A name that is imported from a module outside :data:`MODULES` gets an unknown value.
     """
@@ -179,7 +182,8 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
 
 
 def _is_harmless(statement: ast.Expr) -> bool:
-    """Return True if an expression is a docstring, or a call that changes none of its arguments."""
+    """Return True if a statement is a constant, such as a docstring, or a call of ``print``. Such a statement
+    changes no value."""
     value = statement.value
     if isinstance(value, ast.Call):
         return isinstance(value.func, ast.Name) and value.func.id in HARMLESS
@@ -204,7 +208,8 @@ def _targets_are_names(statement: ast.stmt) -> bool:
 
 
 def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
-    """Assign an entry, ``A[1, 0] = 1/2``; return False for every other statement."""
+    """Follow an assignment to one entry, such as ``A[1, 0] = 1/2``, and return True. Return False for every
+    other statement, and if the array has no such entry or the entry cannot have this value."""
     if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
         return False
     place: list[int] = []

@@ -1,4 +1,5 @@
-"""The values of expressions in Python source: numbers as coefficients, arrays, texts. Nothing is executed."""
+"""Evaluate expressions in Python source without execution of the source. The value of an expression is a
+coefficient, an array or a text."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ ARRAY_CALLS = ("array", "asarray", "Matrix", "ImmutableMatrix", "matrix", "list"
 NUMBER_CALLS = ("Integer", "S", "sympify", "float", "float64", "int", "Decimal", "Fraction", "Rational")
 ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
-"""Constructors of arrays whose entries have one type: an entry of an array of integers cannot become 1/2."""
+"""Constructors of arrays whose entries all have the same type. If all entries are integers, 1/2 cannot be
+assigned to an entry later."""
 NARROW = ("16", "32", "complex", "int", "bool")
 """An array type is refused if its name contains one of these texts: types of integers, of complex numbers,
 and of floats shorter than float64."""
@@ -57,7 +59,7 @@ class Computed:
 
 
 Value = Expression | Array | Computed | str
-"""The value of an expression: a coefficient, an array, a text, or unknown."""
+"""The value of an expression: a coefficient, an array, a text, or :class:`Computed` for an unknown value."""
 
 
 class _NotLiteral(Exception):
@@ -72,7 +74,8 @@ class _NotLiteral(Exception):
 class Values:
     """The names that a module has assigned so far, with their values.
 
-    ``named`` are the names of numbers that the comments of the module define.
+    ``text`` is the source of the module. ``named`` contains the names of numbers that comments at the
+    beginning of the module define.
 
     >>> values = Values("x = 2*(1 - sqrt(2))", ())
     >>> values.assign("x", values.value(ast.parse(values.text).body[0].value))
@@ -84,13 +87,13 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """A map from the name that an imported function has in the module to the original name of the
-    function."""
+    """A map from the names of imported functions in the module to their original names. For example,
+    ``from sympy import Rational as R`` adds the entry ``R: Rational``."""
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
 
     def value(self, node: ast.expr) -> Value:
-        """Return the value of an expression."""
+        """Return the value of an expression, or :class:`Computed` if the reader cannot evaluate it."""
         try:
             return self._value(node)
         except _NotLiteral as problem:
@@ -104,7 +107,8 @@ class Values:
             self.known[name] = value
 
     def assign_entry(self, name: str, place: Sequence[int], value: Value) -> bool:
-        """Assign one entry of an array; return False if there is no such entry."""
+        """Assign the entry with the indices ``place`` of an array, and return True. Return False if there is
+        no such entry, or if the entry cannot have this value."""
         target = self.known.get(name)
         for k, index in enumerate(place):
             if not isinstance(target, Array) or not -len(target.items) <= index < len(target.items):
@@ -278,8 +282,8 @@ def _table(node: ast.Dict) -> str:
 
 
 def rational(x: Expression) -> Fraction | None:
-    """Return an exponent as a fraction. Return None if the exponent contains other operations than
-    differences and quotients of exact numbers.
+    """Return an exponent as a fraction. The exponent may be an exact number, or a difference or quotient of
+    two such exponents. Return None for any other exponent, and for a division by zero.
 
     >>> rational(parse("1/3")), rational(parse("-0.5")), rational(parse("sqrt(2)"))
     (Fraction(1, 3), Fraction(-1, 2), None)
@@ -295,7 +299,8 @@ def rational(x: Expression) -> Fraction | None:
 
 
 def texts(value: Value, where: str) -> Cells:
-    """Return the texts of an array or of a number.
+    """Return a number as text, and an array as nested lists of texts. Raise TableauError for an unknown
+    value.
 
     >>> texts(Array([Constant(Fraction(1, 2)), ZERO]), "m.py")
     ['0.5', '0']

@@ -34,8 +34,8 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
 
     The delimiter is the one that occurs in the most lines. If all cells of the first row are words, this row
     is a header, unless its first cell is one of ``names``. A first row that begins with ``c`` follows another
-    rule: it is a header iff all its other cells are names of columns of A. Raises :class:`csv.Error` for
-    wrong quotation marks.
+    rule: it is a header iff all its other cells are names of columns of A, such as ``a1``. Raises
+    :class:`csv.Error` for misplaced or unmatched quotation marks.
 
     >>> read("# Heun\\nc;a1;a2\\n0;0;0\\n1;1;0\\n;1/2;1/2\\n", ("c",)).rows
     (('0', '0', '0'), ('1', '1', '0'), ('', '1/2', '1/2'))

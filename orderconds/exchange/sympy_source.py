@@ -1,4 +1,5 @@
-"""SymPy: Python source that constructs exact matrices, and SymPy matrices as objects."""
+"""Conversion between tableaux and SymPy. A tableau becomes Python source that constructs exact matrices, or
+SymPy matrices as objects."""
 
 from __future__ import annotations
 
@@ -36,7 +37,8 @@ _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
 def write(data: Data) -> bytes:
-    """Return Python source; each row of coefficients is a matrix with one row.
+    """Return Python source that constructs the arrays of a tableau as SymPy matrices. A vector such as b
+    becomes a matrix with one row.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
     b = Matrix([[1]])
@@ -84,8 +86,8 @@ def _root(coefficients: list[str], place: int) -> str:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the keys of a tableau file from Python source, which is not executed
-    (:mod:`orderconds.exchange.python_source`).
+    """Read a tableau from Python source, which is not executed (:mod:`orderconds.exchange.python_source`).
+    Return it as the keys and values of a tableau file.
 
     >>> read(b"A = Matrix([[Rational(1, 2)]])\\nb = [1]", "m.py")["A"]
     [['1/2']]
@@ -96,8 +98,8 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return the keys of a file. A number gets a new name if its name already has another meaning in the
-    Python source."""
+    """Return ``data``, with new names for some named numbers. A number is renamed if its name already has
+    another meaning in the Python source to be written, such as ``sqrt`` or ``lambda``."""
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()
@@ -131,7 +133,7 @@ def _cells(value: Cells) -> Cells:
 
 
 def to_sympy(tableau: Tableau) -> dict[str, Matrix]:
-    """Return the coefficients as SymPy matrices by name (imports SymPy).
+    """Return a map from the names of the arrays of a tableau, such as ``b``, to SymPy matrices.
 
     >>> from orderconds.checking import read
     >>> to_sympy(read("heun"))["b"]
@@ -160,7 +162,7 @@ def to_sympy(tableau: Tableau) -> dict[str, Matrix]:
 
 
 def from_sympy(name: str, matrices: Mapping[str, object], where: str = "<sympy>") -> Tableau:
-    """Return the tableau with these SymPy matrices, or nested lists: ``{"A": ..., "b": ...}``.
+    """Return the tableau whose arrays are given as SymPy matrices or nested lists: ``{"A": ..., "b": ...}``.
 
     >>> import sympy
     >>> from_sympy("euler", {"A": [[0]], "b": [sympy.Integer(1)]}).method

@@ -1,4 +1,4 @@
-"""TOML, the project's own format, with the keys in their usual order."""
+"""Tableau files in TOML, the project's own format. The keys are written in their usual order."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from orderconds.tableau.toml_reader import parse_toml
 
 
 def write(data: Data) -> bytes:
-    """Return TOML text.
+    """Return the keys and values of a tableau file as TOML text.
 
     >>> write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1]
     'b = ["1"]'

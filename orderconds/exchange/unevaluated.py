@@ -1,10 +1,11 @@
 """Unevaluated coefficients: the expressions of a file, with names replaced by their definitions.
 
-Names of formulas are replaced, because tables and arrays cannot contain them. Only the names of roots of
-polynomials remain. The expressions are not evaluated, because rounded decimals must keep their digits, and a
-computed ball would not contain these digits. The coefficients of the method are the expressions in the file;
-for low-storage schemes they are sums and products of these expressions. Only operations with the numbers 0
-and 1 are simplified.
+A tableau file may name a formula and use the name in coefficients. Tables and arrays in other formats cannot
+contain such names, so the formula replaces the name. Only the names of roots of polynomials remain.
+
+The expressions are not evaluated: a rounded decimal must keep its digits, and a computed ball would not
+contain these digits. The coefficients of the method are the expressions in the file. For low-storage schemes
+the coefficients are sums and products of these expressions. Only operations with 0 and 1 are simplified.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ class CoefficientTooLong(TableauError):
 
 
 class Unevaluated:
-    """An unevaluated number."""
+    """A number that is represented by an expression and never evaluated."""
 
     __slots__ = ("expression",)
 
@@ -102,7 +103,8 @@ class UnevaluatedNumbers:
         return _unevaluated(p) / q
 
     def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
-        """Return the expression of a constant in the file."""
+        """Return a constant of the file as an expression. If ``unit`` is zero, the constant is exact.
+        Otherwise it is the ball of radius ``unit`` around ``value``."""
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
@@ -112,7 +114,7 @@ class UnevaluatedNumbers:
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Return the named root; it is represented by its name."""
+        """Return an expression that consists of ``name`` alone, and store the definition of the root."""
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))
 
@@ -128,7 +130,7 @@ class UnevaluatedNumbers:
         return None
 
     def key(self, x: Unevaluated) -> tuple[str]:
-        """Return the text of x."""
+        """Return the text of x, as a tuple with one element."""
         return (self.text(x),)
 
     def approximate(self, x: Unevaluated, digits: int = 20) -> str:
@@ -147,7 +149,8 @@ class UnevaluatedNumbers:
 
 
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
-    """Return the tableau over :class:`UnevaluatedNumbers`, with the expressions of ``file``.
+    """Return a copy of the tableau whose coefficients are the expressions in ``file``. They are not
+    evaluated, and each name of a formula is replaced by the formula.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'

@@ -1,12 +1,13 @@
 """Diagrams, which consist of vertices, edges and ordered branches. Trees of every kind are converted to
 diagrams and then drawn.
 
-A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the letter L of the action
-trees: a coadjoint action, not a derivative of the Hamiltonian). In the diagram of a word over an alphabet, a
-vertex is a *letter* or the *bracket* of two vertices. An edge is *plain*, or it points from a derivative in q
-to a derivative in p or mu, as in :mod:`orderconds.trees.directed`. If the branch at the end of an edge is a
-velocity (a_ij), the edge points *outward*, from the root to the branch. If the branch is a force (ahat_ij),
-the edge points *inward*, from the branch to the root.
+A vertex of a tree of one colour is a *dot*. A vertex of a tree of two colours is *black* or *white*. A vertex
+of an action tree is a *dot* or a *transport*. A transport, the letter L in texts, denotes a coadjoint action
+and not a derivative of the Hamiltonian. In the diagram of a word over an alphabet, a vertex is a *letter* or
+the *bracket* of two vertices. An edge is *plain*, or it points from a derivative in q to a derivative in p or
+in the momentum mu (:mod:`orderconds.trees.directed`). If the branch at the end of an edge is a velocity
+(a_ij), the edge points *outward*, from the root to the branch. If the branch is a force (ahat_ij), the edge
+points *inward*, from the branch to the root.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ Edge = Literal["plain", "inward", "outward"]
 
 @dataclass(frozen=True)
 class Branch:
-    """A branch of a vertex: an edge, and the diagram at the other end of the edge.
+    """A branch of a vertex: an edge, and the vertex at the other end of the edge.
 
     >>> Branch("outward", Vertex("dot")).edge
     'outward'
@@ -41,9 +42,9 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right.
 
-    The first n branches and the edge to the parent may be the letters of one word, in which the edge comes
-    after the first m branches. Then ``legs`` is the pair (m, n). If the position of this edge does not
-    matter, ``legs`` is None. ``label`` is the text of a letter.
+    In an action tree, the order of the first n branches and of the edge to the parent may matter, because
+    together they form one word. If the edge comes after m of these branches, ``legs`` is the pair (m, n). If
+    the position of the edge does not matter, ``legs`` is None. ``label`` is the text of a letter.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -65,8 +66,9 @@ Diagram = tuple[Vertex, ...]
 
 
 def plain(forest: levels.Forest) -> Diagram:
-    r"""Return the diagram of a rooted or ordered tree, or of a forest of such trees. The argument is the
-    sequence of the levels of the vertices.
+    r"""Return the diagram of a rooted or ordered tree, or of a forest of such trees.
+
+    The argument contains the level of each vertex in one byte. Roots have level 0.
 
     >>> plain(b"\0\0")[1]
     Vertex(sign='dot', branches=(), legs=None, label='')
@@ -99,8 +101,8 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 
 
 def action(tree: Velocity) -> Diagram:
-    """Return the diagram of an action tree. The branches of the root are the letters of the word of the tree,
-    followed by its covectors.
+    """Return the diagram of an action tree, whose root has a word of trees and a number of covectors. In the
+    diagram, the letters of the word are the first branches of the root; the covectors are the others.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]

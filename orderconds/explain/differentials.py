@@ -2,7 +2,7 @@
 
 Each function handles one kind of tree. ``f''(x, y)`` is the second derivative of f, applied to the vectors x
 and y. In the subscript of a partial derivative, each letter is the variable of one differentiation: ``f_zy``
-is the derivative with respect to z and y. Words denote commutators of vector fields.
+is the derivative with respect to z and y. A Lyndon word denotes a commutator of vector fields.
 """
 
 from __future__ import annotations
@@ -25,11 +25,10 @@ def differential(tree: levels.Tree) -> str:
 
 
 def hamiltonian(tree: levels.Tree) -> str:
-    r"""Return the elementary Hamiltonian of a free tree, in which any vertex is chosen as the root (HLW
-    IX.9.2).
+    r"""Return the elementary Hamiltonian of a free tree (HLW IX.9.2).
 
-    ``f`` denotes the Hamiltonian vector field. Another choice of the root can change only the sign of the
-    elementary Hamiltonian.
+    The free tree is given as a rooted tree. Each vertex may be the root: another choice can change only the
+    sign of the elementary Hamiltonian. ``f`` denotes the Hamiltonian vector field.
 
     >>> hamiltonian(b"\0\1\1")
     "H''(f, f)"
@@ -94,7 +93,7 @@ def bracket(word: Word, name: Callable[[Letter], str]) -> str:
     """Return the commutator that the standard bracketing of a Lyndon word defines. For any other word, return
     the product of its letters.
 
-    The letters denote Lie derivatives. In a product the letters are in the order of action.
+    The letters denote Lie derivatives. In a product, the letter that acts first is written first.
 
     >>> bracket((1, 1, 2), str), bracket((2, 1), str)
     ('[1, [1, 2]]', '2 1')

@@ -1,4 +1,5 @@
-"""The kinds of trees: enumeration, numbers, texts, drawings, and elementary differentials.
+"""The kinds of trees. A kind enumerates and counts its trees. It also returns the text, the drawing and the
+elementary differential of each tree.
 
 The modules that a kind needs are imported when they are first used.
 """
@@ -34,8 +35,8 @@ class Kind:
     Five attributes are functions. ``members`` enumerates the members of an order; ``count`` computes their
     number from generating functions, without enumeration. ``text`` returns a member as text, ``diagram``
     returns its drawing, and ``names`` returns its elementary differential or Hamiltonian as text. One family
-    provides the conditions of the members. If ``independent`` is true, the members correspond to an
-    independent set of conditions of the family, otherwise to all conditions.
+    provides the conditions of the members. If ``independent`` is true, the members correspond to a set of
+    independent conditions of the family. Otherwise they correspond to all conditions of the family.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -122,7 +123,8 @@ def of_family(label: str) -> Kind | None:
 
 
 def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if an order up to ``order`` has more than :data:`MAX_TREES` trees.
+    """Raise an InputError if there are more than :data:`MAX_TREES` trees of any order from 1 to ``order``.
+    The trees are those that index the conditions of ``family``.
 
     >>> refuse_too_many_trees(families.get("rk"), 12)
     """
@@ -141,7 +143,8 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
 
 
 def named_by(condition: OrderCondition) -> str:
-    """Return the elementary differential or Hamiltonian of a condition, or else the text of its tree.
+    """Return the elementary differential or Hamiltonian of the tree that indexes a condition. If a word
+    without a drawing indexes the condition, return the text of the word.
 
     >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))

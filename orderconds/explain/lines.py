@@ -14,8 +14,8 @@ class Style:
     """The characters of one drawing style.
 
     ``fork`` and ``last`` join a branch to its parent, and ``rail`` continues the line to the next branch.
-    A note such as ``(▸*▸)`` after a vertex shows the position of its edge to the parent in a word: ``*`` is
-    this edge, and each ``▸`` is a branch.
+    The branches of a vertex and its edge to the parent may form a word. Then a note such as ``(▸*▸)`` follows
+    the vertex: ``*`` is the position of the edge to the parent, and each ``▸`` is a branch.
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')

@@ -15,7 +15,7 @@ from html import escape
 from orderconds.explain.diagram import Branch, Diagram, Edge, Vertex
 
 STEP = 18.0
-"""The distance in px between neighbours and between levels."""
+"""The distance in px between neighbouring vertices of one level, and between consecutive levels."""
 RADIUS = 3.5
 MARGIN = 10.0
 SIZE = 11.0
@@ -31,8 +31,8 @@ class Layout:
     """A vertex with its branches and its horizontal position ``x``. The position is relative to the parent of
     the vertex; the unit is the distance between neighbours.
 
-    ``left`` and ``right`` are the outlines of the drawing relative to the vertex, with one number for each
-    level.
+    ``left`` and ``right`` contain one number for each level of the drawing of the vertex and its branches:
+    the position, relative to the vertex, of the left or right end of this level.
     """
 
     x: float
@@ -129,8 +129,8 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Draw the diagram at the horizontal position x, with the roots half a step above the base line and
-        the caption below it."""
+        """Yield the SVG elements of the diagram and its caption. Their left end is at x. The roots are half a
+        step above the horizontal line at ``ground``, and the caption is below this line."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)
@@ -144,7 +144,7 @@ class _Block:
 
 
 def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
-    """Draw a tree whose root is at (x, y). Edges are drawn before vertices."""
+    """Yield the SVG elements of a tree whose root is at (x, y). The edges to branches precede the root."""
     for branch, child in zip(tree.vertex.branches, tree.below, strict=True):
         far = x + child.x * STEP
         yield _edge(tree.vertex, branch, x, y, far, y - STEP)
@@ -157,8 +157,8 @@ def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
 
 
 def _formula(text: str) -> str:
-    """Return an elementary differential in which typographic primes and superscripts replace ASCII
-    characters."""
+    """Return the text of an elementary differential in which primes and superscript digits replace ``'`` and
+    powers such as ``^2``."""
     raised = re.sub(r"\^(\(\d+\)|\d+)", lambda match: match[1].translate(RAISED), text)
     return raised.replace("'", "′")
 

@@ -13,7 +13,7 @@ from orderconds.explain.diagram import Diagram, Edge, Vertex
 from orderconds.explain.svg import Layout, lay_out
 
 STYLE = r"\tikzset{tree/.style={x=2mm, y=2.4mm, baseline=(current bounding box.center)}}"
-"""The definition of the style of all pictures; it precedes the first picture in a document."""
+"""The definition of the style of all pictures. A document must contain it before the first picture."""
 
 ARROWS: dict[Edge, str] = {"plain": "", "outward": "[->]", "inward": "[<-]"}
 

@@ -37,9 +37,9 @@ class ActionFamily(Family):
     t. The number ``tau_t(i)`` is the coefficient of t in the velocity of stage i.
 
     The conditions of order n belong to the trees with n vertices. Each vertex denotes one copy of the
-    Hamiltonian H. ``conditions`` selects independent conditions by the rank of their values at random
-    methods. ``decisive_conditions`` selects a larger set that implies all conditions; it computes no ranks
-    and does not import NumPy.
+    Hamiltonian H. ``conditions`` selects independent conditions: it evaluates the conditions for random
+    methods and computes ranks of the matrices of values. ``decisive_conditions`` selects a larger set that
+    implies all conditions; it computes no ranks and does not import NumPy.
     """
 
     needs_nonzero_weights = True
@@ -132,8 +132,9 @@ class ActionFamily(Family):
         return tuple(series.condition(c.key) * multiplier(c.key) for c in conditions)
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return one residual for each rooted action tree: the coefficient of the step minus that of the
-        exact flow. The printed conditions contain additional factors; the residuals do not."""
+        """Return one residual for each action tree of this order: the coefficient of the tree in one step
+        minus its coefficient in the exact flow. Printed conditions are multiplied by integer factors; the
+        residuals are not."""
         series = self.series(method, ring)
         exact = action_exact.condition
         return tuple(series.condition(t) - in_ring(ring, exact(t)) for t in velocities(order))

@@ -1,5 +1,5 @@
-"""Action conditions as readable index sums, computed by one traversal of the tree with symbols in place of
-numbers.
+"""The conditions of action trees as readable index sums. One traversal of a tree computes its index sum,
+with symbols in place of numbers.
 
 A word's coefficient in a product of exponentials is a sum over indices ``j_1 <= ... <= j_k`` with a factor
 1/r! for each run of r equal indices. This module writes the coefficient as several sums with strict
@@ -74,21 +74,24 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of ``row``. If the word repeats one letter k
-        times, the coefficient is multiplied by k!."""
+        """Return the coefficient of a word in the group element of stage ``row``. If the word repeats one
+        letter k times, the coefficient is multiplied by k!."""
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the group element of ``row``. Here u is ``before``, v
-        is ``after``, and the letter x is a variation of the velocity of ``stage``."""
+        """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
+        ``row`` is None. Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity
+        of ``stage``."""
 
     def condition(self, tree: Velocity) -> Formula:
-        """Return ``sum_i b_i tau_t(i)`` for t = ``tree``, times :func:`multiplier` of the tree."""
+        """Return ``sum_i b_i tau_t(i)`` for t = ``tree``, times :func:`multiplier` of the tree. Here
+        ``tau_t(i)`` is the coefficient of t in the velocity of stage i."""
         stage = fresh("i")
         return index_sum((stage,), (), product(coefficient("b", stage), self.tau(tree, stage)))
 
     def tau(self, tree: Velocity, stage: str) -> Formula:
-        """Return ``tau_t(i)`` for t = ``tree`` and i = ``stage``, times :func:`multiplier` of the tree."""
+        """Return the coefficient of a tree in the velocity of ``stage``, times :func:`multiplier` of the
+        tree."""
         return product(self.word(stage, tree.word), self._psi_product(tree.momenta, stage))
 
     def _psi_product(self, momenta: Momenta, stage: str) -> Formula:
@@ -108,8 +111,8 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """The index sums for products of exponentials. In all methods ``place`` is the index of an exponential in
-    the product.
+    """The index sums for methods whose stages and update are products of exponentials. The argument ``place``
+    of the methods of this class is the index of an exponential in such a product.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -126,23 +129,24 @@ class ExponentialsFormula(ActionFormula):
         """Return the tree's coefficient in the exponent of the exponential with index ``place``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of ``row``. If the word repeats one letter k
-        times, the coefficient is multiplied by k!."""
+        """Return the coefficient of a word in the group element of stage ``row``. If the word repeats one
+        letter k times, the coefficient is multiplied by k!."""
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
         return product(*(self._whole_exponent(row, letter) for letter in word))
 
     def _whole_exponent(self, row: str, tree: Velocity) -> Formula:
-        """Return the sum of a tree's coefficients in all exponents of ``row``. For the tree with one vertex
-        and for stage i the sum is ``c_i``."""
+        """Return the sum of a tree's coefficients in all exponents of stage ``row``. For the tree with one
+        vertex the sum is ``c_i`` with i = ``row``."""
         if tree.vertices == 1:
             return coefficient("c", row)
         place = self.place()
         return index_sum((place,), (), self.exponent(row, place, tree))
 
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
-        """Return a word's coefficient in the product of the exponentials whose index is strictly between two
-        bounds. A bound may be None; then the index is not bounded on this side."""
+        """Return a word's coefficient in a product of exponentials. The product contains the exponentials
+        whose index J satisfies ``above`` < J < ``below``. If one of the bounds is None, J is not bounded on
+        this side."""
         if not word:
             return one()
         # The divisions are reversed. In the term that is printed first, all letters then come from different
@@ -164,8 +168,8 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v, where the letter x comes from the exponential at
-        ``place``. The factor of the letter x is omitted."""
+        """Return the coefficient of the word u x v, where u is ``before``, v is ``after``, and the letter x
+        comes from the exponential with index ``place``. The factor of the letter x is omitted."""
         terms = []
         for r in range(len(before) + 1):
             for q in range(len(after) + 1):
@@ -196,15 +200,15 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v. The letter x comes from the exponential with index j =
-        ``stage`` and has the factor ``a_ij`` with i = ``row``, or ``b_j`` for the update. The other factor,
-        for u and v, is computed by :meth:`around`."""
+        """Return the coefficient of the word u x v, where u is ``before`` and v is ``after``. The letter x
+        comes from the exponential with index j = ``stage``. Its factor is ``a_ij`` with i = ``row``, or
+        ``b_j`` for the update. :meth:`around` computes the other factor, for u and v."""
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
 
 class CommutatorFreeFormula(ExponentialsFormula):
     """Index sums for products of exponentials with the exponents ``sum_j alpha_iJj xi_j`` in the stages and
-    ``sum_j beta_Jj xi_j`` in the update.
+    ``sum_j beta_Jj xi_j`` in the update. Here xi_j is the velocity of stage j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -223,8 +227,9 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v, summed over the exponentials that contain the velocity of
-        ``stage``."""
+        """Return the coefficient of the word u x v, where u is ``before``, v is ``after``, and x is a
+        variation of the velocity of ``stage``. The sum runs over the exponentials that contain this
+        velocity."""
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
         return index_sum((place,), (), inner)
@@ -236,9 +241,11 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
 
 class MuntheKaasFormula(ActionFormula):
-    """Index sums for methods with the single exponential exp(X_i), where ``X_i = sum_j a_ij dexpinv^(r)(X_j)
-    xi_j``, and dexpinv^(r) is dexpinv truncated after the r-th power. The update is exp(Y); in Y, the weights
-    b_j replace a_ij.
+    """Index sums for methods with one exponential exp(X_i) in stage i.
+
+    The exponent is ``X_i = sum_j a_ij dexpinv^(r)(X_j) xi_j``. Here xi_j is the velocity of stage j, and
+    dexpinv^(r) is dexpinv truncated after the r-th power. The update is exp(Y); in Y, the weights b_j replace
+    a_ij.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -258,8 +265,8 @@ class MuntheKaasFormula(ActionFormula):
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in exp(X_i), or in exp(Y) for the update. The letter x is
-        a variation of the velocity of ``stage``."""
+        """Return the coefficient of the word u x v in exp(X_i), or in exp(Y) for the update. Here u is
+        ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``."""
         return self._exponential(row, (*before, stage, *after))
 
     def _exponential(self, row: str | None, word: Marked) -> Formula:
@@ -330,8 +337,10 @@ class MuntheKaasFormula(ActionFormula):
 
 
 class PadeFormula(MuntheKaasFormula):
-    """Index sums for methods with the single exponential exp(X_i), where ``X_i = sum_j a_ij v_j``. Here v_j
-    solves dexp^(r)(X_j) v_j = xi_j, and dexp^(r) is dexp truncated after the r-th power.
+    """Index sums for methods with one exponential exp(X_i) in stage i, where ``X_i = sum_j a_ij v_j``.
+
+    Here v_j solves dexp^(r)(X_j) v_j = xi_j, where xi_j is the velocity of stage j. The operator dexp^(r) is
+    dexp truncated after the r-th power.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity

@@ -137,8 +137,9 @@ class Family(ABC):
     symplectic: ClassVar[bool] = False
     """True if a search considers only symplectic tableaux, b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if the conditions of order three force the three abscissae of each stage, c_i, chat_i and m_i, to
-    be equal (:mod:`orderconds.solve.abscissae`)."""
+    """True if the conditions of order three force the three abscissae of each stage to be equal. These are
+    c_i for the position, chat_i for the forces and m_i for the transport
+    (:mod:`orderconds.solve.abscissae`)."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed; None: no limit."""
 
@@ -148,7 +149,8 @@ class Family(ABC):
 
     @abstractmethod
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of exactly this order."""
+        """Return conditions of exactly this order that imply all conditions of this order. In most families
+        they are independent of each other; see :meth:`essential_conditions`."""
 
     @abstractmethod
     def evaluate(
@@ -175,8 +177,8 @@ class Family(ABC):
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of every tree or word of this order. By default these are the independent
-        conditions."""
+        """Return the conditions of every tree or word of this order. By default the result is
+        :meth:`conditions`."""
         return self.conditions(order)
 
     def dependence_holds(self, order: int) -> bool:
@@ -188,10 +190,10 @@ class Family(ABC):
         return True
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order, and that can be selected without
-        computation of ranks.
+        """Return conditions that imply all conditions of this order. Their selection must not need the rank
+        of a matrix.
 
-        By default these are the independent conditions.
+        By default the result is :meth:`conditions`.
         """
         return self.conditions(order)
 
@@ -242,7 +244,7 @@ class Family(ABC):
         """Return the residuals of this order that determine the principal error. The 2-norm of the residuals
         measures the error of the method.
 
-        By default these are the residuals of the independent conditions.
+        By default these are the residuals of :meth:`conditions`.
         """
         return self.residuals(method, ring, self.conditions(order))
 
@@ -311,7 +313,8 @@ class Family(ABC):
         return None
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a search: the coefficients of the methods with ``stages`` stages.
+        """Return the unknowns of a search: the coefficients of the methods with ``stages`` stages. If
+        ``explicit`` is true, the search is limited to explicit methods.
 
         Raises :class:`~orderconds.errors.InputError` if the number of stages does not determine the
         coefficients of the family.
@@ -330,7 +333,8 @@ class Family(ABC):
     # Theorems
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order that theorems derive from the orders in other families, or 0.
+        """Return a lower bound of the order of a method in this family, or 0 if no bound is known. Theorems
+        derive the bound from the orders of the method in other families.
 
         ``orders`` maps the labels of the other families to these orders. A subclass need not derive bounds
         that already follow from :attr:`implies`.
@@ -338,8 +342,8 @@ class Family(ABC):
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order that a theorem about the coefficients proves, or 0. No order
-        condition is evaluated."""
+        """Return a lower bound of the order of a method in this family, or 0 if no bound is known. A theorem
+        about the coefficients proves the bound. No order condition is evaluated."""
         return 0
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -347,8 +351,9 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a family with fewer conditions, which imply the conditions of this family for the given
-        method. Return None if there is no such family."""
+        """Return another family, and the method in a format of the other family. For this method, the
+        conditions of the other family are fewer and imply the conditions of this family. Return None if there
+        is no such family."""
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
@@ -357,8 +362,8 @@ class Family(ABC):
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a description of the conditions that the truncation of dexpinv does not change; None if
-        dexpinv is not truncated."""
+        """Return a description of the conditions that the truncation of dexpinv does not change. By default
+        return None, because most families do not contain dexpinv."""
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
@@ -393,8 +398,8 @@ class Family(ABC):
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family whose conditions a search solves. ``nystroem`` is true if the option
-        --rkn is set."""
+        """Return the label of the family whose conditions a search solves when the user chooses this family.
+        ``nystroem`` is true if the option --rkn is set."""
         return self.label()
 
 

@@ -1,9 +1,9 @@
 """Cayley methods Y_1 = cay(Omega) Y_0 for Y' = A(t) Y on quadratic groups; cay(x) = (1 - x/2)^-1 (1 + x/2).
 
 Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. All of these
-terms are elements of the algebra {X: X^T P + P X = 0}. The coefficients of a word of length n and of its
-reverse differ by the factor (-1)^(n+1). There is no other relation between the coefficients. Hence there is
-one condition for each pair (word, reverse word), and one condition for each palindrome of odd length
+terms are elements of the algebra {X: X^T P + P X = 0}. In Omega, the coefficients of a word of length n and
+of its reverse differ by the factor (-1)^(n+1). There is no other relation between the coefficients. Hence
+there is one condition for each pair (word, reverse word), and one condition for each palindrome of odd length
 (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998) 317).
 """
 
@@ -48,8 +48,8 @@ class CayleyFamily(MagnusFamily):
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the words of this weight: one word of each pair (word, reverse word), and the palindromes of
-        odd length."""
+        """Return the words of weight ``order``: one word of each pair (word, reverse word), and the
+        palindromes of odd length."""
         return tuple(
             word
             for word in self.words(order)
@@ -57,7 +57,7 @@ class CayleyFamily(MagnusFamily):
         )
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient of a word in the Omega of the exact flow."""
+        """Return the coefficient of a word in the Omega for which cay(Omega) is the exact flow."""
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
@@ -68,7 +68,7 @@ class CayleyFamily(MagnusFamily):
         return {(min(word, word[::-1]),): Fraction(1 if word < word[::-1] or len(word) % 2 else -1)}
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return random methods with one Cayley transform. The argument of the transform is a random
+        """Return a random method with one Cayley transform. The argument of the transform is a random
         combination of terms. Each term combines a product of values of A at random nodes with the product in
         reverse order."""
         terms = []

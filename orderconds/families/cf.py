@@ -1,5 +1,5 @@
-"""Commutator-free methods: each stage and the update are products of exponentials of linear combinations of
-k_j.
+"""Commutator-free methods: each stage and the update are products of exponentials. Each exponent is a linear
+combination of the k_j, where k_j is the value of the vector field at stage j.
 
 The update is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts
 first. In stage i, the coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003)
@@ -49,7 +49,8 @@ LaTeX."""
 
 @register
 class CommutatorFreeFamily(OrderedForestFamily):
-    """Commutator-free methods. A Runge-Kutta tableau is interpreted with one k_j in each exponential.
+    """Commutator-free methods. A Runge-Kutta tableau is also accepted; then each exponential contains a
+    multiple of one k_j.
 
     >>> for condition in CommutatorFreeFamily().conditions(3):
     ...     print(condition)
@@ -87,8 +88,8 @@ class CommutatorFreeFamily(OrderedForestFamily):
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials that lead to the stages are symmetric. This implies
-        that the method is symmetric."""
+        """Return True if the method is proved to be symmetric, because the products of exponentials that lead
+        to its stages are symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -73,11 +73,11 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words whose letters have this total weight."""
+        """Return all words whose letters have the total weight ``order``."""
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the value of the exact flow on a word, an iterated integral."""
+        """Return the value of the exact flow on a word. This value is an iterated integral."""
         return iterated_integral(word)
 
     def scale(self, word: Word) -> int:
@@ -95,7 +95,8 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return ProductOfExponentials(ring, len(rows), lambda J, k: rows[J]((k,)))
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return products of ``order`` exponentials of random combinations of A at ``order`` random nodes."""
+        """Return a product of ``order`` exponentials. The exponents are random combinations of the values of
+        A at ``order`` random nodes."""
         return random_product(ring, generator, order, "exp")
 
 

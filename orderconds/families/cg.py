@@ -1,7 +1,7 @@
 """Crouch-Grossman methods: y1 = exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1).
 
-In stage i, the coefficients a_ij replace b_j. In the stages and in the update, the exponential of k_1 acts
-first. Exponentials with coefficient zero are omitted.
+Here k_j is the value of the vector field at stage j. In stage i, a_ij replaces b_j. In the stages and in the
+update, the exponential of k_1 acts first. Exponentials with coefficient zero are omitted.
 """
 
 from __future__ import annotations
@@ -60,8 +60,8 @@ class CrouchGrossmanFamily(OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials that lead to the stages are symmetric. This implies
-        that the method is symmetric."""
+        """Return True if the method is proved to be symmetric, because the products of exponentials that lead
+        to its stages are symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -113,8 +113,8 @@ def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) 
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # Exponentials of multiples of t commute. Hence the coefficient of the word t^k is the k-th power of
-        # the coefficient of t, divided by k!.
+        # All k letters are the same tree t. Exponentials of multiples of t commute. Hence the coefficient of
+        # the word t^k is the k-th power of the coefficient of t, divided by k!.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
         first = alone or index_sum((i,), (), product(row(i), _stage(letters[0], i)))

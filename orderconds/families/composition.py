@@ -67,7 +67,7 @@ class CompositionFamily(WordFamily):
     unknowns = "composition"
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words whose letters have this total weight."""
+        """Return all words whose letters have the total weight ``order``."""
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
@@ -123,8 +123,8 @@ class CompositionFamily(WordFamily):
         return "symmetric_composition"
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return compositions with random step sizes. The number of pairs is one more than the number of
-        independent conditions up to ``order``."""
+        """Return a composition with random step sizes. The number of pairs (alpha_i, beta_i) is one more than
+        the number of independent conditions up to ``order``."""
         pairs = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         alpha, beta = (tuple(ring.random(generator) for _ in range(pairs)) for _ in range(2))
         return AdjointComposition(alpha, beta)
@@ -144,8 +144,8 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""A function of a word and a summation index. It returns the value of one stage on the word as a pair: a
-formula, and an integer by which the formula is divided. The index denotes the stage."""
+"""A function of a word and of a summation index, which denotes a stage. It returns a pair (formula, n). The
+value of this stage on the word is the formula divided by the integer n."""
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:

@@ -28,8 +28,8 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a tableau file may claim orders. The claims of a complete file end
-before the first value that does not increase the order."""
+"""The values of ``cutoff`` for which a tableau file may claim orders. A complete file claims the order for
+the first value, and for each next value as long as the order increases."""
 
 
 class DexpinvCut(Family):
@@ -67,8 +67,9 @@ class DexpinvCut(Family):
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return min(p, R + 2), where p is the order of the method on abelian groups. R is ``cutoff`` + 1 if
-        ``cutoff`` is even and at least 2; otherwise R is ``cutoff``."""
+        """Return min(p, R + 2), where p is the order of the method in the family :attr:`abelian`. R is
+        ``cutoff`` + 1 if ``cutoff`` is even and at least 2; otherwise R is ``cutoff``. If dexpinv is not
+        truncated, return p. A larger bound of the base class replaces these values."""
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
 
@@ -87,7 +88,8 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the largest length up to which the truncation does not change the values on words.
+    """Return the largest n such that the truncation of dexpinv changes no value on words of length at most n.
+    If ``cutoff`` is None, dexpinv is not truncated, and the result is a very large number.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

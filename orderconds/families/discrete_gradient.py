@@ -1,5 +1,5 @@
-"""Discrete gradient methods on groups. The nodes and weights of the tableau are used as a quadrature rule,
-which approximates the mean of the differential of H.
+"""Discrete gradient methods on groups. A quadrature rule with the nodes and weights of the tableau
+approximates the mean of the differential of H.
 
 The methods preserve the energy exactly (H. Marthinsen, *On symplectic integration in Lie groups and
 manifolds*, PhD thesis, NTNU Trondheim, 2014, Section 2.6). A step has order one if sum_i b_i = 1, and order

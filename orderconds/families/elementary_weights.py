@@ -1,4 +1,5 @@
-"""Elementary weights of rooted trees as index sums, and the order conditions ``weight = 1/gamma``.
+"""Elementary weights of rooted trees as index sums, and the order conditions ``weight = 1/gamma``
+with the density gamma of the tree.
 
 In a tree with directed edges or coloured vertices there are two kinds of edges. The coefficient of an edge is
 a_ij for the first kind and ahat_ij for the second kind.
@@ -73,7 +74,7 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return the condition ``weight = 1/gamma`` of each tree.
+    """Return, for each tree, the condition that its elementary weight is 1/gamma, where gamma is its density.
 
     ``switching`` expresses the weights of all trees by the weights of independent trees. If it is given, each
     dependent condition contains its relation to independent conditions.
@@ -92,7 +93,7 @@ def weight_condition(
     text: Callable[[DirectedTree], str],
     formula: Callable[[DirectedTree], Formula] = weight,
 ) -> OrderCondition:
-    """Return the condition ``weight = 1/gamma`` of one tree.
+    """Return the condition that the elementary weight of a tree is 1/gamma, where gamma is its density.
 
     >>> from orderconds.trees.directed import text
     >>> print(weight_condition("sprk", bytes((0, 3)), text))

@@ -18,8 +18,8 @@ from orderconds.words.shuffle import Word
 
 
 def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Element]:
-    """Return the function (i, n) -> c_i^n for the given nodes c_i. The function stores the powers and
-    computes each power once.
+    """Return the function (i, n) -> c_i^n for the given nodes c_i. The returned function computes each power
+    once and stores it.
 
     >>> from orderconds.ring import QQ
     >>> node_powers(QQ, [QQ.rational(1, 2)])(0, 3)

@@ -1,11 +1,11 @@
 """Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), where F_1 = sum_i b_i A_i acts last.
 
-Conditions on single letters are the conditions of a quadrature rule for F_1. Conditions on longer Lyndon
-words compare F_2 = sum_{ij} phi_ij A_j A_i + ... with the logarithm of exp(-F_1) Y; here F_2 is the logarithm
-of all factors except exp(F_1) (Fer 1958; Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000)
-215, Section 4.3; Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259). This F_2 contains only brackets.
-Up to order six it is equal to the F_2 of Fer's expansion, because the F_3 of Fer's expansion contains only
-terms of weight seven or more.
+Let Y be the exact flow, and let F_2 = sum_{ij} phi_ij A_j A_i + ... be the logarithm of the product of all
+factors except exp(F_1). Conditions on single letters are the conditions of a quadrature rule for F_1.
+Conditions on longer Lyndon words compare F_2 with the logarithm of exp(-F_1) Y (Fer 1958; Iserles,
+Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3; Blanes, Casas, Oteo and Ros, J.
+Phys. A 31 (1998) 259). This F_2 contains only brackets. Up to order six it is equal to the F_2 of Fer's
+expansion, because the F_3 of Fer's expansion contains only terms of weight seven or more.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ class FerFamily(MagnusFamily):
 
     def exact(self, word: Word) -> Fraction:
         """Return the value of the exact flow on a word: 1/k if the word is the single letter k, otherwise the
-        coefficient of the word in log(exp(-F_1) Y)."""
+        coefficient of the word in log(exp(-F_1) Y), where Y is the exact flow."""
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
     def formula(self, word: Word) -> Formula:
@@ -90,8 +90,9 @@ class FerFamily(MagnusFamily):
         return lambda word: last(word) if len(word) == 1 else rest(word)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return random methods with random nodes. Each method consists of exponentials of left-nested
-        brackets, followed by the exponential of a quadrature sum."""
+        """Return a random method with two exponentials and random nodes. The first exponent is a random
+        combination of left-nested brackets. The second exponent, which acts last, is a random combination of
+        the A_i."""
         c = tuple(ring.random(generator) for _ in range(order))
         terms = []
         for depth in range(2, order + 1):

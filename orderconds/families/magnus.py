@@ -67,8 +67,8 @@ class MagnusFamily(WordFamily):
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` unless the method maps the algebra to the group by
-        :attr:`transform`, the map of this family."""
+        """Raise :class:`~orderconds.errors.InputError` unless the method uses :attr:`transform`, the map
+        of this family from the algebra to the group."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
@@ -85,8 +85,8 @@ class MagnusFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a method that maps the algebra to the group by the map of this family, else
-        None."""
+        """Return this family for a method that uses :attr:`transform`, the map of this family from the
+        algebra to the group. Return None for other methods."""
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
@@ -95,7 +95,7 @@ class MagnusFamily(WordFamily):
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words whose letters have this total weight."""
+        """Return all words whose letters have the total weight ``order``."""
         return tuple(expansions.words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
@@ -117,7 +117,8 @@ class MagnusFamily(WordFamily):
         return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return products of ``order`` exponentials of random combinations of A at ``order`` random nodes."""
+        """Return a product of ``order`` exponentials. The exponents are random combinations of the values of
+        A at ``order`` random nodes."""
         return random_product(ring, generator, order, self.transform)
 
 
@@ -146,8 +147,8 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
 
 
 def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
-    """Return the product of ``size`` exponentials (or other transforms) of random combinations of A at
-    ``size`` random nodes.
+    """Return a product of ``size`` exponentials or Cayley transforms, as ``transform`` specifies. Their
+    arguments are random combinations of the values of A at ``size`` random nodes.
 
     >>> import numpy as np
     >>> from orderconds.ring import Residues

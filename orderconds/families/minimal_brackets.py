@@ -1,5 +1,5 @@
-"""Runge-Kutta-Munthe-Kaas methods, rewritten as programs with the fewest brackets. The compiler emits such a
-program for a method of ``rkmk`` without ``cutoff``.
+"""Runge-Kutta-Munthe-Kaas methods, rewritten as programs with the smallest number of brackets. The compiler
+emits such a program for a method of the family ``rkmk`` without ``cutoff``.
 
 The conditions are equal to those of ``rkmk``, but their left-hand sides are computed from the Lie-Butcher
 series of the compiled program. Hence the computed order is the order of the program.

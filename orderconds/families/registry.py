@@ -57,7 +57,8 @@ def register(family: FamilyClass) -> FamilyClass:
 
     The function may be used as a decorator. An installed package uses the entry-point group
     ``orderconds.families`` instead. Raises :class:`~orderconds.errors.InputError` for a class without name,
-    description or formats, and if another family already has the same name.
+    description or formats, for a name with other characters than lower-case letters, digits and ``_``, and if
+    another family already has the same name.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily

@@ -90,7 +90,7 @@ class RootSwitching:
         self._known: dict[bytes, Polynomial] = {}
 
     def __call__(self, tree: bytes) -> Polynomial:
-        """Return the polynomial whose value is phi(tree)."""
+        """Return the weight of a tree as a polynomial in the weights of independent trees."""
         if tree not in self._known:
             self._known[tree] = self._reduced(tree)
         return self._known[tree]
@@ -109,7 +109,7 @@ class RootSwitching:
                 if moved not in seen:
                     seen.add(moved)
                     waiting.append((moved, -sign, add(so_far, both, sign)))
-        raise ValueError("no choice of the root gives an independent or a superfluous tree")
+        raise ValueError("the weight of a tree is not determined by the weights of independent trees")
 
 
 def with_relations(
@@ -117,8 +117,8 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions with their relations: each dependent condition contains its relation to
-    independent conditions.
+    """Return the conditions, with a relation added to each dependent condition. The function ``polynomial``
+    maps the key of a condition to a polynomial in the left-hand sides of independent conditions.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text

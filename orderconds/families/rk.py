@@ -1,5 +1,5 @@
-"""Runge-Kutta methods. For each rooted tree, the condition is: elementary weight = 1/gamma (HLW III.1, Thm
-1.5)."""
+"""Runge-Kutta methods. For each rooted tree, the condition is: elementary weight = 1/gamma, where gamma is
+the density of the tree (HLW III.1, Thm 1.5)."""
 
 from __future__ import annotations
 
@@ -134,8 +134,8 @@ def _conditions(family: str, order: int) -> tuple[OrderCondition, ...]:
 
 
 def tree_conditions(trees: Sequence[Tree], family: str = "rk") -> tuple[OrderCondition, ...]:
-    r"""Return the conditions ``weight = 1/gamma`` of the given trees (HLW III.1, Theorem 1.5). ``family`` is
-    the label of their family.
+    r"""Return, for each tree, the condition that its elementary weight is 1/gamma, where gamma is its density
+    (HLW III.1, Theorem 1.5). ``family`` is the label of the family of the conditions.
 
     >>> print(*tree_conditions([b"\0\1\1"]))
     sum_i b_i c_i^2 = 1/3

@@ -91,9 +91,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. For the order R + 3, the
-        truncation of dexpinv changes this condition. It changes no condition of lower order. Return None if
-        dexpinv is not truncated, or if ``order`` < 3."""
+        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. At order R + 3, the
+        lowest order at which the truncation of dexpinv changes a condition, it changes this condition. Return
+        None if dexpinv is not truncated, or if ``order`` < 3."""
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
@@ -114,8 +114,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return self.conditions(order) if order > RANKED else self._of(_essential(self.cutoff, order)[-1])
 
     def remark(self, order: int) -> str:
-        """Return a remark that explains why :meth:`conditions` contains more conditions than the essential
-        conditions.
+        """Return a remark that explains why :meth:`conditions` returns more conditions than
+        :meth:`essential_conditions`. Up to order 2 the remark is empty, because both return the same.
         """
         if order < 3:
             return ""
@@ -222,7 +222,7 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # Random methods with as many stages as the order distinguish all trees of this order.
+        # If random methods have ``order`` stages, their values distinguish all trees of this order.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

@@ -117,9 +117,9 @@ class NystroemFamily(Family):
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
         """Return two orders: ``order`` in this family, and min(order, 4) in the family of general splittings.
 
-        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Hence the method, as
-        a general splitting, has at least order min(order, 3). The order of a symmetric method is even, so the
-        order 3 cannot occur.
+        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Hence the method has at
+        least order min(order, 3) as a general splitting. The order of a symmetric method is even, so order
+        three implies order four.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -128,7 +128,7 @@ class NystroemFamily(Family):
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
-        """Return splittings with random step sizes."""
+        """Return a splitting T + V with random step sizes."""
         return _nystroem(SplittingFamily().random_method(ring, generator, order))
 
     def _condition(self, functional: Functional) -> OrderCondition:

@@ -85,11 +85,11 @@ class SplittingFamily(WordFamily):
             )
 
     def weigh(self, letter: int) -> int:
-        """Return 1, because every part is a field of weight one."""
+        """Return the weight of a letter, which is 1 for every part of the splitting."""
         return 1
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words of this length."""
+        """Return all words of ``order`` letters."""
         return tuple(tuples(range(self.parts), repeat=order))
 
     def text(self, word: Word) -> str:
@@ -158,7 +158,7 @@ class SplittingFamily(WordFamily):
         return StageForm(names, method)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
-        """Return splittings with random steps. The number of random coefficients is at least the number of
+        """Return a splitting with random step sizes. The number of step sizes is at least the number of
         independent conditions up to ``order``."""
         stages = 1 + sum(len(self.independent(n)) for n in range(1, order + 1)) // self.parts
         steps = [(part, ring.random(generator)) for _ in range(stages) for part in range(self.parts)]
@@ -243,7 +243,8 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return the coefficients a, b, ... that occur in formulas, with zeros for missing parts of a stage.
+    """Return a map from the names a, b, ... in formulas to lists with one coefficient for each stage. If a
+    stage does not contain the flow of a part, the coefficient is zero.
 
     For two parts, the entry ``c`` contains the sums a_1 + ... + a_i.
 

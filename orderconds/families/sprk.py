@@ -1,9 +1,9 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i.
 
 Suppose that two rooted trees differ only in the choice of the root, and that one edge joins the two roots. By
-the relation b_i ahat_ij = b_i b_j - b_j a_ji, the sum of the weights of both trees is a product of weights of
-smaller trees. Therefore the conditions are indexed by free trees with directed edges (Abia and Sanz-Serna
-1993; HLW VI.7).
+the relation b_i ahat_ij = b_i b_j - b_j a_ji, the sum of the elementary weights of the two trees is a product
+of elementary weights of smaller trees. Therefore one condition for each free tree with directed edges
+suffices (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ from orderconds.trees.directed import (
 )
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
-"""The weight of every rooted tree as a polynomial in the weights of free trees."""
+"""A function that returns the elementary weight of a rooted tree as a polynomial in the elementary weights of
+free trees."""
 
 
 @register
@@ -69,15 +70,18 @@ class SymplecticPartitionedFamily(Family):
         return weight_conditions(self.name, directed_free_trees(order), text)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees with directed edges. A dependent condition contains its
-        relation to independent conditions."""
+        """Return the conditions of all rooted trees with directed edges. Each dependent condition stores its
+        relation to the independent conditions."""
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the elementary weights of a tableau (A, b). The ring must have division, because the
-        formulas divide by b_i."""
+        """Return the elementary weights of a tableau (A, b), one for each element of ``conditions``. The ring
+        must have division, because the formulas divide by b_i.
+
+        Raises :class:`~orderconds.errors.ZeroWeight` unless all b_i are proved to be non-zero.
+        """
         weights = self._memo(method, ring)
         return tuple(weights(condition.key) for condition in conditions)
 
@@ -101,8 +105,8 @@ class SymplecticPartitionedFamily(Family):
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order, derived from simplifying assumptions and from the order p in
-        ``rk``.
+        """Return a lower bound of the order, derived from simplifying assumptions and from the order p in the
+        family ``rk``.
 
         If ahat_ij = a_ij, the order is p. Otherwise suppose that Butcher's simplifying assumptions B(2m),
         C(m) and D(m) hold for the coefficients a_ij. By the definition of ahat_ij, C(m) and D(m) then hold

@@ -1,9 +1,9 @@
 """Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
 
-Conditions contain only trees in which neighbouring vertices differ in colour. The relation b_i ahat_ij +
-bhat_j a_ji = b_i bhat_j relates the conditions of two rooted trees that differ only in the choice of the
-root. Therefore the conditions are indexed by free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b
-and bhat may differ; for example, they differ in pairs that are equivalent to splittings.
+For such Hamiltonians, only trees occur in which neighbouring vertices differ in colour. The relation b_i
+ahat_ij + bhat_j a_ji = b_i bhat_j relates the conditions of two rooted trees that differ only in the choice
+of the root. Therefore the conditions are indexed by free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The
+weights b and bhat may differ; for example, they differ in pairs that are equivalent to splittings.
 """
 
 from __future__ import annotations
@@ -30,13 +30,14 @@ from orderconds.trees.bicoloured import alternating, alternating_free_trees, mov
 from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
-"""The weight of every rooted tree as a polynomial in the weights of free trees."""
+"""A function that returns the elementary weight of a rooted tree as a polynomial in the elementary weights of
+free trees."""
 
 
 @register
 class SeparableFamily(Family):
-    """Symplectic pairs (A, b), (A_hat, b_hat). A single tableau (A, b) is completed by its symplectic
-    conjugate, with b_hat = b.
+    """The family of symplectic pairs of tableaux (A, b) and (A_hat, b_hat). If only one tableau (A, b) is
+    given, its symplectic conjugate, with b_hat = b, is the second tableau.
 
     >>> [len(SeparableFamily().conditions(n)) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]
@@ -57,8 +58,8 @@ class SeparableFamily(Family):
         return weight_conditions(self.name, alternating_free_trees(order), text, rooted_weight)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees with alternating colours. A dependent condition contains
-        its relation to independent conditions."""
+        """Return the conditions of all rooted trees with alternating colours. Each dependent condition stores
+        its relation to the independent conditions."""
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
         return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)
 
@@ -89,11 +90,11 @@ class SeparableFamily(Family):
         return cls() if pair else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if both tableaux of a pair are symmetric."""
+        """Return True if ``method`` is a pair and both tableaux are proved to be symmetric."""
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of single tableaux (A, b), as unknowns of a search. The attribute
+        """Return the coefficients of one tableau (A, b) as the unknowns of a search. The attribute
         ``divides`` of the result is true, because the formula of the conjugate tableau divides by b_i."""
         return tableau_form(stages, explicit, divides=True)
 

@@ -28,8 +28,8 @@ class StageForm(Struct, frozen=True):
 
 
 def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> StageForm:
-    """Return the coefficients of Butcher tableaux. The matrix A is strictly lower triangular if ``explicit``
-    is true, otherwise full.
+    """Return the names of the coefficients of a Butcher tableau (A, b), and the function that builds the
+    tableau. The matrix A is strictly lower triangular if ``explicit`` is true, otherwise full.
 
     >>> tableau_form(2, explicit=True).names
     (('b', ('1',)), ('b', ('2',)), ('a', ('2', '1')))

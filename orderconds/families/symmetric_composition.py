@@ -1,8 +1,8 @@
 """Symmetric compositions of a symmetric method of order two.
 
-The basic method is symmetric. Therefore its logarithm contains only odd powers of h, and the letters of all
-words are odd. The whole step is symmetric as well. Hence the conditions of even order follow from conditions
-of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+The basic method is symmetric. Therefore its logarithm contains only odd powers of h. Letter k denotes the
+term with h^k, so all letters are odd. The composition is symmetric as well. Hence the conditions of even
+order follow from conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
 from __future__ import annotations
@@ -82,7 +82,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the value on a word as a polynomial in the values on Lyndon words of odd weight."""
+        """Return the value of the step on a word as a polynomial in its values on Lyndon words of odd
+        weight."""
         return dict(_polynomial(word))
 
     def formula(self, word: Word) -> Formula:
@@ -91,7 +92,7 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the first half of the step sizes as unknowns of a search; the second half follows by
-        symmetry."""
+        symmetry. If ``stages`` is odd, the middle step size is also an unknown."""
         refuse_explicit(self.label(), explicit)
         names = tuple(("gamma", (str(i),)) for i in range(1, (stages + 1) // 2 + 1))
         return StageForm(
@@ -112,8 +113,9 @@ class SymmetricCompositionFamily(CompositionFamily):
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return symmetric compositions with random steps; the number of steps is at least the number of
-        conditions up to ``order``."""
+        """Return palindromic compositions with random step sizes, one composition for each sample of
+        ``ring``. The number of different step sizes is one more than the number of conditions up to
+        ``order``."""
         steps = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         half = [ring.random(generator) for _ in range(steps)]
         return Composition("symmetric-2", (*half, *half[:-1][::-1]))

@@ -1,7 +1,7 @@
 """Symplectic Runge-Kutta methods: b_i a_ij + b_j a_ji = b_i b_j. Free trees index the conditions.
 
-If an edge divides a free tree into two equal halves, the condition of the tree is superfluous (Sanz-Serna and
-Abia 1991; HLW VI.7.1, Theorem 7.3).
+If an edge divides a free tree into two equal halves, the condition of the tree follows from conditions of
+lower order (Sanz-Serna and Abia 1991; HLW VI.7.1, Theorem 7.3).
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from orderconds.trees.levels import Tree, text
 from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
-"""The weight of every rooted tree as a polynomial in the weights of free trees whose conditions are not
-superfluous."""
+"""A function that returns the elementary weight of a rooted tree as a polynomial in elementary weights of
+free trees. No edge divides these free trees into two equal halves."""
 
 
 @register
@@ -53,7 +53,7 @@ class SymplecticFamily(Family):
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees. A dependent condition contains its relation to
+        """Return the conditions of all rooted trees. Each dependent condition stores its relation to the
         independent conditions."""
         return with_relations(_conditions(tuple(rooted_trees(order))), SWITCHING, text)
 

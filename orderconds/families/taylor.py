@@ -51,7 +51,8 @@ class TaylorFamily(Family):
         self.degree = degree
 
     def label(self) -> str:
-        """Return the name of the family with the degree in parentheses, such as ``taylor(12)``."""
+        """Return the name of the family with the degree in parentheses, such as ``taylor(12)``, or ``taylor``
+        if no degree is given."""
         return self.name if self.degree is None else f"{self.name}({self.degree})"
 
     def degree_of_step(self) -> int:
@@ -86,8 +87,8 @@ class TaylorFamily(Family):
         raise self._unconditional()
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None. A :class:`Work` counts evaluations of the vector field, but a step of Taylor's
-        method evaluates recurrences."""
+        """Return None. A :class:`Work` counts evaluations of the vector field. A step of Taylor's method does
+        not evaluate the vector field; it evaluates recurrences."""
         return None
 
     def _unconditional(self) -> InputError:

@@ -1,10 +1,10 @@
 """Variational commutator-free methods: each exponential may combine the velocities of several stages.
 
-For a Lagrangian l, the discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ...
-exp(X_i1) q0`` and ``X_iJ = h sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj replace
-alpha_iJj, and ``b_i = sum_J beta_Ji``. These methods generalise the variational Crouch-Grossman methods
-(VCG), as Section 3.5 of Bogfjellmo and Marthinsen suggests. The family contains methods of order 3 whose
-weights are all positive.
+Let xi_j be the velocity of stage j and q0 the initial position. For a Lagrangian l and the step size h, the
+discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0`` and ``X_iJ = h
+sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj replace alpha_iJj. The weights are ``b_i =
+sum_J beta_Ji``. The methods generalise the variational Crouch-Grossman methods (VCG), as Section 3.5 of
+Bogfjellmo and Marthinsen suggests. The family contains methods of order 3 with positive weights b_i.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ class VariationalCommutatorFree(ActionFamily):
 
     Independent conditions are selected by the rank of a matrix, which contains the values of the conditions
     at random methods. ``update`` and ``stage`` are the numbers of exponentials in the update and in each
-    stage of the random methods. The default numbers are large enough to give one independent condition for
-    each elementary Hamiltonian. A Runge-Kutta tableau is interpreted with one velocity in each exponential.
+    stage of the random methods. With the default numbers, there is one independent condition for each
+    elementary Hamiltonian. A Runge-Kutta tableau is interpreted with one velocity in each exponential.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -82,8 +82,8 @@ class VariationalCommutatorFree(ActionFamily):
         return CommutatorFreeSeries(ring, rows)
 
     def formula(self) -> ActionFormula:
-        """Return the object that constructs the index sums of conditions, with the coefficients alpha, beta,
-        b and c."""
+        """Return the object that constructs the index sums of the conditions. The coefficients in these sums
+        are alpha, beta, b and c."""
         return CommutatorFreeFormula()
 
     @classmethod
@@ -96,8 +96,9 @@ class VariationalCommutatorFree(ActionFamily):
         return cls() if all_nonzero(method.as_runge_kutta(ring).b, ring) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials that lead to the stages are symmetric. This implies
-        that the method is symmetric."""
+        """Return True if the method is proved to be symmetric. The proof uses a sufficient condition:
+        reversal of the step maps the product of exponentials of stage i to that of stage s + 1 - i, for s
+        stages."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -1,5 +1,5 @@
-"""Variational Crouch-Grossman methods: integrators on T*G that are defined by a Butcher tableau. There is one
-exponential for each coefficient a_ij and b_i.
+"""Variational Crouch-Grossman methods: integrators on the cotangent bundle T*G of a Lie group G. A Butcher
+tableau defines the method; each non-zero coefficient a_ij or b_i gives one exponential.
 
 Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the method. The six conditions of order 3 are
 in their Proposition 3.5.7. The conditions of every order are computed from the action series.
@@ -62,20 +62,22 @@ class VariationalCrouchGrossman(ActionFamily):
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random full tableaux. The number of stages is ``order`` - 1, but at
-        least 2. More stages do not increase the ranks by which independent conditions are selected."""
+        """Return the action series of random tableaux whose matrix A is full. The number of stages is
+        ``order`` - 1, but at least 2. Independent conditions are selected by the rank of a matrix; more
+        stages do not increase this rank."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))
 
     def formula(self) -> ActionFormula:
-        """Return the object that constructs the index sums of conditions, with the coefficients a, b and
-        c."""
+        """Return the object that constructs the index sums of the conditions. The coefficients in these sums
+        are a, b and c."""
         return CrouchGrossmanFormula()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials that lead to the stages are symmetric. This implies
-        that the method is symmetric."""
+        """Return True if the method is proved to be symmetric. The proof uses a sufficient condition:
+        reversal of the step maps the product of exponentials of stage i to that of stage s + 1 - i, for s
+        stages."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:

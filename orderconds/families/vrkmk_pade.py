@@ -1,9 +1,9 @@
-"""VRKMK methods ``vrkmk_pade(r)``, which invert a truncated series of dexp and do not truncate dexpinv.
+"""The VRKMK methods ``vrkmk_pade(r)``. They replace dexpinv by the inverse of a truncated series of dexp.
 
-The stage velocities v_i solve dexp^(r)(X_i) v_i = xi_i, and dexp^(r) is dexp truncated after the r-th power
-(Marthinsen's thesis, Section 3.4.1, alternative approach).
-Conditions are indexed by action trees, as in every variational family, and evaluated by the action series of
-this method.
+Let xi_i be the velocity at stage i, and X_i the exponent of the stage. The method computes v_i from
+dexp^(r)(X_i) v_i = xi_i, where dexp^(r) is dexp truncated after the r-th power of ad (Marthinsen's thesis,
+Section 3.4.1, alternative approach). Conditions are indexed by action trees, as in every variational family,
+and evaluated by the action series of this method.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 
 @register
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
-    """The family ``vrkmk_pade(r)`` of tableaux (A, b) with all b_i non-zero. The series of dexp is truncated
-    after the power ``cutoff``.
+    """The family ``vrkmk_pade(r)`` of tableaux (A, b) with all b_i non-zero. The series of dexp in powers of
+    ad is truncated after the power ``cutoff``.
 
     Without ``cutoff``, dexp is not truncated, and the family is equal to ``vrkmk`` without ``cutoff``.
 
@@ -55,7 +55,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return PadeActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random full tableaux."""
+        """Return the action series of random tableaux whose matrix A is full."""
         if self.cutoff is None:
             return super().random_series(ring, generator, order)
         stages = max(order - 1, 2)
@@ -63,8 +63,8 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return PadeActionSeries(ring, rows[:-1], rows[-1], self.cutoff)
 
     def formula(self) -> ActionFormula:
-        """Return the object that constructs the index sums of conditions, with the coefficients a, b and
-        c."""
+        """Return the object that constructs the index sums of the conditions. The coefficients in these sums
+        are a, b and c."""
         return super().formula() if self.cutoff is None else PadeFormula(self.cutoff)
 
     @classmethod
@@ -73,7 +73,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return a tuple that contains only this family with its own value of ``cutoff``."""
+        """Return a tuple whose only element is this family, with its own ``cutoff``."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

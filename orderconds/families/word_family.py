@@ -1,8 +1,8 @@
-"""Families whose conditions are indexed by words over a graded alphabet.
+"""Families whose conditions are indexed by words. Each letter of the alphabet has a weight.
 
-The values of a group-like series on words satisfy the shuffle relations. The values on Lyndon words therefore
-determine all other values, and are independent (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). The
-letters of a word are in the order of action.
+A step of a method and the exact flow are group-like series: their values on words satisfy the shuffle
+relations. The values on Lyndon words therefore determine all other values, and are independent (Radford 1979;
+Reutenauer, Free Lie Algebras, Thm 6.1). The first letter of a word acts first.
 """
 
 from __future__ import annotations
@@ -46,18 +46,18 @@ class WordFamily(Family):
 
     @abstractmethod
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum: ``scale(word)`` times the
-        value of the method."""
+        """Return the left-hand side of the condition of a word as an index sum. The left-hand side is
+        ``scale(word)`` times the value of the step on the word."""
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return a function that maps each word to the value of one step of ``method`` on this word. The
-        value is an element of ``ring``."""
+        """Return a function of words. Its result is the value of one step of ``method`` on the word, as an
+        element of ``ring``."""
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return random methods of the family, one for each sample, with enough coefficients to distinguish
-        all conditions up to ``order``."""
+        """Return random methods of the family, one for each sample of ``ring``. They have enough coefficients
+        to distinguish all conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
         """Return words of this weight whose conditions are independent. These conditions imply the conditions
@@ -66,7 +66,7 @@ class WordFamily(Family):
         return tuple(lyndon_words(letters, order, self.weigh))
 
     def weigh(self, letter: int) -> int:
-        """Return the weight of a letter. By default letter k is a field of weight k."""
+        """Return the weight of a letter. By default, letter k has the weight k."""
         return letter
 
     def scale(self, word: Word) -> int:
@@ -74,11 +74,11 @@ class WordFamily(Family):
         return 1
 
     def text(self, word: Word) -> str:
-        """Return a word as text."""
+        """Return a word as text, with spaces between the letters."""
         return " ".join(map(str, word))
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the value on a word as a polynomial in the values on independent words."""
+        """Return the value of a step on a word as a polynomial in its values on independent words."""
         return {tuple(sorted(monomial)): value for monomial, value in in_lyndon_words(word).items()}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -86,8 +86,8 @@ class WordFamily(Family):
         return tuple(map(self._condition, self.independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all words of exactly this order. A dependent condition contains its
-        relation to independent conditions."""
+        """Return the conditions of all words of exactly this order. Each dependent condition stores its
+        relation to the independent conditions."""
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 
     @cached_property

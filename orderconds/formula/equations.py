@@ -19,7 +19,8 @@ _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
 @dataclass(frozen=True)
 class Equation:
-    """An equation: its two sides in LaTeX, a LaTeX picture for the first column, a label, and comments."""
+    """An equation: its two sides in LaTeX, a picture of a tree in LaTeX for the first column, a label, and a
+    comment."""
 
     left: str
     right: str
@@ -85,7 +86,8 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split before plus and minus signs that are inside at most ``within`` brackets and outside braces."""
+    """Split a LaTeX formula before each plus or minus sign that is outside braces and inside at most
+    ``within`` pairs of brackets."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")

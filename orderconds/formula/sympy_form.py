@@ -50,8 +50,8 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the summation limits. If j is also a summation index, the relation ``i < j`` gives i the limits
-    1 and j-1. If i is a free index, the relation gives j the lower limit i+1."""
+    """Return the limits of the summation ``indices``. Consider a relation ``i < j``. If i and j are both
+    summation indices, i runs from 1 to j-1. If i is free, j starts at i+1. If j is free, i ends at j-1."""
     limits, remaining = [], list(indices)
     while remaining:
         # In SymPy the innermost index comes first. The limits of an inner index may contain outer indices,
@@ -73,8 +73,8 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
 
 
 def expand_sums(expression: sympy.Expr, stages: int, exponentials: int = 1) -> sympy.Expr:
-    """Return a result of :func:`export` in which the sums are expanded for a number of stages. (SymPy's
-    ``doit`` does not expand sums with ``i < j``.)
+    """Return ``expression``, a result of :func:`export`, with its sums expanded. The limits ``s`` and ``m``
+    are replaced by ``stages`` and ``exponentials``. (SymPy's ``doit`` does not expand sums with ``i < j``.)
 
     >>> from orderconds.formula import coefficient, index_sum, product
     >>> body = product(coefficient("b", "i"), coefficient("c", "j"))

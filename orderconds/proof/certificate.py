@@ -40,11 +40,12 @@ class Misrounded:
 class Certificate:
     """A proved solution near the decimals of a file.
 
-    ``tableau`` contains the coefficients of the solution, as balls. ``facts`` are the orders that the
-    equations imply. ``radius`` bounds the distance of every decimal from the solution. ``printed`` bounds the
-    distance of each number printed in the source from the solution. ``misrounded`` contains the decimals that
-    differ from the correctly rounded solution. ``lower_facts`` are the orders of the embedded method that the
-    equations imply.
+    ``tableau`` contains the coefficients of the solution, as balls. ``facts`` are pairs (family, order): the
+    orders that the equations imply. ``equations`` is the number of equations. ``radius`` bounds the distance
+    of every decimal of the file from the solution. ``printed`` maps each number printed in the source to a
+    bound of its distance from the solution. ``misrounded`` contains the decimals that differ from the
+    correctly rounded solution. ``lower_facts`` are the orders that the equations imply for the embedded
+    method.
     """
 
     tableau: Tableau
@@ -56,7 +57,8 @@ class Certificate:
     lower_facts: tuple[Fact, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of a proof."""
+        """Return the proved statement as an object for JSON: the conditions, the unknowns, the pinned
+        decimals and the error bounds."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -74,7 +76,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     """Prove that the equations of ``tableau`` have exactly one solution near its decimals.
 
     The solution is enclosed to ``bits`` binary digits, or to more if the decimals of the file have more
-    digits. Raises :class:`~orderconds.proof.krawczyk.NotProved` with the reason.
+    digits. If the proof fails, the function raises :class:`~orderconds.proof.krawczyk.NotProved` with the
+    reason.
 
     >>> from orderconds.tableau import find
     >>> certificate = certify(Tableau.load(find("cg4a")))
@@ -87,8 +90,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 class _Key:
     """A tableau as a key of the cache of proofs. Two keys are equal if both tableaux were read from files
-    with equal content. Therefore the proof is computed only once, even if several families use it or the
-    file is read again."""
+    with equal content. Therefore the proof is computed only once, even if several families use the proof or
+    the file is read again."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -175,7 +178,8 @@ def _certificate(
 
 
 def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
-    """Yield each decimal whose distance from the solution is more than half a unit of its last digit."""
+    """Yield each decimal for which it is proved that its distance from the solution is more than half a unit
+    of its last digit."""
     for unknown, x in zip(proof.unknowns, solution, strict=True):
         given, unit = _fmpq(unknown.constant.value), _fmpq(unknown.constant.unit)
         low, high = endpoints(x)

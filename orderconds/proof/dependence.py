@@ -1,5 +1,6 @@
-"""A search for dependent conditions of a sub-family. Each dependent condition is first written as a
-combination of other conditions modulo primes. Its coefficients are then converted to fractions.
+"""A search for dependent conditions of a sub-family, which consists of the methods that the formulas of a
+file allow. Each dependent condition is first written as a combination of other conditions modulo primes. The
+coefficients of the combination are then converted to fractions.
 
 Nothing in this module is a proof. A rank modulo a prime can be too small, and the numerator or denominator of
 a coefficient may be divisible by the prime. :class:`orderconds.proof.exact_member.ExactMember` verifies each
@@ -30,8 +31,9 @@ FIRST = 40
 because they have few independent conditions."""
 
 SPARE = 24
-"""The number of additional random methods. With these it is improbable that independent conditions appear to
-be dependent."""
+"""The least number of surplus random methods. A linear dependence at one order relates products of conditions
+and independent conditions. The number of random methods exceeds the number of these values by at least SPARE.
+Then it is improbable that independent values appear to be dependent."""
 
 PRIME_BITS = 61
 """The size of the primes in bits. With this size, a residue fits in a machine word, and one prime suffices to
@@ -57,8 +59,8 @@ class Dependences:
     residues: tuple[Residues, ...]
 
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
-        """Yield each dependent condition with its combination over Q, or with None if more primes are
-        needed."""
+        """Yield each dependent condition with its combination, whose coefficients are fractions. Yield None
+        instead of the combination if more primes are needed."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -84,8 +86,8 @@ def dependences(
 ) -> Iterator[Dependences]:
     """Yield the dependences modulo one prime, two primes, ..., at most :data:`MAX_PRIMES`.
 
-    ``candidates`` are the conditions of each order. Only primes that give the largest number of independent
-    conditions are used.
+    ``candidates`` are the conditions of each order. Primes that give fewer independent conditions than
+    another prime are not used.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -126,9 +128,9 @@ def _modulo(
     """Return the independent conditions, and the dependent conditions as combinations of them, modulo one
     prime.
 
-    If the sub-family contains a square root sqrt(d), the function computes the coefficients for both signs of
-    the root. From these it computes x and y for each coefficient x + y sqrt(d). Return None if the
-    independent conditions for the two signs differ.
+    If the formulas of the sub-family contain a square root sqrt(d), each coefficient has the form x + y
+    sqrt(d). The function computes all coefficients for both signs of the root, and then x and y from the two
+    values. Return None if the independent conditions for the two signs differ.
     """
     prime = sampling.prime
     if surd is None:
@@ -202,7 +204,8 @@ class _Sampling:
     read: Reading | None
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
-        """Return the values of the conditions at ``count`` random members and at the exact flow."""
+        """Return the values of the conditions at ``count`` random members and at the exact flow. If ``root``
+        is not None, it is the value of the only square root."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}

@@ -54,7 +54,8 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations for the decimals of ``tableau``; ``facts`` are the orders of a solution by family."""
+    """The equations for the decimals of ``tableau``; ``facts`` are pairs (family, order): the orders of every
+    solution of the equations."""
 
     tableau: Tableau
     proof: Proof
@@ -186,7 +187,8 @@ def equations(tableau: Tableau) -> Equations:
 
 
 def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return independent conditions for 2N schemes. Each of these conditions belongs to a rooted tree."""
+    """Return the independent conditions of 2N schemes up to the order in ``proof``. Rooted trees index these
+    conditions."""
     from orderconds.series.two_registers import independent_trees
 
     trees = {tree for n in range(1, proof.order + 1) for tree in independent_trees(n)}
@@ -195,7 +197,8 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
     """Return the conditions of the embedded method of a 2N scheme. Return an empty tuple unless the embedded
-    method applies one exponential to the update and its order is at most the order in the proof."""
+    method is the update followed by one exponential. Also return an empty tuple if the embedded method has a
+    higher order than ``proof`` states."""
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
         return ()
@@ -205,8 +208,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return conditions that imply all other conditions for every method of the sub-family. The formulas in
-    the file define this sub-family."""
+    """Return conditions that imply all other conditions up to the order in ``proof``. The implication is
+    valid for every method whose coefficients satisfy the formulas in the file."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -224,7 +227,7 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
     """Return s if the method is a Magnus method on the s Gauss nodes and the order in ``proof`` is at most
     2s; else None.
 
-    The nodes are evaluated exactly, and must not depend on rounded decimals of the file.
+    The nodes are evaluated exactly. If a node depends on a rounded decimal of the file, the result is None.
     """
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:
@@ -240,7 +243,9 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
 
 
 def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
-    """Return True if the product of t - c_i is orthogonal on [0, 1] to all polynomials of lower degree.
+    """Return True if ``nodes`` are proved to be the Gauss nodes on [0, 1].
+
+    The test is: the product of t - c_i over all nodes c_i is orthogonal to all polynomials of lower degree.
 
     >>> from orderconds.ring import QQ
     >>> gauss_nodes([QQ.rational(1, 2)], QQ), gauss_nodes([QQ.zero, QQ.one], QQ)
@@ -273,7 +278,7 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     ``values`` are jets over a box. An equation may be an identity if the ball of its value and all balls of
     its gradient contain zero. Such an equation is evaluated exactly, with random numbers for the unknowns
     (:mod:`orderconds.tableau.random_member`). If the exact value is zero, the equation is an identity and is
-    omitted.
+    omitted. If the exact evaluation fails, no equation is omitted.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

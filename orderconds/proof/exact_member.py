@@ -77,8 +77,8 @@ def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
 
 @dataclass(frozen=True)
 class ExactMember:
-    """The left-hand sides of conditions at one member. ``surd`` is the square root that occurs in the
-    coefficients of the member, or None."""
+    """The left-hand sides of conditions, evaluated at one random member (method) of a sub-family. ``surd`` is
+    the square root that occurs in the coefficients of the member, or None."""
 
     ring: Ring
     values: Mapping[OrderCondition, Element]
@@ -87,7 +87,7 @@ class ExactMember:
     def holds(self, condition: OrderCondition) -> bool:
         """Return True if a condition holds at this member of the sub-family.
 
-        Because the member is random, the condition then holds at every member, except with negligible
+        If the condition holds at a random member, it holds at every member, except with negligible
         probability (:mod:`orderconds.tableau.random_member`).
         """
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
@@ -97,7 +97,8 @@ class ExactMember:
         equals the left-hand side of ``condition``. The second is the same equation for the right-hand sides.
 
         Because the member is random, both equations then hold at every member, except with negligible
-        probability. Hence ``condition`` follows from the conditions in the combination.
+        probability. Hence ``condition`` follows from the conditions in the combination. Return False if
+        ``combination`` is None.
         """
         if combination is None:
             return False
@@ -119,9 +120,10 @@ def exact_member(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> ExactMember | None:
-    """Return a random member of the sub-family that ``symbolic`` describes.
+    """Return the left-hand sides of ``conditions`` at a random member of the sub-family that ``symbolic``
+    describes.
 
-    Return None if the evaluation fails: the numbers become too large, or a divisor is zero.
+    Return None if the evaluation fails, because the numbers become too large or a divisor is zero.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -154,7 +156,8 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """Random numbers in the field that a square root generates."""
+    """Arithmetic in the field that a square root generates. Rounded decimals and named roots are replaced by
+    random numbers; exact constants keep their values."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd
@@ -175,7 +178,8 @@ class _Scalars:
 
 
 def constants(symbolic: SymbolicCoefficients) -> Iterator[Constant]:
-    """Yield every constant of a file.
+    """Yield every constant in the formulas of a file, and every coefficient of a minimal polynomial in the
+    file.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]\\n'

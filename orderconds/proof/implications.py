@@ -41,8 +41,8 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return the implied orders, by label, in all families whose conditions are a subset of the conditions of
-    a family in ``facts``.
+    """Return lower bounds of orders, by label of the family. The result contains the families in ``facts``,
+    and all families whose conditions are a subset of the conditions of such a family.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}
@@ -58,11 +58,11 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 
 
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
-    """Return the order in ``family`` if theorems determine it, else None.
+    """Return the exact order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders; ``orders`` are exact orders by label. The conditions of some other
-    families are a subset of the conditions of ``family``. The order in such a family is an upper bound of the
-    order in ``family``.
+    ``facts`` are lower bounds of orders; ``orders`` maps labels of families to exact orders. If the
+    conditions of another family are a subset of the conditions of ``family``, the order in the other family
+    is an upper bound of the order in ``family``.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

@@ -5,10 +5,10 @@ For F: R^n -> R^n, a box X with midpoint x and any matrix Y,
 
     K(X) = x - Y F(x) + (I - Y F'(X)) (X - x).
 
-If K(X) lies in the interior of X, then F has exactly one zero in X. This zero lies in K(X), and F' is regular
-on X, so the equations have full row rank there (Krawczyk 1969; Neumaier, *Interval Methods for Systems of
-Equations*, Theorem 5.1.8). Repeated application of K encloses the zero to the working precision, with
-quadratic convergence.
+Here I is the identity matrix, and F'(X) encloses the Jacobian matrices of F at all points of X. If K(X) lies
+in the interior of X, then F has exactly one zero in X. This zero lies in K(X), and the Jacobian matrix is
+regular at every point of X (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, Theorem
+5.1.8). Repeated application of K encloses the zero to the working precision, with quadratic convergence.
 """
 
 from __future__ import annotations
@@ -59,7 +59,8 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
 
 
 def _image(system: System, box: Sequence[arb]) -> list[arb]:
-    """Return K(box), or raise :class:`NotProved` if the Jacobian at the midpoint is not invertible."""
+    """Return K(box). Raise :class:`NotProved` if the numbers of equations and unknowns differ, or if the
+    Jacobian at the midpoint of the box is not invertible."""
     middle = [x.mid() for x in box]
     at_middle = jets(system, middle)
     over_box = jets(system, box)
@@ -86,8 +87,9 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 
 
 def inverse(matrix: arb_mat) -> arb_mat:
-    """Return the inverse of a matrix of balls, computed in ball arithmetic; each entry is replaced by its
-    midpoint. Raises :class:`NotProved` for a singular matrix.
+    """Return an approximate inverse of a square matrix of balls. The inverse is computed in ball arithmetic,
+    and each entry is replaced by its midpoint. Raises :class:`NotProved` if some matrix in the balls may be
+    singular.
 
     >>> inverse(arb_mat(1, 1, [4]))[0, 0] == 0.25
     True

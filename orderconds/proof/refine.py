@@ -26,8 +26,8 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""The largest accepted change of a decimal. A solution at a larger distance would be a different method from
-that in the file."""
+"""The largest accepted change of a decimal. A solution at a larger distance is rejected, because it would be
+a different method."""
 
 
 @dataclass(frozen=True)
@@ -63,8 +63,9 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # The function ``independent`` looks for identities among the equations whose value and gradient may
-        # both be zero. A box is used, because at a point other equations may have this property, too.
+        # The function ``independent`` tests every equation whose value and gradient may both be zero. It
+        # receives values on a box, because at a single point the value and the gradient can also be zero by
+        # chance.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -79,9 +80,10 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
 
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
-    """Return the indices of the unknowns that elimination with complete pivoting selects, in ascending order.
+    """Return the indices of the unknowns that elimination on the Jacobian with complete pivoting selects, in
+    ascending order. Each equation is one row of ``jacobian``.
 
-    Each row is scaled by its largest entry.
+    Each row is first divided by its largest entry.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if the rows are linearly dependent to working
     precision.
@@ -146,8 +148,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return the text of the file with the new digits. Its table ``[proof]`` then contains the list of the
-    pinned decimals and the digits that the source prints."""
+    """Return ``text`` with the new digits. The table ``[proof]`` of the returned file lists the pinned
+    decimals and the digits that the source prints."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
         if unknown.name not in decimals:
@@ -178,7 +180,7 @@ def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequen
 
 
 def _header(line: str) -> str:
-    """Return the name of the table that a line of TOML begins, or an empty text.
+    """Return the name of the table that a line of TOML begins. Return an empty text for any other line.
 
     >>> _header("[ proof . printed ]  # as the source has them"), _header('pins = ["a"]')
     ('proof.printed', '')

@@ -7,11 +7,11 @@ The combination must have constant coefficients, and must be valid for every met
 the exact flow. Then the omitted condition holds if the kept conditions hold.
 
 The combinations are found modulo primes (:mod:`orderconds.proof.dependence`), but a computation modulo primes
-is not a proof. Therefore each combination is verified exactly at one random member of the sub-family, which
-is computed from a digest of the file (:mod:`orderconds.proof.exact_member`). A condition without a verified
-combination is kept. A condition with a constant left-hand side is also kept, unless exact arithmetic shows
-that the two sides are equal. If a file has several radicals, random numbers replace the radicals. The
-sub-family then contains more methods, and the verified statement is stronger than necessary.
+is not a proof. Therefore each combination is verified exactly at one random method of the sub-family. The
+random numbers are computed from a digest of the file (:mod:`orderconds.proof.exact_member`). A condition
+without a verified combination is kept. A condition with a constant left-hand side is also kept, unless exact
+arithmetic shows that the two sides are equal. If a file has several radicals, random numbers replace their
+values. The sub-family then contains more methods, and the verified statement is stronger than necessary.
 """
 
 from __future__ import annotations
@@ -31,7 +31,8 @@ def independent_conditions(
     """Return the conditions up to ``order`` that do not follow from other conditions in the sub-family.
 
     The function ``read`` converts a method from the format of the file to the format that the family
-    evaluates. Its arguments are the method and the ring of the coefficients.
+    evaluates. Its arguments are the method and the ring of the coefficients. By default the method is not
+    converted.
 
     >>> from orderconds import families
     >>> from orderconds.tableau import Tableau

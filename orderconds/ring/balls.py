@@ -43,7 +43,7 @@ class Balls:
         return self.bits
 
     def rational(self, p: int, q: int = 1) -> Ball:
-        """Return a ball around p/q. It is exact if p/q can be represented at the precision."""
+        """Return a ball around p/q. The radius is zero if p/q can be represented at the precision."""
         with precision(self.bits):
             return Ball(arb(fmpq(p, q)), self.bits)
 
@@ -60,7 +60,8 @@ class Balls:
     def root(self, x: Ball, index: int) -> Ball:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError for an even root of a ball that contains negative numbers.
+        Raises ValueError for an even root of a ball that contains negative numbers. Also raises ValueError
+        for an odd root of a ball that contains zero and negative numbers.
         """
         with precision(self.bits):
             if x.value >= 0:
@@ -79,8 +80,8 @@ class Balls:
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return the absolute value of the binary exponent of the midpoint or of the radius, whichever is
-        larger. The mantissa is not counted, because the precision limits its size."""
+        """Return a measure of the size of x: the larger of the absolute values of the binary exponents of
+        midpoint and radius. The mantissa is not counted, because the precision limits the mantissa."""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
@@ -169,7 +170,7 @@ class Enclosures:
         self.one = arb(1)
 
     def rational(self, p: int, q: int = 1) -> arb:
-        """Return a ball around p/q. It is exact if p/q can be represented at the working precision."""
+        """Return a ball around p/q. The radius is zero if p/q can be represented at the working precision."""
         return arb(fmpq(p, q))
 
     def is_zero(self, x: arb) -> bool | None:
@@ -192,17 +193,16 @@ class Enclosures:
 
 
 def _magnitude(x: arb) -> int:
-    # The integers ``mantissa`` and ``exponent`` are used, because any operation of flint with x, even abs,
-    # would round x to the current precision.
+    # Only the integers ``mantissa`` and ``exponent`` are used. Any operation of flint with x, even abs, would
+    # round x to the current precision.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 
 
 def _supported_places(radius: fmpq) -> int:
-    """Return the largest d with 10^-d >= 2 radius. A decimal with d places then has an error of at most one
-    unit of its last place: half a unit for the radius and half a unit for rounding."""
-    # The integers of flint are converted to text, because this conversion has no limit; Python converts at
-    # most 4300 digits.
+    """Return the largest d with 10^-d >= 2 radius. A midpoint that is rounded to d places then has an error
+    of at most one unit of its last place: half a unit for the radius and half a unit for rounding."""
+    # ``str`` is applied to integers of flint, because ``str`` of a Python integer is limited to 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:
         places -= 1

@@ -47,8 +47,8 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     p, q = abs(int(x.p)), int(x.q)
     if p == 0:
         return "0"
-    # The exponent with 10^exponent <= p/q < 10^(exponent+1) is computed from the numbers of digits. This
-    # estimate may be too large by one and is then corrected.
+    # The exponent must satisfy 10^exponent <= p/q < 10^(exponent+1). It is estimated from the numbers of
+    # digits of p and q. If the estimate is too large by one, it is corrected.
     exponent = len(_figures(p)) - len(_figures(q))
     if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
         exponent -= 1
@@ -65,14 +65,14 @@ def rational_decimal(x: fmpq, digits: int) -> str:
 
 
 def _figures(n: int) -> str:
-    """Return the decimal digits of n. The conversion uses flint, which has no limit, because Python converts
-    at most 4300 digits."""
+    """Return the decimal digits of n. The conversion uses flint, because ``str`` of a Python integer is
+    limited to 4300 digits."""
     return str(fmpz(n))
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return a decimal as text: plain notation for numbers near one, scientific notation for all other
-    numbers."""
+    """Return as text the decimal with the significant digits ``figures``. The first of them is multiplied by
+    10^exponent. If the exponent is below -5 or above 24, the notation is scientific."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
     if 0 <= exponent < 25:
@@ -84,8 +84,8 @@ def _place_point(figures: str, exponent: int) -> str:
 
 
 def decimal(enclosure: Enclosure, digits: int) -> str:
-    """Return an irrational number as a decimal that is correctly rounded to ``digits`` digits. The number is
-    given by enclosures.
+    """Return an irrational number as a decimal that is correctly rounded to ``digits`` significant digits.
+    The ball ``enclosure(bits)`` contains the number.
 
     >>> from orderconds.ring.precision import precision
     >>> def root(bits):
@@ -99,7 +99,7 @@ def decimal(enclosure: Enclosure, digits: int) -> str:
 
 
 def nearest_float(enclosure: Enclosure) -> float:
-    """Return the double nearest to a number that is given by enclosures.
+    """Return the double nearest to an irrational number. The ball ``enclosure(bits)`` contains the number.
 
     >>> from orderconds.ring.precision import precision
     >>> def root(bits):

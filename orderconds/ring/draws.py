@@ -1,7 +1,8 @@
 """Pseudorandom numbers that are computed from a SHA-256 digest of the tested object and a counter.
 
-A randomised test, at random points or modulo a random prime, is valid only if the tested object does not
-depend on the random numbers. Therefore the random numbers are computed from a digest of the object itself.
+Some tests evaluate an object at random points or modulo a random prime. Such a test is valid only if the
+object was not constructed for these random numbers. Therefore the random numbers are computed from a digest
+of the object itself.
 """
 
 from __future__ import annotations
@@ -13,7 +14,8 @@ from flint import fmpz
 
 
 class Draws:
-    """Pseudorandom numbers, computed from a digest of the text ``described``. Each name gives one number.
+    """Pseudorandom numbers, computed from a digest of the texts ``described``. For the same texts, the same
+    name always gives the same number.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)

@@ -12,7 +12,7 @@ from orderconds.ring.rationals import Rationals
 
 
 def embedding(source: Ring, target: Ring) -> Callable[[Element], Element]:
-    """Return the map of elements of ``source`` to elements of ``target``.
+    """Return the function that maps each element of ``source`` to the corresponding element of ``target``.
 
     Raises TypeError if there is no such map.
 

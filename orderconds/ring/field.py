@@ -22,19 +22,20 @@ from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
-"""The least degree of a field in which a quotient is computed by solving a linear system."""
+"""In fields of this or a higher degree, 1/x is computed by solving a linear system. In smaller fields it is
+computed by Euclid's algorithm."""
 
 REMEMBERED = 1000
 """The largest size of the cache in which a field stores converted elements of smaller fields."""
 
 
 class Generator(Struct, frozen=True):
-    """A root that is adjoined to a field: its symbol, the index n of a radical (0 for a named root), and its
-    enclosure.
+    """A root that is adjoined to a field: a radical, or a root that a tableau file defines by a name and a
+    polynomial. ``index`` is the index n of an n-th root, and 0 for a named root.
 
     The symbol of a radical ``radicand^(1/index)`` is its radicand; the symbol of a named root is its name.
-    ``degree`` is the degree of the field over the preceding field. Named roots store their ``minpoly``,
-    because a tableau file defines a named root by this polynomial.
+    ``degree`` is the degree of the field over the preceding field. ``minpoly`` is the polynomial of a named
+    root, and None for a radical.
     """
 
     symbol: str
@@ -115,8 +116,8 @@ class NumberField:
         return bool(x.polynomial.is_zero())
 
     def lift(self, x: Algebraic) -> Algebraic:
-        """Return x as an element of this field. The number x may belong to a smaller field of the same
-        tower."""
+        """Return x as an element of this field. The number x may belong to a smaller field of the same tower.
+        Raises TypeError for an element of any other field."""
         if x.field == self:
             return x
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
@@ -158,7 +159,7 @@ class NumberField:
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
         """A basis of the field over Q. Each element of the basis is a product of powers of the generators and
-        is given by the exponents. Lower exponents come first."""
+        is given by the exponents. The exponent of the first generator varies fastest."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -174,7 +175,7 @@ class NumberField:
         return _columns(columns, self.degree).inv()
 
     def coordinates(self, x: Algebraic) -> tuple[fmpq, ...]:
-        """Return the coordinates of x in :attr:`monomials`."""
+        """Return the rational coordinates of x with respect to the basis :attr:`monomials`."""
         polynomial = self.lift(x).polynomial
         return tuple((self._to_monomials * _columns([polynomial], self.degree)).entries())
 
@@ -231,9 +232,11 @@ class NumberField:
 
 
 class Algebraic:
-    """An element of a number field: a reduced ``polynomial`` in the primitive element.
+    """An element of a number field: a ``polynomial`` in the primitive element, of lower degree than the
+    field.
 
-    The second operand of an operation may be an element of a field of the same tower, an fmpq or an int.
+    The other operand of an arithmetic operation may be an element of any field of the same tower, an fmpq or
+    an int.
     """
 
     __slots__ = ("field", "polynomial")
@@ -251,7 +254,7 @@ class Algebraic:
 
     @property
     def rational_value(self) -> fmpq:
-        """The value of an element that is a rational number."""
+        """The value of this number, which must be rational (see :attr:`is_rational`)."""
         return self.polynomial[0]
 
     @property
@@ -331,15 +334,15 @@ class Algebraic:
         return self.polynomial.xgcd(self.field.modulus)[1]
 
     def _solved(self) -> fmpq_poly:
-        """Return y with x y = 1 by linear algebra. Euclid's algorithm is slower, because its intermediate
-        coefficients are long."""
+        """Return the polynomial of 1/x, computed by linear algebra. In fields of high degree Euclid's
+        algorithm is slower, because its intermediate coefficients are long."""
         degree = self.field.degree
         unit = fmpq_mat(degree, 1, [1] + [0] * (degree - 1))
         return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())
 
     def _multiples(self) -> list[fmpq_poly]:
-        """Return x a^k for all powers of the primitive element a. These are the columns of the matrix of
-        multiplication by x."""
+        """Return x a^k for k = 0, 1, ..., where a is the primitive element. The coefficients of these
+        polynomials are the columns of the matrix of multiplication by x."""
         columns, image = [], self.polynomial
         for _ in range(self.field.degree):
             columns.append(image)

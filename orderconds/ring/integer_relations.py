@@ -1,8 +1,9 @@
 """Integer relations between numbers that are known to few digits, by lattice reduction.
 
-Let e_k be unit vectors and N a large number. The lattice spanned by the vectors (e_k, N x_k) contains a short
-vector if a combination of the numbers x_k with small integer coefficients is zero (Lenstra, Lenstra and
-Lovasz 1982). The result is not proved. The caller must verify it.
+An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Let e_k be unit vectors
+and N a large number. The lattice spanned by the vectors (e_k, N x_k) contains a short vector if a combination
+of the numbers x_k with small integer coefficients is zero (Lenstra, Lenstra and Lovasz 1982). The result is
+not proved. The caller must verify it.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""Let P be the probability that random numbers satisfy some relation whose coefficients are not larger than
-those of the relation that was found. The relation that was found is accepted only if P is below 2^-GUARD."""
+"""A relation is accepted only if random numbers satisfy a relation with coefficients of this size with a
+probability below 2^-GUARD."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
@@ -56,8 +57,8 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return a square-free integer d such that, to ``bits`` binary digits, x is equal to a number p + q
-    sqrt(d) with rational p and q. Return None if no such d is found.
+    """Return a square-free integer d > 1 such that x is equal to p + q sqrt(d), to ``bits`` binary digits,
+    with rational p and q != 0. Return None if no such d is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3
@@ -73,7 +74,7 @@ def quadratic_field(x: Fraction, bits: int) -> int | None:
 
 
 def simplest(low: Fraction, high: Fraction) -> Fraction:
-    """Return the fraction with the smallest denominator between two numbers.
+    """Return the fraction with the smallest denominator in the interval [low, high].
 
     >>> simplest(Fraction(31, 100), Fraction(34, 100))
     Fraction(1, 3)

@@ -53,7 +53,8 @@ class Jets:
     def root(self, x: Jet, index: int) -> Jet:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError if x may be zero, and for an even index also if x may be negative.
+        Raises ValueError if the enclosure of x contains zero. For an even index, also raises ValueError if
+        the enclosure contains negative numbers.
         """
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
@@ -82,14 +83,15 @@ class Jets:
         return (str(x.value), *map(str, x.gradient))
 
     def approximate(self, x: Jet, digits: int = 20) -> str:
-        """Return the midpoint of the value."""
+        """Return the midpoint of the value as a decimal."""
         return str(x.value.mid().str(digits, radius=False))
 
 
 class Jet:
     """A value and its gradient, both as flint balls. If ``slopes`` is None, the gradient is zero.
 
-    The gradient is a matrix of one row, so that one flint operation computes all entries.
+    ``slopes`` is a matrix of one row, which contains the gradient. One flint operation then computes all
+    entries.
     """
 
     __slots__ = ("slopes", "value", "width")

@@ -17,8 +17,8 @@ Exponents = tuple[int, ...]
 
 
 class LaurentPolynomials:
-    """The ring Q[names, 1/names]. Terms are sorted in the degree-lexicographic order of their
-    numerators.
+    """The ring Q[names, 1/names]. The order of terms is the degree-lexicographic order in the numerator of an
+    element.
 
     >>> R = LaurentPolynomials(["b1", "b2"])
     >>> b1, b2 = R.generators
@@ -42,8 +42,8 @@ class LaurentPolynomials:
         return Laurent(self, self._context.constant(fmpq(p, q)), self.unit)
 
     def monomial(self, exponents: Exponents, scale: Element = 1) -> fmpq_mpoly:
-        """Return scale times the product of the variables to the powers ``exponents``, which must not be
-        negative."""
+        """Return ``scale`` times the product of powers of the variables. ``exponents`` contains one exponent,
+        at least 0, for each variable."""
         return self._context.from_dict({exponents: scale})
 
     def is_zero(self, x: Laurent) -> bool:
@@ -77,8 +77,8 @@ class LaurentPolynomials:
 
 
 class Laurent:
-    """An element numerator / x^denominator of ``ring``, in lowest terms; ``denominator`` contains one
-    exponent for each variable."""
+    """A polynomial ``numerator`` divided by a monomial, in lowest terms. ``denominator`` contains the
+    exponents of the monomial, one for each variable."""
 
     __slots__ = ("denominator", "numerator", "ring")
 

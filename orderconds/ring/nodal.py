@@ -3,14 +3,14 @@
 Suppose that the nodes c_1, ..., c_s of a method are the simple roots of one polynomial M over Q, as for
 Gauss, Radau and Lobatto methods. Each vector x over the stages is then p(c) for exactly one polynomial p
 modulo M. The componentwise product of vectors is the product of polynomials modulo M, and a matrix A is a
-linear map of polynomials. Suppose that for all k < s, A c^k is a polynomial in c with *rational*
-coefficients, and b.c^k is a rational number. Then all computations are done over Q. For example, five Radau
-nodes generate a field of degree 24. Then the product of two vectors requires one product of rational
-polynomials modulo M, and not five products in this field.
+linear map of polynomials. Let b be the vector of weights. Suppose that for all k < s, A c^k is a polynomial
+in c with *rational* coefficients, and b.c^k is a rational number. Then all computations are done over Q. For
+example, five Radau nodes generate a field of degree 24. Then the product of two vectors requires one product
+of rational polynomials modulo M, and not five products in this field.
 
 Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
-field. The polynomial ``A p`` is computed as ``int_0^z p`` modulo M, plus corrections for a few powers z^k in
-p. A collocation method needs no corrections.
+field. The polynomial ``A p`` is computed as ``int_0^z p`` modulo M, plus a correction for each power z^k in p
+for which A c^k differs from c^(k+1)/(k+1). A collocation method needs no corrections.
 """
 
 from __future__ import annotations
@@ -83,8 +83,8 @@ class NodalAlgebra:
         return total
 
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
-        """Return the matrices of the maps A - 1 b^T and A on polynomials in the nodes, where A is the first
-        matrix and 1 is the vector of ones.
+        """Return the matrices of the maps A - 1 b^T and A in the basis 1, z, z^2, ... of the algebra. Here A
+        is the first matrix, and 1 is the vector of ones.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -206,8 +206,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the rational polynomial with these values at the nodes, or None if there is no such
-    polynomial."""
+    """Return a rational polynomial with these values at the nodes. Return None if the polynomial that
+    ``guess`` proposes has other values."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

@@ -104,7 +104,7 @@ class Series:
         return f"Series({self.ring.text(self)})"
 
     def _constant(self, other: Element) -> Element:
-        """Return an operand that is not a series as an element of the base ring."""
+        """Return ``other``, which is not a series, as an element of the base ring."""
         return self.ring.base.rational(other) if isinstance(other, int) else other
 
     def _same(self, other: Series) -> tuple[Element, ...]:

@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     import numpy as np
 
 Element = Any
-"""An element of some ring, or the second operand of an arithmetic operation. The type is ``Any``, so that
-objects of flint, mpmath and NumPy can be elements without a wrapper. Only this alias and :data:`Key` have the
-type ``Any``."""
+"""An element of a ring, or a Python ``int`` beside such an element in an arithmetic operation. The type is
+``Any``, so that objects of flint, mpmath and NumPy can be elements without a wrapper. Only this alias and
+:data:`Key` have the type ``Any``."""
 
 Key = tuple[Any, ...]
 """A hashable sort key of an element. The keys of all elements of one ring can be compared with each other."""

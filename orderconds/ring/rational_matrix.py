@@ -20,8 +20,8 @@ def rank(rows: Sequence[Row]) -> int:
 
 
 def kernel(rows: Sequence[Row], width: int) -> Iterator[list[tuple[int, Fraction]]]:
-    """Yield a basis of the vectors x with ``rows`` x = 0. A vector is given by pairs (index, entry) of its
-    non-zero entries.
+    """Yield the vectors of a basis of the kernel of the matrix with these rows and ``width`` columns. A
+    vector is given by pairs (index, entry) of its non-zero entries.
 
     Pivot columns are chosen from the left. Each basis vector has the entry 1 at one column that is not a
     pivot column; this entry comes first. All other entries are at pivot columns.

@@ -1,5 +1,5 @@
-"""Vectors of residues modulo a prime, one residue for each sample. This ring is used to compute ranks of
-conditions.
+"""Vectors of residues modulo a prime, one residue for each sample. This ring is used to compute how many
+conditions are independent.
 
 An element is a vector of independent residues. A random vector is the value of one coefficient in many random
 tableaux, one tableau for each entry. The prime is below 2^31, so that products fit in 64 bits.
@@ -80,7 +80,8 @@ class Residue:
     """A vector of residues, shape (samples,), with componentwise arithmetic."""
 
     __slots__ = ("ring", "values")
-    # With this attribute, Python calls __radd__ etc. if the left operand is a NumPy scalar.
+    # Because this attribute is None, NumPy does not handle operations with this class. Python then calls
+    # __radd__ etc. if the left operand is a NumPy scalar.
     __array_ufunc__ = None
 
     def __init__(self, ring: Residues, values: NDArray[np.int64]) -> None:

@@ -1,5 +1,5 @@
-"""Real roots of rational polynomials. A decimal identifies a root. Balls enclose the root to any
-precision."""
+"""Real roots of rational polynomials. A root is specified by a decimal near it, and can be enclosed in a ball
+to any precision."""
 
 from __future__ import annotations
 
@@ -66,8 +66,8 @@ def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> t
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:
     """Return a decimal that identifies ``root`` among the real roots of the polynomial ``monic``.
 
-    The decimal differs from ``root`` by at most one unit of its last place, and from all other real roots by
-    more. It has 10 places if they suffice, otherwise 20, 40, ... places.
+    The decimal differs from ``root`` by at most one unit of its last place, and from every other real root by
+    more than one unit. It has 10 places if they suffice, otherwise 20, 40, ... places.
 
     >>> from flint import fmpq_poly
     >>> from orderconds.ring.precision import precision
@@ -98,7 +98,8 @@ def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
 
 
 def real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
-    """Return balls around the real roots in ascending order. An index denotes the same root at any precision.
+    """Return balls around the real roots in ascending order. The index of a root in the result does not
+    depend on the precision ``bits``.
 
     >>> [float(x) for x in real_roots(fmpq_poly([-1, 0, 4]), 64)]
     [-0.5, 0.5]

@@ -1,5 +1,5 @@
 """Vectors of residues modulo a prime. The implementation does not use NumPy, because the import of NumPy
-takes as long as a whole check.
+would take as long as the check of a whole tableau file.
 
 The ring (Z/p)^n of n samples is isomorphic to (Z/p)[z]/((z - 0)(z - 1) ... (z - (n - 1))): sample k is the
 value of a polynomial at z = k. One sum or product of polynomials thus computes the result for all samples.
@@ -42,7 +42,8 @@ class Samples:
         return Sample(self, nmod_poly([int(p) * pow(int(q), -1, self.prime)], self.prime))
 
     def element(self, values: Sequence[int]) -> Sample:
-        """Return the element with these values, by Lagrange interpolation."""
+        """Return the element with the given values, one for each sample. The polynomial is computed by
+        Lagrange interpolation."""
         total = nmod_poly([0], self.prime)
         for k, value in enumerate(values):
             other = self.modulus // nmod_poly([-k, 1], self.prime)
@@ -149,11 +150,11 @@ def _plain(x: Element) -> Element:
 def echelon(
     columns: Sequence[Sequence[int]], prime: int
 ) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
-    """Return two values. The first value contains the pivots: the indices of columns that are not
-    combinations of earlier columns modulo ``prime``.
+    """Return the pivots of a matrix modulo ``prime``, and a map of the other columns. The pivots are the
+    indices of columns that are not combinations of earlier columns.
 
-    The second value maps every column that is not a pivot to its combination of pivot columns, {pivot:
-    residue}.
+    The map contains every column that is not a pivot, as a combination of pivot columns: {column: {pivot:
+    residue}}.
 
     >>> echelon([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
     ((0, 2), {1: {0: 2}, 3: {0: 3, 2: 1}})

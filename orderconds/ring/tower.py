@@ -30,7 +30,8 @@ MAX_DIMENSION = 64
 
 
 class DegreeError(ArithmeticError):
-    """The error for a field whose degree would exceed :data:`MAX_DEGREE`."""
+    """The error that is raised if the degree of a field would exceed :data:`MAX_DEGREE`, or the dimension of
+    an algebra :data:`MAX_DIMENSION`."""
 
 
 class Tower:
@@ -76,8 +77,8 @@ class Tower:
     def root(self, x: Algebraic, index: int) -> Algebraic:
         """Return the real ``index``-th root of x. The root is adjoined if necessary.
 
-        Raises ValueError for an even root of a negative number, and :class:`DegreeError` if the field becomes
-        too large.
+        Raises ValueError for an even root of a negative number, and :class:`DegreeError` if the degree of the
+        field would become too large.
         """
         sign = x.field.sign(x)
         if sign == 0 or index == 1:
@@ -92,7 +93,7 @@ class Tower:
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
         """Return x^(1/index) as the product of a rational number and the root of the least possible integer.
-        For k = ``index``, the function uses p/q = p q^(k-1) / q^k."""
+        With x = p/q and k = ``index``, the function uses p/q = p q^(k-1) / q^k."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -129,8 +130,8 @@ class Tower:
         """Return the only real root of ``minpoly`` (ascending coefficients) whose distance from ``near`` is
         at most ``unit``.
 
-        Raises ValueError if there is no such root or more than one, and :class:`DegreeError` if the field
-        becomes too large.
+        Raises ValueError if there is no such root or more than one, and :class:`DegreeError` if the degree of
+        the field would become too large.
         """
         coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
@@ -141,8 +142,9 @@ class Tower:
     def _adjoin(
         self, powers: list[Algebraic], enclosure: Enclosure, generator: Callable[[int], Generator]
     ) -> Algebraic:
-        """Return b as an element of the field, which is extended if it does not contain b. The number b is
-        given by ``enclosure`` and the equation b^k = sum_j powers[j] b^j with k = len(powers)."""
+        """Return the number b as an element of the field. If the field does not contain b, it is extended.
+        The number b is given by ``enclosure`` and the equation b^k = sum_j powers[j] b^j with k =
+        len(powers)."""
         field = self.field
         if len(powers) == 1:
             return powers[0]
@@ -170,8 +172,9 @@ class Tower:
 
 
 class _Relation:
-    """An element c that generates the algebra over Q in which b is adjoined to Q(a). The attributes are the
-    characteristic polynomial of c, and a and b as polynomials in c."""
+    """An element c that generates the algebra K[x]/(polynomial of b) over Q, where K = Q(a).
+    ``characteristic`` is the characteristic polynomial of c; ``a`` and ``b`` are a and b as polynomials in
+    c."""
 
     def __init__(self, solution: fmpq_mat, dimension: int) -> None:
         column = [fmpq_poly([solution[i, j] for i in range(dimension)]) for j in range(3)]
@@ -180,8 +183,9 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Return the first element c that generates the algebra: (m, relation) for c = b + m a, or (None,
-    relation) for c = ab."""
+    """Return the first of the elements b, ab, b + a, b - a, ... that generates the algebra K[x]/(polynomial
+    of b), where K = Q(a) is ``field``. The result is (m, relation) for b + m a, and (None, relation) for
+    ab."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)
@@ -209,8 +213,8 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of an element of the algebra and c, where c is ab or b + ``multiplier`` a. The
-    element is given by its coefficients of b^j.
+    """Return the product of an element of the algebra and c. Here c = b + ``multiplier`` a, or c = ab if
+    ``multiplier`` is None. ``vector`` contains the coefficients of the powers b^j in the element.
     """
     field = powers[0].field
     top = vector[-1]
@@ -255,8 +259,8 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
-    """Return the prime factors of a positive integer. If the integer has more than 128 bits, only small prime
-    factors are found."""
+    """Return the prime factors of a positive integer. If the integer has more than 128 bits, only primes up
+    to 37 are split off. The remaining factor, which may be composite, is the last entry."""
     factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):

@@ -1,9 +1,9 @@
-"""Arithmetic that is recorded as a program. An element is the index of an operation in a straight-line
-program, which has no branches and no loops.
+"""A ring that records arithmetic operations as a straight-line program, which has no branches and no loops.
+An element is the index of an operation in the program, or a constant.
 
 If an algorithm runs over this ring, its operations are recorded as a program. The program can later be
-evaluated at any inputs. Equal operations are recorded once; operations with the constants 0 and 1 are
-simplified and not recorded.
+evaluated at any inputs. Equal operations are recorded once. Operations between two constants, and x + 0, 0 x,
+1 x, x/1 and 0/x, are evaluated at once and not recorded.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ an input."""
 class Operation:
     """One operation of a recorded program.
 
-    ``left`` and ``right`` are indices of earlier operations. ``value`` is the constant, the position of the
-    input, or the index n of an n-th root.
+    ``left`` and ``right`` are indices of earlier operations. ``value`` depends on ``kind``: it is a constant,
+    the position of an input, or the index n of an n-th root.
     """
 
     kind: int
@@ -83,14 +83,15 @@ class Traces:
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
-        """Record an operation of two elements, at least one of which is not a constant."""
+        """Record an operation of two elements, and return its result. At least one of the elements must not
+        be a constant."""
         left, right = x.placed(), y.placed()
         if kind != DIVIDE and left > right:
             left, right = right, left
         return self._record(Operation(kind, left, right))
 
     def root(self, x: Trace, index: int) -> Trace:
-        """Record the real ``index``-th root of an element."""
+        """Record the real ``index``-th root of an element, and return the result."""
         place = x.placed()
         return self._record(Operation(ROOT, place, place, Fraction(index)))
 
@@ -164,7 +165,8 @@ class Trace:
 def evaluate(
     operations: Sequence[Operation], inputs: Sequence[Element], ring: RingWithRoots
 ) -> list[Element]:
-    """Return the values of all operations, for inputs in any ring with division.
+    """Return the values of all operations, one for each element of ``operations``. The ring must have
+    division and, if a root is recorded, roots.
 
     >>> from orderconds.ring import QQ
     >>> R = Traces(1)

@@ -1,9 +1,10 @@
 """The action series of a variational Lie group method: one coefficient for every action tree, in any ring.
 
-If the step is expanded about (q0, mu1), each stage velocity and each stage momentum is a sum over the trees
-of :mod:`orderconds.series.action_trees`. The coefficients at stage i with weight b_i are
+Let q0 be the initial position and mu1 the final momentum of a step. If the step is expanded about (q0, mu1),
+each stage velocity and each stage momentum is a sum over the trees of :mod:`orderconds.series.action_trees`.
+The coefficients at stage i with weight b_i are
 
-- ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for ``t = (w, M)``,
+- ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for a tree ``t`` with the word w and the multiset M,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``,
 
@@ -93,7 +94,8 @@ class ActionSeries(ABC):
         return values
 
     def psi_product(self, momenta: Momenta) -> Stages:
-        """Return the product of psi_p over a multiset of momentum trees p, at every stage."""
+        """Return the product of the coefficients psi_p(i) over a multiset of g*-valued trees p, at all stages
+        i."""
         values = self._products.get(momenta)
         if values is None:
             rest, last = self.psi_product(momenta[:-1]), self.psi(momenta[-1])
@@ -192,15 +194,17 @@ class CommutatorFreeSeries(ActionSeries):
 
     def coefficient(self, row: int, word: Word) -> Element:
         """Return sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)! for a word t_1 ... t_k.
+        The indices J_l run over the exponentials of the row.
 
-        Here phi_J(t) is the coefficient of the letter t in exponent J. A run is a maximal block of letters
-        t_l with equal J_l.
+        Here phi_J(t) is the coefficient of the letter t in the exponent of exponential J. A run is a maximal
+        block of letters t_l with equal J_l.
         """
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v. If x, r letters before x and r' letters after x come from the same
-        exponential, they have the factor 1/(r + 1 + r')!."""
+        """Return the coefficient of the word u x v in a row, where u is ``before`` and v is ``after``. The
+        letter x is a variation of the velocity of ``stage``. If x, r letters before x and r' letters after x
+        come from the same exponential, the term has the factor 1/(r + 1 + r')!."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -209,8 +213,9 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the sum of the terms of the coefficient of u x v in which x comes from one given
-        exponential. The terms are computed as if the coefficient of x in the exponent were one."""
+        """Return a part of the coefficient of u x v, where u is ``before`` and v is ``after``: the sum of the
+        terms in which x comes from the exponential with index ``place``. The terms are computed as if the
+        coefficient of x in this exponential were one."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -229,7 +234,7 @@ class CommutatorFreeSeries(ActionSeries):
         )
 
     def _exponent(self, exponential: Exponential, tree: Velocity) -> Element:
-        """Return the coefficient of one tree in one exponent."""
+        """Return the coefficient of ``tree``, as a letter, in the exponent of ``exponential``."""
         values = self.tau(tree)
         return self._sum(value * values[stage] for stage, value in exponential)
 
@@ -240,7 +245,7 @@ class CommutatorFreeSeries(ActionSeries):
 
     def _before(self, row: int, word: Word) -> Stages:
         """Return, for J = 0, ..., m, the coefficient of the word in the product of the exponentials with
-        index below J."""
+        index below J. Here m is the number of exponentials of the row."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known
@@ -262,7 +267,7 @@ class CommutatorFreeSeries(ActionSeries):
 
     def _after(self, row: int, word: Word) -> Stages:
         """Return, for J = 0, ..., m, the coefficient of the word in the product of the exponentials with
-        index at least J."""
+        index at least J. Here m is the number of exponentials of the row."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known

@@ -7,9 +7,9 @@ def tree_counts(order: int) -> tuple[int, ...]:
     """Return the numbers of unrooted trees (elementary Hamiltonians) with 1, 2, ..., ``order`` vertices.
 
     The generating function of the numbers is U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W =
-    1/(1 - T). Here Lie(T) counts the Lie elements over the g-valued trees, which T counts, and E(P) counts
-    the multisets of the g*-valued trees, which P counts. The numbers are upper bounds of the numbers of
-    independent conditions.
+    1/(1 - T). The power of x is the number of vertices. T counts g-valued trees, and P counts g*-valued
+    trees. W counts words of g-valued trees, Lie(T) counts the Lie elements over them, and E(P) counts
+    multisets of g*-valued trees. The numbers are upper bounds of the numbers of independent conditions.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)
@@ -30,13 +30,14 @@ def velocity_count(vertices: int) -> int:
 
 
 def class_count(vertices: int) -> int:
-    """Return the number of classes of g-valued trees under root switching.
+    """Return the number of classes of g-valued trees with ``vertices`` copies of H. Two trees are in the same
+    class if they differ only in the choice of the root.
 
     A class corresponds to an unrooted tree. Across some edges of this tree the root can move; the number of
     possible roots is one more than the number of these edges. Hence the number of classes is R - E. Here R is
     the number of rooted trees, and E is the number of unrooted trees with one marked edge across which the
     root can move. The marked edge joins a force to the rest of the tree. Therefore E is the number of pairs
-    of a force and a g-valued tree.
+    of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -49,8 +50,9 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Return T and P as power series. The equations of T and P are solved by fixed-point iteration, until the
-    required coefficients no longer change."""
+    """Return the numbers of g-valued trees and of g*-valued trees with 0, 1, ..., ``order`` vertices. These
+    are the coefficients of T and P in :func:`tree_counts`. The equations of T and P are solved by fixed-point
+    iteration."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:
@@ -74,7 +76,8 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
 
 
 def _lie_counts(t: list[int], order: int) -> list[int]:
-    """Return the dimensions of the free Lie algebra with t_n letters of weight n (Witt's formula)."""
+    """Consider the free Lie algebra with ``t[n]`` letters of weight n. Return the dimensions of its parts of
+    weight 0, ..., ``order`` (Witt's formula)."""
     power = [0] * (order + 1)  # the numbers n [x^n] log 1/(1 - T), n = 1, 2, ...
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))

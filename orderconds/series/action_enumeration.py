@@ -2,11 +2,11 @@
 needed, simplest trees first.
 
 The cost of a tree measures how difficult its condition is to read. The cost is a sum of non-negative terms,
-among them the costs of the subtrees. Hence, if the cost of a tree is at most a limit, so are the costs of its
-subtrees. Subtrees are tried in order of cost, so the search ends at the first subtree beyond the limit. A
-long list is enumerated in parts, with increasing cost limits. The parts that a check does not need are not
-computed. For example, there are 6331 trees with six vertices, but the few hundred simplest trees decide the
-order of most methods.
+among them the costs of the subtrees. Hence a tree whose cost is at most a limit has only subtrees whose costs
+are at most this limit. Subtrees are tried in order of cost, so the search ends at the first subtree whose
+cost exceeds the limit. A long list is enumerated in parts, with increasing cost limits. The parts that a
+check does not need are not computed. For example, there are 6331 trees with six vertices, but the few hundred
+simplest trees decide the order of most methods.
 """
 
 from __future__ import annotations
@@ -89,7 +89,8 @@ def multisets(vertices: int) -> tuple[Momenta, ...]:
 
 @cache
 def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
-    """Return the g-valued trees whose cost is at most ``limit``, in no particular order."""
+    """Return the g-valued trees with ``vertices`` copies of H and with a cost of at most ``limit``, in no
+    particular order."""
     trees = []
     for k in range(vertices):
         for cost, word in _words(k, limit):
@@ -103,7 +104,8 @@ def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
 
 @cache
 def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
-    """Return pairs (cost, word) for the words whose cost is at most ``limit``, sorted by cost."""
+    """Return pairs (cost, word) for the words with ``vertices`` copies of H and with a cost of at most
+    ``limit``, sorted by cost."""
     if vertices == 0:
         return ((0, ()),)
     words = []
@@ -119,7 +121,8 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return pairs (cost, tree) for the one-letter words, sorted by cost."""
+    """Return pairs (cost, tree) for the g-valued trees that may be letters of a word with a cost of at most
+    ``limit``, sorted by cost. The cost is that of the tree as a letter."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()
@@ -129,7 +132,8 @@ def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
 
 @cache
 def _momenta(vertices: int, limit: float) -> Momenta:
-    """Return the g*-valued trees whose cost is at most ``limit``, simplest first."""
+    """Return the g*-valued trees with ``vertices`` copies of H and with a cost of at most ``limit``, simplest
+    first."""
     trees: list[Momentum] = []
     for j in range(vertices):
         for nested, before in _words(j, limit):
@@ -148,17 +152,18 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return the multisets whose cost is at most ``limit``, with their costs, sorted by cost."""
+    """Return pairs (cost, multiset) for the multisets of g*-valued trees with ``vertices`` copies of H in
+    total and with a cost of at most ``limit``, sorted by cost."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 
 
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield multisets with their costs. The trees of a multiset are chosen in decreasing order of (number of
-    vertices, index in the list of all trees with this number of vertices). The tree that was chosen before
-    has ``largest`` vertices and index ``bound``, which is None for the first tree. The costs of the other
-    trees may add up to ``rest``."""
+    """Yield multisets with their costs. The trees of a multiset are chosen one after another, in decreasing
+    order of (number of vertices, index in the list of all trees with this number of vertices). The previous
+    tree has ``largest`` vertices and index ``bound``. For the first tree ``bound`` is None. The costs of the
+    remaining trees may add up to ``rest``."""
     if vertices == 0:
         yield 0, ()
         return

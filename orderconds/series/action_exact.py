@@ -29,7 +29,7 @@ from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, W
 
 @cache
 def tau(tree: Velocity) -> UnivariatePolynomial:
-    """Return the exact coefficient of a g-valued tree at time s.
+    """Return the coefficient of a g-valued tree in the exact flow, as a polynomial in the time s.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(tau(t)) for t in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
@@ -40,7 +40,7 @@ def tau(tree: Velocity) -> UnivariatePolynomial:
 
 @cache
 def phi(word: Word) -> UnivariatePolynomial:
-    """Return the exact coefficient of a word in the group element at time s.
+    """Return the coefficient of a word in the group element of the exact flow, as a polynomial in the time s.
 
     >>> from orderconds.series.action_trees import velocity
     >>> phi((velocity(), velocity()))
@@ -51,7 +51,7 @@ def phi(word: Word) -> UnivariatePolynomial:
 
 @cache
 def psi(tree: Momentum) -> UnivariatePolynomial:
-    """Return the exact coefficient of a g*-valued tree at time s.
+    """Return the coefficient of a g*-valued tree in the exact flow, as a polynomial in the time s.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> psi(force()), psi(force((velocity(),)))
@@ -78,7 +78,7 @@ def _later(word: Word, momenta: Momenta) -> UnivariatePolynomial:
 
 @cache
 def psi_product(momenta: Momenta) -> UnivariatePolynomial:
-    """Return the product of exact psi_p over a multiset.
+    """Return the product of the exact coefficients psi_p(s) of the trees p in a multiset.
 
     >>> from orderconds.series.action_trees import force
     >>> psi_product((force(), force()))

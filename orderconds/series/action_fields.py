@@ -1,9 +1,11 @@
-"""Evaluation of action trees for one Hamiltonian: elementary velocities, covectors and the local error.
+"""Evaluation of trees (:mod:`orderconds.series.action_trees`) for one Hamiltonian H(q, mu): elementary
+velocities, covectors and the local error.
 
-Derivatives are exact. A multilinear derivative of H is the coefficient of eps_1 ... eps_k in a value of H,
-computed with symbols eps_i whose squares are zero. Hence H may be any polynomial in the entries of q and the
-coordinates of mu, over any ring. The group may be any matrix group, because a right-invariant derivative
-replaces q by (1 + eps X) q.
+A derivative of H along k directions is computed exactly. Direction i has a symbol eps_i whose square is zero.
+The point (q, mu) is moved along each direction, multiplied by its symbol. The derivative is the coefficient
+of eps_1 ... eps_k in the value of H at the moved point. Hence H may be any polynomial in the entries of q and
+the coordinates of mu, over any ring. The group may be any matrix group, because a right-invariant field X
+moves q to (1 + eps X) q.
 """
 
 from __future__ import annotations
@@ -20,8 +22,8 @@ Matrix = tuple[tuple[Element, ...], ...]
 
 
 class Nilpotent:
-    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` contains the coefficients by bit mask.
-    Each bit mask denotes a product of different eps_k; the mask 0 denotes the constant term.
+    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` maps bit masks to coefficients.
+    The lowest bit of a mask is set if the term contains eps_1, the next bit if it contains eps_2, and so on.
 
     >>> eps = Nilpotent({1: 1})
     >>> ((3 + eps) * (3 + eps)).parts
@@ -67,12 +69,13 @@ def _parts(x: Element) -> dict[int, Element]:
 
 
 class ActionFields:
-    """The elementary velocities xi_t and covectors m_p of one Hamiltonian at one point (q, mu).
+    """The vectors xi_t of g-valued trees t and the covectors m_p of g*-valued trees p, for one Hamiltonian at
+    one point (q, mu). The vector xi_t is called the elementary velocity of t.
 
     ``hamiltonian(q, mu)`` accepts a matrix (a tuple of rows) and the coordinates of mu, and may use ``+ - *``
     only. ``basis`` contains matrices that form a basis of the Lie algebra. ``coordinates`` converts a matrix
-    in this algebra to coordinates. The coordinates of mu refer to the dual basis. Trees are evaluated with h
-    = 1 and without symmetry factors.
+    in this algebra to coordinates. The coordinates of mu refer to the dual basis. The values of trees contain
+    neither powers of the step size h nor symmetry factors.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -103,8 +106,8 @@ class ActionFields:
         self._covector: dict[Momentum, Coordinates] = {}
 
     def derivative(self, fields: Sequence[Coordinates], covectors: Sequence[Coordinates]) -> Element:
-        """Return the derivative of H along a list of right-invariant fields, in which the first field acts
-        first, and along a list of covectors."""
+        """Return the mixed derivative of H: in q along all right-invariant ``fields``, and in mu along all
+        ``covectors``. The first field moves q first."""
         q: Matrix = self.q
         mask = 1
         for field in fields:
@@ -134,7 +137,7 @@ class ActionFields:
         return self.coordinates(_subtract(_times(X, Y), _times(Y, X)))
 
     def velocity(self, tree: Velocity) -> Coordinates:
-        """Return the elementary velocity xi_t of a tree."""
+        """Return the coordinates of the elementary velocity xi_t of a g-valued tree t."""
         components = self._velocity.get(tree)
         if components is None:
             fields = [self.velocity(t) for t in tree.word]
@@ -144,7 +147,7 @@ class ActionFields:
         return components
 
     def covector(self, tree: Momentum) -> Coordinates:
-        """Return the covector m_p of a tree."""
+        """Return the coordinates of the covector m_p of a g*-valued tree p."""
         components = self._covector.get(tree)
         if components is None:
             if isinstance(tree, Force):
@@ -157,7 +160,8 @@ class ActionFields:
         return components
 
     def transported(self, word: Word) -> Coordinates:
-        """Return the covector ``x -> <mu, ad t_1 ... ad t_k x>``."""
+        """Return the coordinates of the covector ``x -> <mu, ad xi_1 ... ad xi_k x>``, where xi_i is the
+        elementary velocity of letter i of the word."""
         values = []
         for unit in self.units:
             x = unit
@@ -167,11 +171,12 @@ class ActionFields:
         return tuple(values)
 
     def local_error(self, defects: Mapping[Word, Element]) -> tuple[Matrix, Coordinates]:
-        """Return the coefficients of h^(p+1) of q1 - q(h) (a matrix) and of mu1 - mu(h) (coordinates).
+        """Return the coefficients of h^(p+1) in q1 - q(h) (a matrix) and in mu1 - mu(h) (coordinates). A
+        method of order p computes (q1, mu1), and (q(h), mu(h)) is the exact solution.
 
         ``defects`` maps each word with p + 1 vertices to the coefficient of the method's update
-        (``update_words``) minus the coefficient of the flow. For all words with fewer vertices the difference
-        must be zero. In the leading term, trees are evaluated at the initial point (q, mu).
+        (``update_words``) minus the coefficient of the flow. For all words with fewer vertices this
+        difference must be zero. The trees are evaluated at the initial point (q, mu).
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -188,14 +193,14 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # ``change`` is the error of mu0 as a function of mu1. The error of mu1 as a function of mu0 has
+            # ``change`` contributes to the error of mu0 for a given mu1. The error of mu1 for a given mu0 has
             # the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the covector that maps x to a derivative of H: the derivative along x, along the word of the
-        tree, and along the covectors of the tree."""
+        """Return the coordinates of the covector that maps x to a mixed derivative of H: in q along x and
+        then along the letters of the tree's word, and in mu along the covectors of the tree."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -1,9 +1,11 @@
-"""The action series of VRKMK: each group element is one exponential of a Lie series in the stage velocities.
+"""The action series of variational Runge-Kutta-Munthe-Kaas methods (VRKMK). The group element of each stage,
+and of the update, is one exponential of a Lie series in the stage velocities.
 
 The exponents are ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j`` for stage i, and ``Y``, with b_j in place of
 a_ij, for the update (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X. An additional letter x represents a
-variation of the velocity of one stage. In a word ``u x v`` the letter x occurs exactly once.
+variation of the velocity of one stage. In a word ``u x v`` the letter x occurs exactly once. The functions
+of this module call the word u ``before`` and the word v ``after``.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
-"""The terms of dexpinv. A triple (coefficient, m, n) represents the coefficient times X^n xi X^m."""
+"""The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m."""
 
 Varied = dict[int, Element]
 """A map from each stage to the coefficient of a word u x v, where the letter x is a variation of the velocity
@@ -28,10 +30,11 @@ of this stage. Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
-    """The action series of the tableau (A, b) in VRKMK; dexpinv is truncated after the power ``cutoff``.
+    """The action series of the tableau (A, b) in VRKMK. dexpinv is truncated after the power ``cutoff``; if
+    ``cutoff`` is None, it is not truncated.
 
-    One operation computes the coefficients of a word for all stages. In the same way, one operation computes
-    the coefficients for the variations of all stages.
+    The coefficients of a word are computed for all stages together. The coefficients of a word u x v are
+    computed for the variations of all stages together.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -59,7 +62,8 @@ class MuntheKaasActionSeries(ActionSeries):
         self._inverse_factorials: list[Element] = []
 
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in exp(X_i) for row i, or in exp(Y) for the update."""
+        """Return the coefficient of a word in exp(X_i), where i = ``row``. If ``row`` is the number of
+        stages, return the coefficient in exp(Y), the exponential of the update."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._exponential(update, word)[place] if word else self.ring.one
 
@@ -68,8 +72,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v in exp(X_i) for row i, or in exp(Y) for the update; x is a
-        variation of the velocity of ``stage``."""
+        """Return the coefficient of the word u x v in exp(X_i), where i = ``row`` and x is a variation of the
+        velocity of ``stage``. If ``row`` is the number of stages, return the coefficient in exp(Y)."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -103,8 +107,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficient of a word with at least n letters in every X_i^n, or in Y^n if ``update`` is
-        1."""
+        """Return the coefficient of a word with at least n letters in every X_i^n. If ``update`` is 1, return
+        the coefficient in Y^n instead."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -118,8 +122,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of u x v, where x is a variation, in every X_i^n, or in Y^n if ``update`` is
-        1."""
+        """Return the coefficient of the word u x v, where x is a variation, in every X_i^n. If ``update`` is
+        1, return the coefficient in Y^n instead."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -135,8 +139,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add to ``totals`` the coefficients of u x v in X_i X_i^(n-1). The word is cut into two parts: the
-        first part comes from X_i, and the second part from X_i^(n-1)."""
+        """Add to ``totals`` the coefficients of the word u x v in the products X_i X_i^(n-1), or in Y Y^(n-1)
+        if ``update`` is 1. Each term cuts the word into a part from the first factor and a part from the
+        second factor."""
         for cut in range(1, len(before) + len(after) + 3 - n):
             # The number of letters of v in the first part of the word. It is negative if this part ends
             # before x.
@@ -185,9 +190,9 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return, for each stage j, the factor by which dexpinv_{(r),X_j} multiplies the coefficient of a
-        letter of xi_j. The letter follows the word ``before`` and precedes the word ``behind``. The result
-        None means that all factors are zero."""
+        """Return one factor for each stage j. Let t be a letter of xi_j. The factor times the coefficient of
+        t in xi_j is the contribution of this letter to the coefficient of the word ``before`` t ``behind`` in
+        dexpinv_{(r),X_j} xi_j. The result None means that all factors are zero."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -202,9 +207,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return, for each stage j, the factor by which dexpinv_{(r),X_j} multiplies the coefficient of a
-        letter of xi_j. The letter follows the word u x v and precedes the word ``behind``; x is a
-        variation."""
+        """Return the same factors as :meth:`_around` for a letter t of xi_j in the word u x v t ``behind``,
+        where x is a variation. There is one factor for each stage j and each varied stage."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -214,9 +218,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return, for each stage j, the factor by which dexpinv_{(r),X_j} multiplies the coefficient of a
-        letter of xi_j. The letter follows the word ``first`` and precedes the word u x v; x is a
-        variation."""
+        """Return the same factors as :meth:`_around` for a letter t of xi_j in the word ``first`` t u x v,
+        where x is a variation. There is one factor for each stage j and each varied stage."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -225,7 +228,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms X^n xi X^m of dexpinv that contribute to a letter between words of these lengths.
+        """Return the terms X^n xi X^m of dexpinv that contribute to words in which ``before`` letters precede
+        the letter of xi and ``behind`` letters follow it.
 
         In a word the first letter acts first. Hence the letters of X^m precede the letter of xi, and the
         letters of X^n follow it. The power X^0 = 1 contributes only if its word is empty.
@@ -245,8 +249,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the triples (coefficient, m, n) that represent the terms X^n xi X^m of dexpinv with m + n <=
-        ``most``."""
+        """Return the triples (q, m, n) that represent the terms q X^n xi X^m of the truncated dexpinv with
+        m + n <= ``most``."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 
@@ -256,9 +260,10 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 
 
 class PadeActionSeries(MuntheKaasActionSeries):
-    """The action series of VRKMK in which the inverse of a truncated dexp replaces dexpinv: X_i = h sum_j
-    a_ij v_j. The vector v_j solves dexp_{(r),X_j} v_j = xi_j, and dexp_{(r),X} is dexp_X truncated after the
-    r-th power of X.
+    """The action series of VRKMK in which the inverse of a truncated dexp replaces dexpinv.
+
+    The exponents are X_i = h sum_j a_ij v_j, where v_j solves dexp_{(r),X_j} v_j = xi_j. Here dexp_{(r),X} is
+    dexp_X truncated after the r-th power of X, and r is ``cutoff``.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -273,8 +278,8 @@ class PadeActionSeries(MuntheKaasActionSeries):
 
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
-    """Return the terms (q_k comb(k, m) (-1)^m, m, k - m) for k <= ``most``, where sum_k q_k z^k is the power
-    series of 1/sum_{j<=r} z^j/(j+1)!.
+    """Return the terms (q_k comb(k, m) (-1)^m, m, k - m) for all k <= ``most`` with q_k != 0 and m <= k. Here
+    sum_k q_k z^k is the power series of 1/sum_{j<=r} z^j/(j+1)! with r = ``cutoff``.
 
     >>> [(str(q), m, n) for q, m, n in pade_terms(1, 2)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0), ('1/4', 0, 2), ('-1/2', 1, 1), ('1/4', 2, 0)]

@@ -31,7 +31,8 @@ RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
 contains one residue for each method (sample)."""
 
 SPARE_SAMPLES = 24
-"""The number of samples beyond the largest possible rank; they make accidental dependences improbable."""
+"""The number of samples minus the largest possible rank. The additional samples make accidental dependences
+improbable."""
 
 BLOCK = 256
 """The number of samples that are evaluated together. A larger number would be faster, but would need too much
@@ -46,7 +47,7 @@ def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity,
     a prime is never larger than the rank over Q. This proves that the returned trees, together with all
     products of trees of lower order, are independent. With high probability the set is complete. Completeness
     is proved if the number of trees equals the upper bound of
-    :func:`~orderconds.series.action_counts.tree_counts` (VCF).
+    :func:`~orderconds.series.action_counts.tree_counts`, as for variational commutator-free methods.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -74,10 +75,10 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
-    """Return the values of trees for the exact flow and for random methods. The number of methods exceeds the
-    largest possible rank.
+    """Return the values of the given trees, modulo ``prime``, for random methods and for the exact flow.
 
-    Calls with different lists of trees use the same random methods.
+    The number of methods exceeds the largest possible rank at ``order``. Calls that differ only in the list
+    of trees use the same random methods.
 
     >>> from functools import partial
     >>> from orderconds.families import get

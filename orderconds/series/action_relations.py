@@ -4,9 +4,11 @@ The value of a tree with n vertices is a linear combination of monomials of degr
 independent trees. The combination is the same for every method of the family and for the flow. Trees that
 differ only in the choice of the root have the same value. For all other trees, the values at random methods
 give linear equations for the coefficients of the combination. The equations are solved modulo two primes, and
-the rational coefficients are reconstructed from the residues. Three relations of order 4 hold for VCG but not
-for VCF. These three follow from the equation ``psi_{L(H|L)} = 3 psi_{L(HH)} - psi_{L(H)}^2``, where psi_p is
-the coefficient of the tree p at a stage (:mod:`orderconds.series.action`).
+the rational coefficients are reconstructed from the residues.
+
+Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
+commutator-free methods. These three relations follow from the equation ``psi_{L(H|L)} = 3 psi_{L(HH)} -
+psi_{L(H)}^2``, where psi_p is the coefficient of the tree p at a stage (:mod:`orderconds.series.action`).
 """
 
 from __future__ import annotations
@@ -131,8 +133,8 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Return, for each tree, the linear combination of monomials that is equal to the value of the tree. The
-    result maps indices of monomials to coefficients modulo the prime."""
+    """Return, for each tree, the linear combination of monomials that is equal to the value of the tree. Each
+    combination is a map from the index of a monomial to its coefficient modulo ``prime``."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:
@@ -145,8 +147,7 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the multisets of trees with ``vertices`` vertices in total. Multisets with the fewest trees come
-    last."""
+    """Yield the multisets of elements of ``trees[start:]`` that have ``vertices`` vertices in total."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):

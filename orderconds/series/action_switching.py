@@ -17,8 +17,8 @@ from orderconds.series.action_trees import Force, Velocity, force, velocity
 
 
 def switched(tree: Velocity) -> Iterator[Velocity]:
-    """Yield the trees that result if the root is moved to a neighbouring vertex that is connected to the root
-    by a force.
+    """Yield the trees that result if the root is moved to a neighbouring vertex: to a force that is attached
+    to the root, or to a letter of its word. Equal trees may be yielded several times.
 
     >>> list(switched(velocity((), (force(), force()))))
     [o(o(|f(*))), o(o(|f(*)))]
@@ -64,8 +64,8 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return the list of the classes computed so far, and an iterator over the remaining classes. Both are
-    stored and continued by later calls of :func:`classes_in_turn`."""
+    """Return the list of the classes computed so far, and an iterator over the remaining classes. The cache
+    stores both objects, and :func:`classes_in_turn` moves classes from the iterator to the list."""
     return [], _classes(vertices)
 
 
@@ -75,7 +75,7 @@ def _classes(vertices: int) -> Iterator[tuple[Velocity, ...]]:
         if tree not in seen:
             members = [tree]
             seen.add(tree)
-            for member in members:  # The loop appends trees to ``members`` and visits them, too.
+            for member in members:  # The loop also visits the trees that it appends to ``members``.
                 for other in switched(member):
                     if other not in seen:
                         seen.add(other)

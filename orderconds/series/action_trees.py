@@ -21,8 +21,8 @@ from math import factorial, prod
 
 
 class _Node:
-    """The base class of the three kinds of nodes. A node stores its number of copies of H, its cost (the
-    difficulty for a reader) and its canonical text.
+    """The base class of the three kinds of nodes. A node stores its number of copies of H, its cost and its
+    canonical text. The cost measures how difficult the condition of a tree is for a reader.
 
     The text is computed only when it is needed, because most trees are only counted and compared.
     """
@@ -46,14 +46,14 @@ class _Node:
 
     @property
     def key(self) -> tuple[int, int, int, str]:
-        """The sort key of trees. Trees with simple conditions come first."""
+        """The sort key of trees. Trees with few vertices come first, and among these, trees of low cost."""
         if self._key is None:
             text = self.text
             self._key = (self.vertices, self.cost, len(text), text)
         return self._key
 
     def _render(self) -> str:
-        raise TypeError("a subclass of _Node must define the text")
+        raise TypeError("a subclass of _Node must define the method _render")
 
     def __str__(self) -> str:
         return self.text
@@ -94,7 +94,7 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The symmetries permute equal momenta."""
+        """The order of the symmetry group of the tree. A symmetry permutes equal elements of a multiset M."""
         return _symmetry(self.word, self.momenta)
 
 
@@ -120,7 +120,7 @@ class Force(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The symmetries permute equal momenta."""
+        """The order of the symmetry group of the tree. A symmetry permutes equal elements of a multiset M."""
         return _symmetry(self.before + self.after, self.momenta)
 
 
@@ -144,7 +144,7 @@ class Transport(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree."""
+        """The order of the symmetry group of the tree: the product of the orders for the letters of w."""
         return _symmetry(self.word, ())
 
 
@@ -168,8 +168,8 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of H(u * v | M) without the cost of the momenta M, where u is ``before`` and v is
-    ``after``.
+    """Return the cost of the tree H(u * v | M) without the cost of the trees in M. The word u is ``before``,
+    and the word v is ``after``.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -179,7 +179,7 @@ def force_cost(before: Word, after: Word) -> int:
 
 
 def transport_cost(word: Word) -> int:
-    """Return the cost of L(w).
+    """Return the cost of the tree L(w), where w is ``word``.
 
     >>> transport_cost((velocity(), velocity()))
     10
@@ -221,7 +221,7 @@ def transport(word: Word) -> Transport:
     L(o)
     """
     if not word:
-        raise ValueError("the word of L must not be empty, because L of the empty word is mu")
+        raise ValueError("the word w of a tree L(w) must not be empty, because L of the empty word is mu")
     return Transport(word)
 
 
@@ -256,8 +256,8 @@ def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
 def hamiltonian(tree: Velocity) -> str:
     """Return the elementary Hamiltonian of a tree as text; ``m`` denotes mu, and ``ad(x) y = [x, y]``.
 
-    Arguments before the semicolon are the directions of right-invariant derivatives in q. The derivative in
-    the first direction acts first.
+    Arguments before the semicolon are the directions of right-invariant derivatives in q. The first direction
+    moves q first. Arguments after the semicolon are the directions of derivatives in mu.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

@@ -1,8 +1,8 @@
 """Elementary weights of Runge-Kutta and partitioned Runge-Kutta methods: B-series over any ring (HLW III.1).
 
 For each subtree t, a vector tau_t with one entry for each stage is computed once. The entry tau_t(i) is the
-product of ``sum_j a_ij tau_u(j)`` over the branches u of t. If the nodes are the roots of one rational
-polynomial, the vectors are represented by polynomials (:mod:`orderconds.ring.nodal`).
+product of ``sum_j a_ij tau_u(j)`` over the branches u of t. If the abscissae c_i are the roots of one
+rational polynomial, a vector is represented by a polynomial in the abscissae (:mod:`orderconds.ring.nodal`).
 """
 
 from __future__ import annotations
@@ -36,7 +36,8 @@ class StageAlgebra(Protocol):
 
 
 class ElementaryWeights(Generic[TreeT]):
-    """The numbers ``sum_i b_i tau_t(i)`` of a method, for trees of any encoding.
+    """The numbers ``sum_i b_i tau_t(i)`` of a method, for trees t of any encoding. The number tau_t(i) is the
+    product of ``sum_j a_ij tau_u(j)`` over the branches u of t.
 
     ``matrices`` contains one s x s coefficient matrix over ``ring`` for each kind of edge. The function
     ``branches`` returns the branches of a tree as pairs (kind of the edge, subtree).
@@ -114,10 +115,10 @@ class StageVectors:
 
 
 class Sums:
-    """The sums ``sum_j weight_j x_j`` of several sparse rows of weights.
+    """The sums ``sum_j weight_j x_j`` of several sparse rows. A row contains pairs (j, weight_j).
 
-    If several rows begin with the same weights (identical objects), their common partial sum is computed
-    once. For a composition of midpoint rules this reduces the number of products from s^2 to 2 s.
+    If several rows begin with the same pairs (identical objects as weights), their common partial sum is
+    computed once. For a composition of midpoint rules this reduces the number of products from s^2 to 2 s.
 
     >>> a, b = 2, 3
     >>> sums = Sums([((0, a),), ((0, a), (1, b)), ((0, a), (1, b), (2, 5))], 0)

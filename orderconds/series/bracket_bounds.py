@@ -1,12 +1,12 @@
-"""A lower bound of the number of brackets, computed by linear algebra. It holds for every program that
-computes given arguments of exponentials.
+"""A lower bound for the number of brackets, computed by linear algebra. The bound holds for every program
+that computes given arguments of exponentials (:class:`orderconds.series.brackets.BracketProgram`).
 
-The argument u_i is computed before the stage value k_i. Hence brackets in u_i contain only the letters q_1,
-..., q_(i-1). For a fixed m < i, call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets with
-new letters in any program for u_1, ..., u_i. In each argument, consider the terms whose words have two or
-more letters and contain a new letter. Brackets without new letters, and single letters, contribute nothing to
-these terms. Form the sum of these terms for each argument. N is at least the dimension of the space that
-these sums span.
+The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i is computed
+before the stage value k_i. Hence brackets in u_i contain only the letters q_1, ..., q_(i-1). For a fixed m <
+i, call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets with new letters in any program for
+u_1, ..., u_i. In each argument, consider the terms whose words have two or more letters and contain a new
+letter. Brackets without new letters, and single letters, contribute nothing to these terms. Form the sum of
+these terms for each argument. N is at least the dimension of the space that these sums span.
 
 The first bracket with new letters is [x + sum c_n q_n, y + sum d_n q_n], where x and y contain no new
 letters. The sum of those terms of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where
@@ -28,10 +28,10 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return P_n for all n >= ``first``. The sum over n of ad_(P_n) q_n is the part of x whose words contain
-    exactly one letter with an index of at least ``first``.
+    """Return P_n for all n >= ``first``. For a combination x of brackets, the sum over n of ad_(P_n) q_n is
+    the part of x whose words contain exactly one letter with an index of at least ``first``.
 
-    P_n is computed from the words of at least two letters that end in q_n.
+    P_n is computed from those words of this part that end in q_n.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -44,11 +44,11 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return x - y, where y is a Lie element that is computed from x, for x without constant term. The result
-    is zero if and only if x is a Lie element.
+    """Return x - y, where y is a Lie element that is computed from x. The polynomial x must have no constant
+    term. The result is zero if and only if x is a Lie element.
 
-    In y, a right-normed bracket divided by n replaces each word of n letters of x. By Dynkin's theorem, y = x
-    if x is a Lie element.
+    To compute y, each word of x is replaced by the right-normed bracket of its letters, divided by the number
+    of letters. By Dynkin's theorem, y = x if x is a Lie element.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)
@@ -65,9 +65,10 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 
 
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
-    """Return a lower bound for the number of brackets in any program for u_1, ..., u_s and u.
+    """Return a lower bound for the number of brackets in any program that computes ``arguments``: u_1, ...,
+    u_s for the stages and u for the step.
 
-    In the arguments u_1, ..., u_s, terms of the largest grade of the algebra are omitted. In u they are kept.
+    Terms of the largest grade of the algebra are omitted in u_1, ..., u_s, but not in u.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -86,8 +87,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return a lower bound for the number of brackets that any program for these elements needs. Only
-    brackets that contain a letter with index ``first`` or higher are counted."""
+    """Return a lower bound for the number of brackets in any program that computes the elements of ``span``.
+    Only brackets that contain a letter with index ``first`` or higher are counted."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

@@ -1,8 +1,9 @@
-"""Programs with equally many brackets but fewer terms. Terms are moved between brackets with equal left
-factors.
+"""Reduce the number of terms of a :class:`orderconds.series.brackets.BracketProgram` without additional
+brackets. Multiples of a bracket are added to another bracket with the same left factor.
 
-If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]. Hence a new bracket D = C + t B may replace C. In
-all rows (linear combinations) that use C, it is replaced by D - t B. The number of brackets does not change.
+Let B = [x, y] and C = [x, z] be brackets, and let t be a number. Then D = C + t B = [x, z + t y] is also one
+bracket, and the program may compute D in place of C. All rows (linear combinations) of the program that
+contain C are rewritten with C = D - t B. The number of brackets does not change.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 
 
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
-    """Return a program that computes the same arguments with fewer terms. Multiples of brackets are moved as
-    long as this reduces the number of terms.
+    """Return a program that computes the same arguments, if possible with fewer terms. Multiples of a bracket
+    are added to another bracket as long as this reduces the number of terms.
 
     The ring must be able to decide whether an element is zero, and to divide.
 
@@ -69,8 +70,8 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
 def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
-    """Return the program in which the bracket D = B_r + t B_q replaces the bracket B_r. In all rows that use
-    B_r, it is replaced by D - t B_q."""
+    """Return the program that computes D = B_r + t B_q in place of the bracket B_r. In all rows that contain
+    B_r, this bracket is replaced by D - t B_q. ``names`` contains the names of B_q and B_r."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:

@@ -41,7 +41,8 @@ class BracketProgram:
     Stage i is k_i = f(exp(u_i) y0), and the step is exp(u) y0. A row is a linear combination of the elements
     h k_j and of earlier brackets. ``brackets[r]`` contains the rows of x and y in B_r = [x, y], ``stages``
     contains the rows of u_1, ..., u_s, and ``update`` is the row of u. ``least`` is a lower bound for the
-    number of brackets in any program for these arguments. ``grades[j]`` is the grade of q_j.
+    number of brackets in any program for these arguments. ``grades[j]`` is the highest g, at most the order
+    of the method, for which h times a sum of k_j and multiples of earlier stage values is of order h^g.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -157,13 +158,13 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return, for each stage i, the combinations u_j + c u_i that need only one bracket, where stage j is
-    later than stage i.
+    """Return, for each stage i, the combinations u_j + c u_i that are computed before u_i. Here stage j is
+    later than stage i, c is a number, and stage values that are not known before u_i are omitted.
 
-    Let q be the latest stage value in the brackets of u_i. The same q must be the latest stage value in the
-    brackets of u_j. In u_i, and likewise in u_j, the terms with q need two brackets. In the combination, the
-    terms with q need only the bracket [P, q], where P is a Lie element. The program computes u_j from this
-    combination and u_i.
+    Let q be the latest letter in the brackets of u_i. It must also be the latest letter in the brackets of
+    u_j. In u_i, and likewise in u_j, the terms with exactly one q need more than one bracket. In the
+    combination, these terms need only the bracket [P, q], where P is a Lie element. The program later
+    computes u_j from the combination and u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -184,11 +185,11 @@ class _Shape:
     """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e] with C_n = [q_1, z_n
     + C_(n+1)].
 
-    Here x, y, z_n and w_e are linear combinations of the elements of the pool. The pool is the list of known
-    elements; q_1 is its first element. ``inner`` is the number of brackets C_n. If ``outer`` is true, the
-    bracket [q_1 + x, y + C_1] occurs. If ``leading`` is true, the coefficient of the second pool element in y
-    is one, and x is unknown. Otherwise x is zero. ``extra`` contains the indices in the pool of the left
-    factors e.
+    The pool is the list of known elements; q_1 is its first element. The unknowns x, y, z_n and w_e are
+    linear combinations of elements of the pool. ``inner`` is the number of brackets C_n. If ``outer`` is
+    true, the bracket [q_1 + x, y + C_1] occurs. If ``leading`` is true, the second pool element has the
+    coefficient one in y. Otherwise x is zero. Each left factor e is an element of the pool; ``extra``
+    contains the indices of these elements.
     """
 
     outer: bool = False
@@ -203,7 +204,8 @@ class _Shape:
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
-    """Yield shapes in order of increasing number of brackets."""
+    """Yield shapes without end, in order of increasing number of brackets. ``pool`` is the number of known
+    elements."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -213,10 +215,10 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """A search that expresses one argument after another. ``pool`` contains the known elements and their
-    rows.
+    """A search for a program. It expresses one argument after another by known elements and new brackets.
 
-    ``most`` is the limit on the number of brackets. The search fails if it needs more brackets.
+    ``pool`` contains the known elements and their rows. ``most`` is the limit on the number of brackets in
+    the program. The search fails if it needs more brackets.
     """
 
     def __init__(
@@ -230,8 +232,9 @@ class _Search:
     def program(
         self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
     ) -> BracketProgram | None:
-        """Return a program that computes the elements ``before[i]`` immediately before u_i, or None if the
-        limit on brackets is exceeded."""
+        """Return a program for ``arguments``, or None if the limit on brackets is exceeded. The program
+        computes the elements ``before[i]`` immediately before u_i. Its attribute ``least`` is the given
+        number."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -256,13 +259,14 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Return the row of an argument whose new brackets have this shape, and add these brackets to the
-        pool. Return None if no brackets of this shape are found.
+        """Express an argument, up to grade ``limit``, by the pool and by new brackets of this shape. Add the
+        new brackets to the pool and return the row of the argument. Return None if no brackets are found.
 
-        The equations are linear, except for products of an unknown in x and an unknown in y. The method is
-        therefore iterative. Each iteration fixes one of the two factors and solves the resulting linear
-        equations. The fixed factor is either y from the previous iteration, or the part of x that the
-        equations of lower grade determine. The iteration ends when all equations hold.
+        The symbols x and y are those of :class:`_Shape`. The equations are linear, except for products of an
+        unknown in x and an unknown in y. The method is therefore iterative. Each iteration fixes one of the
+        two factors and solves the resulting linear equations. The fixed factor is either y from the previous
+        iteration, or the part of x that the equations of lower grade determine. The iteration ends when all
+        equations hold.
         """
         if shape.leading and len(self.pool) < 3:
             return None
@@ -312,8 +316,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return a solution of the equations. If there are several solutions and the search has a random
-        generator, the solution may be chosen at random."""
+        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there are none. If there are
+        several solutions and the search has a random generator, the choice may be random."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -332,8 +336,8 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return, for each unknown, the polynomial by which the unknown is multiplied. ``right`` is y, and
-        ``left`` is a part of x."""
+        """Return the name of each unknown of a shape, with the polynomial by which the unknown is multiplied
+        in the argument. ``right`` is y, and ``left`` is the fixed part of x (:class:`_Shape`)."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:
@@ -354,8 +358,8 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Add the brackets of a shape to the pool. Return three values: the row of the argument, the value of
-        the argument, and y."""
+        """Add the brackets of a shape to the pool; ``numbers`` contains the values of the unknowns. Return
+        three values: the row of the argument, the argument as a polynomial, and y (:class:`_Shape`)."""
         one, size = self.ring.one, len(self.pool)
 
         def of(kind: str, depth: int, *more: tuple[Element, int]) -> list[tuple[Element, int]]:

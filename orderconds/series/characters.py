@@ -111,7 +111,7 @@ class Character:
         """Return a sum over all cuts. Each summand is the product of the values of this step on the
         components and the value of ``other`` on the rest.
 
-        If ``whole`` is false, the cut that removes the whole tree is omitted.
+        If ``whole`` is false, the empty cut is omitted; it removes nothing, and its rest is the whole forest.
         """
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):

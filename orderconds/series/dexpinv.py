@@ -24,8 +24,8 @@ class DexpinvSeries:
     """The Lie-Butcher series of RKMK with the tableau (A, b) over ``ring``. If ``cutoff`` is None, dexpinv is
     not truncated.
 
-    The value of a word depends only on the values of shorter words. Hence implicit tableaux need no
-    iteration. One operation computes the coefficients of a word for all stages.
+    The value on a forest depends only on the values on forests with fewer vertices. Hence implicit tableaux
+    need no iteration. The coefficients of a word are computed for all stages together.
 
     >>> from orderconds.ring import QQ
     >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])
@@ -106,12 +106,11 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return, for each stage j, the number by which dexpinv_{(r),u_j} multiplies the coefficient of a
-        letter in k_j.
+        """Return one factor for each stage j, or None if all factors are zero.
 
-        In the resulting word, the words ``start`` and ``end`` precede and follow the letter. ``before`` and
-        ``behind`` are the numbers of letters of these two words. The result None means that all numbers are
-        zero.
+        Let t be a letter of k_j. The factor times the coefficient of t in k_j is the contribution of this
+        letter to the coefficient of the word ``start`` t ``end`` in dexpinv_{(r),u_j} k_j. ``before`` and
+        ``behind`` are the numbers of letters in ``start`` and ``end``.
         """
         values = None
         for q, m, n in self._present(before, behind):
@@ -151,8 +150,8 @@ class DexpinvSeries:
 
 @lru_cache(maxsize=64)
 def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
-    """Return (B_k/k! comb(k, m) (-1)^m, m, k - m) for all k <= ``longest`` and m <= k, the coefficients of
-    the terms u^(k-m) x u^m of dexpinv.
+    """Return the triples (B_k/k! comb(k, m) (-1)^m, m, k - m) for all k <= ``longest`` with B_k != 0 and for
+    all m <= k. The first entry of a triple is the coefficient of the term u^(k-m) x u^m in dexpinv_u x.
 
     >>> [(str(q), m, n) for q, m, n in dexpinv_terms(1)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0)]
@@ -185,6 +184,6 @@ def _cuts(word: Forest) -> list[int]:
 
 
 def _pointed(word: Forest) -> list[tuple[int, Tree, int]]:
-    """Return each letter of a word with the positions of its start and its end."""
+    """Return a triple (start, letter, end) for each letter of a word, with its positions in the word."""
     cuts = [0, *_cuts(word), len(word)]
     return [(start, word[start:end], end) for start, end in pairwise(cuts)]

@@ -19,10 +19,10 @@ from orderconds.words.shuffle import Word
 
 
 class ProductOfExponentials:
-    """The coefficients of words in a product of ``count`` exponentials. ``letter(J, k)`` returns the
-    coefficient of letter k in X_J.
+    """The coefficients of words in the product exp(X_(count-1)) ... exp(X_0), where exp(X_0) acts first.
 
-    The result of ``letter`` is None if the letter k does not occur in X_J for any coefficients of the method.
+    ``letter(J, k)`` returns the coefficient of letter k in X_J. The result None means that this coefficient
+    is zero for all coefficients of the method.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]

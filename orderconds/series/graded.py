@@ -45,7 +45,7 @@ class GradedAlgebra:
         return {word: value for word, value in result.items() if self.ring.is_zero(value) is not True}
 
     def multiply(self, x: Mapping[Word, Element], y: Mapping[Word, Element]) -> Polynomial:
-        """Return x y."""
+        """Return the product x y, truncated above the largest grade."""
         result: Polynomial = {}
         heavy = {word: self.grade(word) for word in (*x, *y)}
         for u, a in x.items():
@@ -60,7 +60,7 @@ class GradedAlgebra:
         return self.combine((one, self.multiply(x, y)), (self.ring.zero - one, self.multiply(y, x)))
 
     def dexpinv(self, u: Mapping[Word, Element], x: Mapping[Word, Element]) -> Polynomial:
-        """Return sum_k B_k/k! ad_u^k x (HLW III.4, (4.3))."""
+        """Return dexpinv_u x = sum_k B_k/k! ad_u^k x with the Bernoulli numbers B_k (HLW III.4, (4.3))."""
         result, term = dict(x), dict(x)
         for k in range(1, self.largest):
             term = self.bracket(u, term)
@@ -70,7 +70,7 @@ class GradedAlgebra:
         return result
 
     def cut(self, x: Mapping[Word, Element], limit: int) -> Polynomial:
-        """Return x without the words whose grade is above ``limit``."""
+        """Return the polynomial x without the words whose grade is above ``limit``."""
         return {word: value for word, value in x.items() if self.grade(word) <= limit}
 
 

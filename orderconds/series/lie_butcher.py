@@ -6,8 +6,8 @@ is
 
 sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!
 
-where a run is a maximal sequence of equal indices J_l. Let k = f(g y0). The number is also the value of the
-series of k on the tree whose branches form this word (Owren and Marthinsen, BIT 39 (1999) 116; HLW IV.8).
+where a run is a maximal sequence of equal indices J_l. Let k = f(g y0). This coefficient is also the value of
+the series of k on the tree whose branches form the word (Owren and Marthinsen, BIT 39 (1999) 116; HLW IV.8).
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.trees.ordered import ordered_forests
 
 SparseRow = Sequence[tuple[int, Element]]
-"""One exponent, as pairs of a stage and its coefficient. Zero coefficients are omitted."""
+"""The argument of one exponential: pairs of the index of a stage and the coefficient of its stage value.
+Zero coefficients are omitted."""
 
 
 class ForestSeries(Protocol):
@@ -93,8 +94,8 @@ class ExponentialsSeries:
         return self._updates[forest]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value on a forest of the product of exponentials that leads to stage i, counted from
-        0."""
+        """Return the value on a forest of the product of exponentials that leads from y0 to stage i. Stages
+        are counted from 0."""
         return self._word(forest)[self._ends[i]]
 
     def stage_values(self, tree: Tree) -> list[Element]:
@@ -124,8 +125,8 @@ class ExponentialsSeries:
         other places are set to zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # For each r, the last r letters of the word are taken from the last exponential, and all other
-        # letters from earlier exponentials.
+        # For each partial product and each r, the last r letters of the word are taken from the last
+        # exponential of the partial product, and all other letters from earlier exponentials.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -143,7 +144,8 @@ class ExponentialsSeries:
         return values
 
     def _letter(self, tree: Tree) -> list[Element | None]:
-        """Return the coefficient of a tree in the exponent of each row. A coefficient None means zero."""
+        """Return the coefficient of a tree in the exponent of each row. None denotes a coefficient that is
+        proved to be zero."""
         coefficients = self._letters.get(tree)
         if coefficients is None:
             values, zero = self.stage_values(tree), self._ring.zero

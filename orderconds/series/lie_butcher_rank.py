@@ -35,7 +35,8 @@ dependences improbable."""
 def independent_forests(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], *, with_exact_flow: bool = True
 ) -> tuple[tuple[Forest, ...], ...]:
-    """Return the independent forests among ``candidates``, a sequence of forests for each order 1, 2, ....
+    """Return those forests whose conditions are independent. ``candidates`` contains a sequence of forests
+    for each order 1, 2, .... Earlier forests of a sequence are preferred to later ones.
 
     The rank is computed modulo two primes. A rank modulo a prime is at most the rank over Q. Hence the larger
     of the two sets is returned. If the samples do not contain the exact flow, only the left-hand sides are

@@ -68,8 +68,8 @@ class VectorField:
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value on a tree or forest of L^(n-1) b, where L is the sum over cuts with one
-        component."""
+        """Return the value of L^(n-1) b on a tree or forest, where b is this field. The value of L c is the
+        sum of b(component) c(rest) over all cuts with one component and a non-empty rest."""
         if n == 1:
             return self(forest)
         if n > len(forest):

@@ -61,8 +61,8 @@ def modifying_field(step: Character) -> VectorField:
 
     This field is called the modifying field. If ``step`` is applied to the modifying field, truncated after
     the power h^(p-1), the result is a method of order at least p (Chartier, Hairer and Vilmart, Math. Comp.
-    76 (2007) 1941). ``step`` must be a consistent B-series. Raises :class:`~orderconds.errors.InputError` for
-    any other step.
+    76 (2007) 1941). Raises :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher series, or if
+    its weights are proved not to sum to 1.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -82,8 +82,9 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The step has the value 1 on the tree of one vertex. Hence the term for the division into one
-        # component is the value of the field on the whole tree.
+        # The sum over all partitions must be equal to ``flow(tree)``. The partition into one component
+        # contributes the value of the field on the whole tree, because the step has the value 1 on the tree
+        # of one vertex. The equation is solved for this value.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -106,8 +107,8 @@ def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bo
 
 @lru_cache(maxsize=1 << 12)
 def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
-    r"""Return, for each set of cut edges, the components and the skeleton (quotient tree) of a canonical
-    tree.
+    r"""Return, for each set of edges of a canonical tree, the components that remain if these edges are cut,
+    and the skeleton. The skeleton is the quotient tree, in which each component becomes one vertex.
 
     >>> partitions(b"\0\1")
     (((b'\x00\x01',), b'\x00'), ((b'\x00', b'\x00'), b'\x00\x01'))
@@ -120,8 +121,9 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Return the component of the root, all other components, and the skeleton (quotient tree). ``cut``
-    contains a flag for each edge, in preorder, that is true if the edge is cut."""
+    """Return the component of the root, all other components, the skeleton (quotient tree), and the unused
+    flags. ``cut`` contains one flag for each edge of the tree, in preorder, followed by flags that are not
+    used. A flag is true if its edge is cut."""
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []
@@ -143,8 +145,8 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """The linear combinations of forests that result if the field replaces every vertex of a word of
-    trees."""
+    """The linear combinations of forests that result if ``field`` replaces every vertex of a word of trees.
+    Forests with more than a given number of vertices are omitted."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

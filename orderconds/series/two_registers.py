@@ -35,8 +35,8 @@ Combination = dict[Operator, int]
 
 
 def words(order: int) -> tuple[str, ...]:
-    """Return the words with ``order`` letters K and ``order`` letters D in which no suffix contains more K
-    than D.
+    """Return the words with ``order`` letters K and ``order`` letters D in which no suffix contains more
+    letters K than letters D.
 
     >>> words(2)
     ('KKDD', 'KDKD')
@@ -54,7 +54,7 @@ def words(order: int) -> tuple[str, ...]:
 
 
 def on_group(word: str) -> dict[Forest, int]:
-    """Return the operator of a word on a group, as a combination of ordered forests.
+    """Return the operator of a word on a group as a map from ordered forests to coefficients.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_group("KDKD").items()}
@@ -64,8 +64,8 @@ def on_group(word: str) -> dict[Forest, int]:
 
 
 def on_vector_space(word: str) -> dict[Forest, int]:
-    """Return the operator of a word on a vector space, as a combination of forests of rooted trees. The trees
-    are canonical, and the forest contains them in descending order.
+    """Return the operator of a word on a vector space as a map from forests of rooted trees to coefficients.
+    The trees are canonical, and a forest contains them in descending order.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_vector_space("KDKDKD").items()}
@@ -161,7 +161,8 @@ def _symmetry(forest: Forest) -> int:
 
 @lru_cache(maxsize=1 << 12)
 def _applied(word: str, ordered: bool) -> Combination:
-    """Return the operator of a word. The last letter acts first."""
+    """Return the operator of a word, as a linear combination. The last letter acts first. ``ordered`` is true
+    on a group, and false on a vector space, where derivatives commute."""
     result: dict[Operator, int] = defaultdict(int)
     if not word:
         return {(): 1}
@@ -174,9 +175,9 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter D, the derivative along k. By the product rule the result is a sum of terms. In one
-    term, D acts on the function after all other derivatives. In the other terms, D acts on one of the
-    elementary differentials."""
+    """Apply the letter D, the derivative along k, to a product of derivatives of a function. By the product
+    rule the result is a sum. In one term, D acts on the function after all other derivatives. In each other
+    term, D acts on one of the vector fields along which the function is differentiated."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -184,8 +185,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K. The result is a sum of products, one for each factor k; in each of them f replaces
-    this factor."""
+    """Apply the letter K to a product of derivatives. By the product rule the result is a sum. In each term,
+    the derivative along f replaces one of the derivatives along k."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:

@@ -35,8 +35,8 @@ def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
 
 
 def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> dict[str, str]:
-    """Return formulas for b_i, y_J and m_i in terms of the coefficients of an update with several
-    exponentials.
+    """Return formulas for the weights b_i, the sums y_J and the abscissae m_i in terms of the coefficients of
+    an update. The number y_J is the sum of the coefficients of exponential J.
 
     >>> commutator_free_times([["x"], ["y"]], ["b1"])
     {'b1': 'x + y', 'y1': 'x', 'y2': 'y', 'm1': '1 - (x*(1/2*y1 + y2) + y*(1/2*y2))/b1'}
@@ -87,8 +87,9 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
 
 
 def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, int]]:
-    """Return free entries that form a spanning tree, whose nodes are the s rows and s columns. Entries of the
-    last row and column are preferred."""
+    """Return free entries that form a spanning tree of the graph whose nodes are the s rows and s columns.
+    Each of the free entries ``edges`` joins its row and its column. Entries of the last row and of the last
+    column are preferred. Raises InputError if there is no spanning tree."""
     component = list(range(2 * s))
     kept = []
     for i, j in sorted(edges, key=lambda e: (e[0] != s - 1 and e[1] != s - 1, -e[0], -e[1])):
@@ -98,7 +99,7 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "the free entries of A do not connect its rows and columns",
+            "the free entries of A do not connect all its rows and columns",
             where=WHERE,
             expected="more free entries",
         )
@@ -106,8 +107,8 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Return an entry that is the only free entry in its row. If there is no such entry, return an entry that
-    is the only free entry in its column.
+    """Return the indices of an unknown entry that is the only unknown entry in its row, and True. If there is
+    no such entry, return the indices of one that is the only unknown entry in its column, and False.
     """
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
@@ -123,15 +124,16 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
 def symmetric_transport(
     own: Sequence[Sequence[str]], leave: Sequence[int], update: Sequence[Sequence[str]], middle: Sequence[str]
 ) -> dict[str, str]:
-    """Return formulas for those entries of ``own`` that the abscissae determine.
+    """Return formulas for those entries of ``own`` that the abscissae determine, and for the numbers C_j.
 
     The method is symmetric (:mod:`orderconds.solve.paths`). Stage i consists of the first ``leave[i]``
     exponentials of ``update``, followed by exponentials that belong only to stage i. Let x_ij be the sum of
     the j-th entries of the exponents that belong only to stage i. ``own`` contains the rows x_i of the stages
-    before the middle. ``middle`` is the row of a middle stage, if there is one. Let j' = s + 1 - j. The
-    equation of column j is sum_i b_i (x_ij - x_ij') = C_j, where C_j consists of the terms without entries of
-    ``own``. This equation is solved for an entry in the last row of ``own``. The equation of row i states
-    that the abscissa of stage i is m_i. This equation is solved for one entry of row i.
+    before the middle. ``middle`` is the row x_i of the middle stage; it is empty if s is even.
+
+    Let j' = s + 1 - j. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j, where C_j contains no
+    entries of ``own``. This equation is solved for an entry in the last row of ``own``. The equation of row i
+    states that the abscissa of stage i is m_i. It is solved for one entry of row i.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

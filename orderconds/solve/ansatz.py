@@ -21,8 +21,9 @@ from orderconds.tableau.unknowns import RootedRing, SymbolicCoefficients
 @dataclass(frozen=True)
 class Ansatz:
     """The text of a tableau file in which the values of the free coefficients are missing. ``free`` contains
-    the names of the unknowns, ``numbers`` the formulas of dependent coefficients by name, and ``body`` all
-    other lines. ``cells`` contains the names of the coefficients that are not constants.
+    the names of the unknowns. ``numbers`` maps the names of dependent coefficients to their formulas. Both
+    belong to the table [numbers] of the file. ``body`` contains the lines before this table, and ``tail`` the
+    lines after it. ``cells`` contains the names of all coefficients that are not constants.
 
     ``family`` is the label of the family whose conditions are solved. ``reduction`` is the reason why some of
     these conditions imply all others; the file contains this reason (:mod:`orderconds.proof.equations`). If
@@ -45,14 +46,16 @@ class Ansatz:
     centre: Mapping[str, float] | None = None
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
-        """Return the text of the file in which the free coefficients have the given ``values``."""
+        """Return the text of the file in which the free coefficients have the given ``values``. The lines
+        ``head`` precede the table [numbers], and the lines ``foot`` are the last lines of the file."""
         texts = {**{name: values[name] for name in self.free}, **self.numbers}
         numbers = [f'{name} = "{texts[name]}"' for name in sorted(texts, key=_place)]
         table = ["", "[numbers]", *numbers] if numbers else []
         return "\n".join([*self.body, *head, *table, *self.tail, *foot]) + "\n"
 
     def symbolic(self) -> SymbolicCoefficients:
-        """Return the parsed file with an unknown for each free coefficient."""
+        """Return the parsed coefficients of the file, with an unknown for each free coefficient. Raises
+        InputError if no coefficient is free."""
         places = {name: f"0.{123456789 + 7919 * place}~" for place, name in enumerate(self.free)}
         foot = ["", "[proof]", f'conditions = "{self.family.partition("(")[0]}"', "order = 1"]
         proof = Tableau.loads(self.text(places, foot=foot if self.free else ()), self.name).proof

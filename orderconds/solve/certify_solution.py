@@ -80,7 +80,8 @@ class Solution:
 def certify_solution(
     problem: Problem, point: Sequence[float], name: str, source: str, *, minimised: bool = False
 ) -> Solution:
-    """Return the tableau file of a solution near ``point``. Raises NotProved if no order can be proved.
+    """Return a solution near ``point`` with its tableau file. ``point`` contains values of the free
+    coefficients of the ansatz. Raises NotProved if the order of the problem is not proved.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -106,8 +107,9 @@ def certify_solution(
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Return three things: a nearby solution, the short values of its free coefficients, and the indices of
-    the other coefficients."""
+    """Round those coefficients of a solution that the equations do not determine. Return three values: a
+    nearby solution, a map from indices to rounded values, and the indices of the other coefficients.
+    Raises NotProved if there is no good nearby solution."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]
@@ -144,7 +146,8 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
-    """Return the largest coefficient and, if it is cheap to compute, the principal error."""
+    """Return the largest absolute value of a coefficient and, up to order :data:`CHEAP`, the principal
+    error. Above this order the principal error costs too much to compute."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)
@@ -152,8 +155,8 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
-    """Return True if the smallest singular value of the Jacobian is not close to zero. Then the equations
-    determine the unknowns well."""
+    """Return True if the equations determine the coefficients ``solved`` well. This is the case if the
+    smallest singular value of the Jacobian with respect to these coefficients is not close to zero."""
     if not solved:
         return True
     _, slopes = problem.tape.jacobians(point[None])
@@ -186,10 +189,11 @@ def determined(slopes: Floats) -> list[int]:
 def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
-    """Return the unknowns with nearly :data:`BITS` correct bits. Newton's method is applied to a system with
-    as many equations as unknowns.
+    """Return the values of the coefficients ``solved`` with nearly :data:`BITS` correct bits, while the
+    coefficients ``pinned`` are fixed. Newton's method is applied to a system with as many equations as
+    unknowns.
 
-    Raises NotProved if Newton's method does not converge.
+    Raises NotProved if the Jacobian is singular or if Newton's method does not converge.
     """
     trace = problem.trace()
     operations = trace[0].ring.operations if trace else []
@@ -230,7 +234,7 @@ def _newton(
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:
-    """Return the square roots of rational numbers that occur in the ansatz."""
+    """Return a map from text to value for the square roots of rational numbers that occur in the ansatz."""
     roots = {}
     with precision(BITS):
         for radical in radicals(problem.ansatz.symbolic()):
@@ -250,7 +254,8 @@ def _roots(forms: dict[str, ClosedForm]) -> list[str]:
 
 
 def _exact(problem: Problem, text: str, source: str) -> Solution | None:
-    """Return the solution with exact coefficients, or None if the method does not have the required order."""
+    """Return the solution whose tableau file is ``text``. The coefficients in the file are exact. Return None
+    if an exact computation does not prove the required order."""
     tableau = Tableau.loads(text)
     label = problem.measured.label()
     try:
@@ -305,7 +310,8 @@ def _signed(x: arb, places: int) -> str:
 
 
 def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
-    """Return the solution. Its tableau file claims each proved order and property."""
+    """Return the solution with a tableau file that claims each proved order and property. Raises NotProved if
+    the required order is not among them."""
     if not exact:
         certify(tableau)
     claims: list[OrderClaim] = []
@@ -332,15 +338,16 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)
     if exact:
-        # There are two texts of the file: one contains each coefficient in full, the other contains names for
-        # repeated numbers. The shorter text is used.
+        # The file can contain each coefficient in full, or names for repeated numbers. The shorter of these
+        # two texts is used.
         written = min(toml_text(without_names(claimed)), written, key=len)
     error = principal_error(claimed, wanted_family, problem.order + 1)
     return Solution(Tableau.loads(written), written, certificate, error)
 
 
 def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
-    """Return the 2-norm of the residuals of this order.
+    """Return the 2-norm of the residuals of the conditions of this order. Return None if the order is above
+    the limit ``principal_error_limit`` of the family.
 
     The family chooses the residuals (:meth:`orderconds.families.Family.principal_residuals`).
 

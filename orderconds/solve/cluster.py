@@ -13,8 +13,7 @@ Job = TypeVar("Job")
 Result = TypeVar("Result")
 
 TIMEOUT = 3
-"""The number of seconds to wait for a reply of the scheduler, at the start and after the loss of a
-connection."""
+"""The number of seconds to wait for a reply of the scheduler when a connection is opened or closed."""
 
 
 def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -> Iterator[Result]:
@@ -22,7 +21,7 @@ def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str)
     scheduler.
 
     If a worker dies, another worker repeats its job. Raises InputError if there is no connection to the
-    scheduler.
+    scheduler, or if too many workers die during the same job.
     """
     level = logging.root.manager.disable
     # With logging enabled, dask would log a traceback for each lost connection.

@@ -16,8 +16,8 @@ Nodes = Mapping[str, Sequence[str]]
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the coefficients after elimination of all constraints. A constraint of the option ``--fix`` may
-    contain the names of nodes.
+    """Return the elimination of ``constraints`` and of the constraints of the option ``--fix``, which may
+    contain names of nodes. Raises InputError for a constraint with an unknown name.
 
     >>> from orderconds.solve.linear import Constraint, equality
     >>> from orderconds.solve.spec import Spec
@@ -41,8 +41,8 @@ def eliminated(
 
 @dataclass(frozen=True)
 class Cells:
-    """The text of each coefficient after elimination of the constraints, and the formulas of named
-    numbers."""
+    """The text of each coefficient after elimination of the linear constraints. ``extra`` maps further
+    dependent coefficients and auxiliary numbers to their formulas."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None
@@ -55,7 +55,8 @@ class Cells:
         return spell(form) if set(form) <= {""} else name
 
     def numbers(self, names: Sequence[str]) -> dict[str, str]:
-        """Return the formulas of dependent coefficients that are not constants."""
+        """Return the formulas of all dependent coefficients in ``names`` that are not constants, and the
+        formulas in ``extra``."""
         texts = {}
         for name in names:
             form = self.elimination.cell(name)

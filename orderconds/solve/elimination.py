@@ -35,11 +35,11 @@ MAX_VARIABLES = 3
 """The largest number of coefficients in a condition that is used for elimination."""
 
 MAX_UNKNOWNS, MAX_ORDER = 16, 5
-"""The limits on the number of unknowns and on the order. Beyond these limits the polynomials of the
-conditions would have too many terms."""
+"""The largest number of unknowns for which elimination is tried, and the highest order of the conditions that
+are used. Beyond these limits the polynomials of the conditions would have too many terms."""
 
 MAX_DEGREE = 8
-"""The highest degree of the multipliers in a certificate."""
+"""The degrees of the multipliers in a certificate are below this number."""
 
 
 @dataclass(frozen=True)
@@ -88,9 +88,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # For symplectic methods it suffices to consider nonzero weights. A stage of weight zero can be replaced
-    # by a copy of another stage, and the weight of that other stage is divided equally between it and its
-    # copy.
+    # For symplectic methods it suffices to consider nonzero weights. A copy of another stage can replace a
+    # stage of weight zero. The other stage and its copy then have half of the weight each.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -177,8 +176,8 @@ def _sympy(x: fmpq_mpoly, variables: Sequence[int], symbols: Sequence[sympy.Symb
 
 
 def _flint(polynomial: sympy.Poly, plain: Polynomials) -> fmpq_mpoly:
-    """Return a univariate polynomial of sympy as a polynomial of flint, with integer coefficients without
-    common factor.
+    """Convert a univariate polynomial of sympy to flint. The polynomial is multiplied by a number such that
+    its coefficients become integers without common factor.
     """
     place = plain.names.index(polynomial.gen.name)
     result = plain.zero
@@ -193,8 +192,8 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Return the proof that the sum of multipliers times equations is ``consequence``. The multipliers are
-    computed by linear algebra. Return None if their degree would be too large."""
+    """Return a proof that ``consequence`` is a sum of multipliers times equations. Linear algebra gives the
+    multipliers. Return None if there are no multipliers of degree below :data:`MAX_DEGREE`."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

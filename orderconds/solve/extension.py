@@ -4,10 +4,10 @@ The weights of the extension are b_i(theta) = sum_p beta_{p,i} theta^p. Let sum_
 elementary weight of the tree t. The extension has order q if, for each p and for all trees of at most q
 nodes, sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) if |t| = p, and 0 otherwise. For each p these equations are a
 linear system, and the program computes the solution of least norm. If the first stage value is f(y_0), the
-program chooses beta_1 such that the derivative at theta = 0 is f(y_0). It then changes the coefficients of
-the highest powers of theta such that b_i(1) = b_i. If, in addition, the last stage value is f(y_1) and q > 1,
-the changed weights also make the derivative at theta = 1 equal to f(y_1). All changes of the weights belong
-to the kernel of the linear system.
+program instead chooses beta_1 such that the derivative at theta = 0 is f(y_0). In all cases, it then changes
+the coefficients of the highest powers of theta such that b_i(1) = b_i. If the first stage value is f(y_0),
+the last stage value is f(y_1), and q > 1, the changed weights also make the derivative at theta = 1 equal to
+f(y_1). All changes of the weights belong to the kernel of the linear system.
 """
 
 from __future__ import annotations
@@ -72,7 +72,8 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
 
 
 def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
-    """Return the coefficients of theta, theta^2, ..., or None if there is no extension of order q."""
+    """Return the extension of order q, or None if there is none. The first row of the result contains the
+    coefficients of theta in the weights b_i(theta), the second row those of theta^2, and so on."""
     s, zero = len(method.b), (ring.zero,) * len(method.b)
     units = [tuple(ring.one if i == k else ring.zero for i in range(s)) for k in range(s)]
     conditions = [c for n in range(1, q + 1) for c in families.get("rk").conditions(n)]

@@ -22,7 +22,7 @@ consist of rounding errors only."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:
-    """Return improved points and the 2-norms of their residuals.
+    """Return the points after at most ``sweeps`` iterations, and the 2-norms of their residuals.
 
     >>> def circle(x):
     ...     return (x * x).sum(axis=1, keepdims=True) - 1, 2 * x[:, None, :]

@@ -19,7 +19,8 @@ name."""
 
 @dataclass(frozen=True)
 class Constraint:
-    """The equation ``form`` = 0; ``text`` is the constraint as the user gave it."""
+    """The equation ``form`` = 0. Error messages quote ``text``: the equation as the user gave it, or the
+    reason for the constraint."""
 
     text: str
     form: Affine
@@ -143,7 +144,7 @@ def _affine(x: Expression) -> Affine:
 
 
 def zero(name: str, why: str) -> Constraint:
-    """Return the constraint that a coefficient is zero.
+    """Return the constraint that a coefficient is zero; ``why`` is the reason.
 
     >>> zero("a11", "--explicit").text
     '--explicit (a11 = 0)'
@@ -152,7 +153,8 @@ def zero(name: str, why: str) -> Constraint:
 
 
 def equal(why: str, *terms: tuple[int, str]) -> Constraint:
-    """Return the constraint that a linear combination of coefficients is zero.
+    """Return the constraint that a linear combination of coefficients is zero. ``terms`` contains pairs of a
+    factor and the name of a coefficient; ``why`` is the reason for the constraint.
 
     >>> {name: str(x) for name, x in equal("--symmetric", (1, "b1"), (-1, "b3")).form.items()}
     {'b1': '1', 'b3': '-1'}

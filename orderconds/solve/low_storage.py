@@ -1,9 +1,9 @@
 """The parametrisation of low-storage (2N) schemes: the unknowns are the coefficients A_i and B_i.
 
 On a group, a 2N scheme has the same order as on a vector space (:mod:`orderconds.proof.equations`). The
-search therefore solves the conditions of rooted trees, which are fewer than those of commutator-free methods:
-17 instead of 38 up to order 5, and 37 instead of 113 up to order 6. For 2N schemes, two of the 37 conditions
-follow from the other 35.
+search therefore solves the conditions of rooted trees. There are fewer of them than conditions of
+commutator-free methods: 17 instead of 38 up to order 5, and 37 instead of 113 up to order 6. For 2N schemes,
+two of the 37 conditions follow from the other 35.
 """
 
 from __future__ import annotations

@@ -1,10 +1,12 @@
 """Minimisation of the principal error over a manifold of solutions, by Gauss-Newton steps in the tangent
 space.
 
-Each step p solves the linearised conditions, F + F' p = 0. Here F are the residuals of the conditions and E
-is the vector whose norm is the principal error. Among all solutions p of this system, the step minimises |E +
-E' p|^2 + damping |p|^2. A few Newton steps then lead back to a solution. This is sequential quadratic
-programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical Optimization*, Section 18.4).
+Each step p solves the linearised conditions, F + F' p = 0. Here F is the vector of the residuals of the
+conditions, E is the vector whose norm is the principal error, and F' and E' are their Jacobians. Among all
+solutions p of this system, the step minimises |E + E' p|^2 + damping |p|^2. A few iterations of the solver
+:func:`orderconds.solve.least_squares.least_squares` then lead back to a solution of the conditions. This is
+sequential quadratic programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical Optimization*,
+Section 18.4).
 """
 
 from __future__ import annotations
@@ -64,7 +66,9 @@ def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[F
 
 
 def _step(values: Floats, slopes: Floats, error: Floats, sloped: Floats, damping: float) -> Floats:
-    """Return the step of sequential quadratic programming with a Gauss-Newton Hessian."""
+    """Return the step p of sequential quadratic programming with a Gauss-Newton Hessian. ``values`` and
+    ``slopes`` are the residuals and their Jacobian. ``error`` is the vector whose norm is the principal
+    error, and ``sloped`` is its Jacobian."""
     if len(values):
         _, sizes, right = np.linalg.svd(slopes, full_matrices=True)
         rank = int((sizes > 1e-10 * max(sizes[0], 1e-300)).sum())

@@ -125,7 +125,8 @@ def _is_symplectic(elimination: Elimination, entries: tuple[str, str], weights: 
 
 
 def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, str]:
-    """Return the entries of A that are constants. Raises InputError if an entry depends on other entries."""
+    """Return the text of each entry of A that is a constant. Raises InputError if an entry depends on other
+    coefficients."""
     values = {}
     for name in (x for line in A for x in line):
         form = elimination.cell(name)
@@ -186,9 +187,9 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the sums a_ij of the exponents of each stage, and for the last exponent of each
-    stage. With these formulas, the stages have the abscissae that :mod:`orderconds.solve.abscissae`
-    requires."""
+    """Return formulas with which the stages have the abscissae that :mod:`orderconds.solve.abscissae`
+    requires. There are formulas for the sums a_ij of the exponents of each stage, for the last exponent of
+    each stage, and for auxiliary numbers such as m_i."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -210,8 +211,8 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return A and b of the Gauss tableau as text. The constraints of :func:`_totals` make row i of A the sum
-    of the exponents of stage i."""
+    """Return the coefficients of the Gauss tableau with s stages as text. Their names are w1, w2, ... in b
+    and g11, g12, ... in A. :func:`_totals` uses these names in constraints."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
@@ -223,7 +224,8 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
 ) -> list[Constraint]:
-    """Return the constraints that the exponents add up to the rows of the Gauss tableau."""
+    """Return the constraints that the exponents of each stage add up to a row of A of the Gauss tableau, and
+    that the exponents of the update add up to b."""
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
     constraints += [
@@ -237,9 +239,9 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the sums x_ij of the exponents of each stage, and for the last exponent of each
-    stage. With these formulas, the stages have the abscissae that :mod:`orderconds.solve.abscissae`
-    requires."""
+    """Return formulas with which the stages have the abscissae that :mod:`orderconds.solve.abscissae`
+    requires. There are formulas for the sums x_ij of those exponents that belong only to one stage, for the
+    last exponent of each stage before the middle, and for auxiliary numbers such as m_i."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -354,7 +356,7 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
 
 
 def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures that a search for tableaux (A, b) tries, in the order in which they are tried.
+    """Return the structures (parametrisations) that a search for tableaux (A, b) tries, in this order.
 
     >>> from orderconds.families import get
     >>> [tableau_structures(get(name), Spec(stages=3)) for name in ("vcg", "cg")]
@@ -364,7 +366,8 @@ def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures that a search for commutator-free methods tries, in the order of the trials.
+    """Return the structures (parametrisations) that a search for commutator-free methods tries, in this
+    order.
 
     >>> from orderconds.families import get
     >>> path_structures(get("vcf"), Spec(stages=3, symmetric=True))
@@ -377,7 +380,7 @@ def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the only structure that a search for compositions or splittings tries.
+    """Return the only structure (parametrisation) that a search for compositions or splittings tries.
 
     >>> from orderconds.families import get
     >>> one_structure(get("splitting"), Spec(stages=3))
@@ -388,10 +391,11 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Layout:
-    """The functions that parametrise the coefficients of one tableau format.
+    """The functions that parametrise the coefficients of one tableau format. A structure is the name of a
+    parametrisation.
 
-    ``ansatz`` is a function of a family, a specification of the method, a structure and a name.
-    ``structures`` is a function that returns the structures which a search tries.
+    ``ansatz`` is a function of a family, a specification of the method, a structure and the name of the
+    tableau. ``structures`` returns the structures that a search tries, in this order.
     """
 
     ansatz: Callable[[Family, Spec, str, str], Ansatz]
@@ -412,7 +416,7 @@ TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz for a specification in the family with the label ``family``.
+    """Return the ansatz for methods of the family with the label ``family`` that satisfy the specification.
 
     Raises :class:`~orderconds.errors.InputError` for options that no method of the family satisfies.
 
@@ -428,7 +432,7 @@ def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found"
 
 
 def structures(family: str, spec: Spec) -> tuple[str, ...]:
-    """Return the structures that a search in this family tries, in the order in which they are tried.
+    """Return the structures (parametrisations) that a search in this family tries, in this order.
 
     >>> structures("vcg", Spec(stages=3)), structures("cg", Spec(stages=3))
     (('abscissae', 'full'), ('full',))

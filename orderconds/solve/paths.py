@@ -28,8 +28,8 @@ Paths = tuple[list[Path], Path, list[str], list[Constraint]]
 
 
 def full_paths(spec: Spec) -> Paths:
-    """Return stages and an update in which every coefficient is free. The first stage of an explicit method
-    is y0.
+    """Return stages and an update in which the only constraints are the zeros of explicit and diagonally
+    implicit methods. The first stage of an explicit method is y0.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update

@@ -28,8 +28,8 @@ SMALLEST = 0.01
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations of one search. Use :func:`find_problem` to create a problem: the function returns the
-    same object for equal arguments, and its programs are then compiled only once.
+    """The equations of one search. Use :func:`find_problem` to create a problem: the function keeps recent
+    problems, so that their programs need not be compiled again.
 
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
@@ -81,7 +81,8 @@ class Problem:
     def residuals(
         self, values: Sequence[Element], ring: RootedRing, conditions: Sequence[OrderCondition]
     ) -> list[Element]:
-        """Return left-hand sides minus right-hand sides for free coefficients in any ring."""
+        """Return left-hand sides minus right-hand sides of ``conditions``. ``values`` contains the free
+        coefficients as elements of ``ring``."""
         method = self._read(self.ansatz.method(values, ring), ring)
         return list(self.family.residuals(method, ring, conditions))
 
@@ -126,8 +127,8 @@ class Problem:
         return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the amounts by which coefficients violate their bounds, and the Jacobian of these
-        amounts."""
+        """Return the amounts by which coefficients violate their bounds, and the Jacobian of these amounts,
+        at many points. The amount is zero for a coefficient within its bounds."""
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
         if self.positive:
@@ -163,8 +164,8 @@ class Problem:
 
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
-    """Return the problem with these arguments. In one process, calls with equal arguments return the same
-    object.
+    """Return the problem with these arguments. The last eight problems are kept: a further call with the same
+    arguments returns the same object.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

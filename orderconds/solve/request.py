@@ -34,12 +34,13 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class SearchResult:
-    """The result of a search. There are three cases. If a method was found, ``tableau`` is the method and
-    ``certificate`` its certificate. If it was proved that there is no method, ``impossible`` is the proof.
-    Otherwise, ``tableau`` and ``impossible`` are None.
+    """The result of a search. There are three cases. If a method was found, ``tableau`` is the method, and
+    ``certificate`` (``exact`` or ``ball``) states how its order was proved. If it was proved that there is no
+    method, ``impossible`` is the proof. Otherwise, ``tableau`` and ``impossible`` are None.
 
-    ``best_residual`` is the least norm of the residuals of all starts, ``tried`` has one line for each
-    structure that was tried. The truth value of a result is True if a tableau was found.
+    ``best_residual`` is the least residual norm of all random starts. ``tried`` contains one line of text
+    about each structure (parametrisation of the tableau) that was tried. The truth value of a result is True
+    if a tableau was found.
     """
 
     tableau: Tableau | None
@@ -52,7 +53,7 @@ class SearchResult:
 
     @classmethod
     def of(cls, request: Order, outcome: Outcome) -> SearchResult:
-        """Return the result of a search."""
+        """Return the outcome of a search as a result. ``request`` contains the options of the search."""
         solution = outcome.solution
         return cls(
             tableau=None if solution is None else Tableau.loads(solution.text, request.name),
@@ -106,14 +107,14 @@ def solve(
 ) -> SearchResult:
     """Find a method of ``family`` with this number of stages and order, and prove its order.
 
-    The constraints are the options of ``orderconds solve``; ``fix`` is a sequence of equations such as
-    ``"a21=1/2"``. Contradictory constraints raise InputError. ``report`` is called with lines of text.
+    The arguments are the options of ``orderconds solve``; ``fix`` contains equations such as ``"a21=1/2"``.
+    Contradictory constraints raise InputError. ``report`` is called with each line about the progress.
 
     >>> solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"]).tableau.b
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # Symmetric methods need only these trees.
+    refuse_too_many_trees(families.get(family), order - 1)  # A symmetric method needs no more trees.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,

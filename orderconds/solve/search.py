@@ -28,14 +28,14 @@ from orderconds.solve.spec import Spec
 from orderconds.solve.tape import Floats
 
 BATCH = 64
-"""The number of starts in a batch."""
+"""The number of random starting points in a batch."""
 
 POLISHED = 1e-11
 """A residual norm below which a point counts as a solution."""
 
 KEPT = 4
-"""The largest number of solutions that are kept of one batch, those with the lowest scores. If the principal
-error is minimised, the minimisation starts only from these solutions.
+"""The largest number of solutions of one batch that are kept. These are the solutions with the lowest scores.
+If the principal error is minimised, the minimisation starts only from these solutions.
 """
 
 
@@ -73,11 +73,11 @@ Floating-point numbers are hexadecimal texts."""
 
 @dataclass(frozen=True)
 class Batch:
-    """The result of a batch. ``solutions`` contains pairs (score, free coefficients), the best solution
-    first.
+    """The result of a batch of random starts. ``solutions`` contains pairs (score, values of the free
+    coefficients). The best solution, which has the lowest score, is first.
 
     The score is the principal error or, if the error costs too much to compute, the largest coefficient.
-    ``best`` is the least residual norm of all starts.
+    ``best`` is the least residual norm of all starts of the batch.
     """
 
     number: int
@@ -113,8 +113,8 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # If all solutions are singular, they are kept, because a proof with exact coefficients may still be
-    # possible.
+    # Singular solutions are dropped if the batch contains regular solutions. Otherwise they are kept with a
+    # worse score, because a proof with exact coefficients may still be possible.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
@@ -142,8 +142,8 @@ class Checkpoint:
     batches: dict[int, Batch] = field(default_factory=dict)
 
     def load(self) -> None:
-        """Read the batches of an interrupted search. Raises InputError if the checkpoint file belongs to
-        another search."""
+        """Read the batches of an interrupted search, if the file exists. Raises InputError if the file cannot
+        be read, if it is not a checkpoint, or if it belongs to another search."""
         if self.path is None or not self.path.exists():
             return
         try:
@@ -190,7 +190,7 @@ class Checkpoint:
 
 def write_whole(path: Path, text: str) -> None:
     """Write a file under a temporary name and then rename it. Therefore no other program can read an
-    incomplete file.
+    incomplete file. Raises InputError if the file cannot be written.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -210,7 +210,7 @@ def batches(
     search: Search, count: int, checkpoint: Checkpoint, processes: int = 1, cluster: str | None = None
 ) -> Iterator[Batch]:
     """Yield the batches 0, 1, ..., ``count`` - 1 in this order. Batches in the checkpoint are not computed
-    again.
+    again. Each new batch is added to the checkpoint.
 
     With several processes, the first new batch runs in this process, and all other batches run in further
     processes. With ``cluster``, all new batches run on the dask cluster at this address. Raises

@@ -25,9 +25,10 @@ minimises the principal error uses the second number, every other search the fir
 
 @dataclass
 class Outcome:
-    """The outcome of a search: a method, a proof that no method exists, or neither of these.
+    """The outcome of a search: a method (``solution``), a proof that no method exists (``none``), or neither
+    of these.
 
-    ``best`` is the least residual norm of all starts. ``tried`` contains one line of text about each
+    ``best`` is the least residual norm of all random starts. ``tried`` contains one line of text about each
     structure that was tried.
     """
 
@@ -102,8 +103,8 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
 
 
 def _applicable(order: Order) -> list[str]:
-    """Return the structures that satisfy the specification. Raises InputError if there is no such
-    structure."""
+    """Return the structures (parametrisations) with which methods can satisfy the specification. Raises
+    InputError if there are none, or if the options contradict each other."""
     applicable, refusal = [], None
     for structure in structures(order.family, order.spec):
         try:
@@ -154,15 +155,15 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    # The search of this structure has ended, with or without a solution, so its checkpoint is not needed.
+    # The search in this structure has ended, with or without a solution. Its checkpoint is no longer needed.
     checkpoint.remove()
 
 
 def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Solution | None, str]:
-    """Return the best solution that can be proved, with its proof. If no solution can be proved, return the
-    reason why the last attempted proof failed."""
+    """Return two values: the best solution whose order can be proved, or None; and the reason why the last
+    failed proof failed. At most eight solutions are tried. If no proof fails, the reason is ``refused``."""
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:
         try:

@@ -137,8 +137,8 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
-    """Return the operations that the outputs need, sorted by level and kind. Inputs and constants come
-    first."""
+    """Return the indices of all inputs and of the operations on which the outputs ``wanted`` depend. The
+    indices are sorted by level and kind; inputs and constants come first."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

@@ -106,8 +106,9 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that maps a term to two numbers. If the term is expanded into products of nodes,
-    these are the least and the greatest number of factors in a product.
+    """Return a function that maps a term to two numbers. A term expands to a sum of products of nodes; the
+    numbers are the least and the greatest number of factors in such a product. ``elements`` contains the
+    definitions of the names.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)
@@ -126,8 +127,8 @@ def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, 
 
 
 def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, int]]) -> tuple[int, int]:
-    """Return the least and the greatest number of nodes in the products to which a linear combination
-    expands.
+    """Return the least and the greatest number of factors in the products of nodes to which a linear
+    combination expands. ``extent`` returns these numbers for a term.
 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
@@ -139,8 +140,8 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
-    """Return the coefficients of a linear combination of terms, expanded in words of nodes in the order of
-    action. Words with coefficient zero are omitted.
+    """Expand a linear combination of terms in words of nodes, and return the coefficients of the words.
+    ``named`` contains the expansions of the names. Words with coefficient zero are omitted.
 
     >>> from orderconds.ring import QQ
     >>> expand(((parse("[2,1]", ""), QQ.one),), {}, QQ)

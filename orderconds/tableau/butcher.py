@@ -47,7 +47,7 @@ def tableau_latex(tableau: Tableau) -> str:
 
 def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
     """Return a Butcher array with the rows of the stages above the rule and the weights below it. Return None
-    if the array is too wide for a column."""
+    if the array is too wide for a column of an article, or if an entry contains the name of a number."""
     rows = [*above, *below]
     if any(has_name(x) for row in rows for x in row):
         return None
@@ -67,8 +67,8 @@ def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> 
 
 
 def tableau_html(tableau: Tableau) -> str:
-    """Return the Butcher array as an HTML table without LaTeX. For a method without a Butcher array, return
-    equations in LaTeX.
+    """Return the Butcher array as an HTML table without LaTeX. For a method without a Butcher array, or with
+    more than :data:`WIDEST` stages, return a description and LaTeX equations.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau_html(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])).count("<td")
@@ -98,7 +98,8 @@ def _html(text: str) -> str:
 
 def _butcher(tableau: Tableau) -> tuple[list[list[str]], list[list[str]]] | None:
     """Return the texts of the rows of a Butcher array: c_i and a_ij for each stage, then the rows of weights.
-    Zeros at the end of a row of A are blank. Return None for a method without a Butcher array."""
+    Zeros at the end of a row of A are blank. Return None for a method without a Butcher array, or with more
+    than :data:`WIDEST` stages."""
     method = tableau.method
     if not isinstance(method, RungeKutta) or method.s > WIDEST:
         return None

@@ -45,7 +45,7 @@ def butcher_text(tableau: Tableau) -> list[str]:
 
 
 def entry(tableau: Tableau, x: Element) -> str:
-    """Return a coefficient as text.
+    """Return a coefficient as text: an exact coefficient in full, and a ball as a decimal that ends with "~".
 
     >>> from orderconds.tableau import find
     >>> yoshida = Tableau.load(find("yoshida6"))

@@ -22,13 +22,14 @@ class OrderClaim:
 
 @dataclass(frozen=True)
 class Claims:
-    """The stated orders and properties; a check compares each claim with the computed result."""
+    """The claims of a tableau file: the orders and the properties of the method. A check compares each claim
+    with the computed result."""
 
     orders: tuple[OrderClaim, ...] = ()
     properties: dict[str, bool] = field(default_factory=dict)
 
     def order(self, family: str, cutoff: int | None = None) -> int | None:
-        """Return the claimed order of a family, or None if none is claimed."""
+        """Return the claimed order in a family, or None if the file claims no order in this family."""
         for claim in self.orders:
             if (claim.family, claim.cutoff) == (family, cutoff):
                 return claim.order

@@ -54,8 +54,8 @@ def _latex(x: Expression, tight: int) -> str:
 
 
 def _split_sign(x: Expression) -> tuple[str, Expression]:
-    """Return a sign and the expression without this sign. The sign is "-" for a negative number and for an
-    expression -y. For all other expressions the sign is empty."""
+    """Return a sign and the expression without this sign. The sign is "-" for an exact negative number and
+    for an expression -y. For all other expressions the sign is empty."""
     if isinstance(x, Chain) and x.operators == ("-",) and x.operands[0] == Constant(Fraction(0)):
         return "-", x.operands[1]
     if isinstance(x, Constant) and not x.unit and x.value < 0:
@@ -64,13 +64,13 @@ def _split_sign(x: Expression) -> tuple[str, Expression]:
 
 
 def _ends_in_a_factor(x: Expression) -> bool:
-    """Return True if x is printed as a product and not as one fraction. A product that contains a rounded
-    decimal is not rewritten as one fraction, because the fraction would denote a different ball."""
+    """Return True if the last operator of x is a multiplication. As a right factor in a product, such an
+    expression is printed in parentheses."""
     return isinstance(x, Chain) and x.operators[-1] == "*"
 
 
 def with_fractions(x: Expression) -> Expression:
-    """Replace each quotient of integers by one constant, which is printed as one number.
+    """Replace each quotient of exact numbers, and each negated exact number, by one constant.
 
     >>> with_fractions(parse("1/2"))
     Constant(value=Fraction(1, 2), unit=Fraction(0, 1))
@@ -92,7 +92,7 @@ def with_fractions(x: Expression) -> Expression:
 
 
 def decimal(x: Fraction, places: int) -> str:
-    """Return a number as a decimal with this number of places.
+    """Return a number as a decimal with ``places`` decimal places. Further digits are cut off.
 
     >>> decimal(Fraction(1, 4), 2)
     '0.25'

@@ -50,9 +50,9 @@ class Nodes:
     polynomials.
 
     ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node. In formulas, true counts as 1 and
-    false as 0. M is the derivative of order ``s - left - right`` of the polynomial
-    ``x^(s - right) (x - 1)^(s - left)``. Hence 0 is a root of M if ``left`` is true, and 1 is a root of M if
-    ``right`` is true.
+    false as 0. The nodes are the roots of a polynomial M. It is the derivative of order ``s - left - right``
+    of the polynomial ``x^(s - right) (x - 1)^(s - left)``. Hence 0 is a root of M if ``left`` is true, and 1
+    is a root of M if ``right`` is true.
     """
 
     def __init__(self, s: int, left: bool, right: bool) -> None:
@@ -173,8 +173,8 @@ class Kind:
     """A kind of method. ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node. ``matrix`` is
     the rule for A, and ``called`` is the name.
 
-    The order is 2s - ``left`` - ``right``. The function ``left_out`` maps the number of stages to the index
-    of the node that the embedded method leaves out.
+    The order is 2s - ``left`` - ``right``, where s is the number of stages. The function ``left_out`` maps s
+    to the index of the node that the embedded method omits. It is None if there is no embedded method.
     """
 
     left: bool
@@ -207,7 +207,7 @@ KINDS = {
 """The kinds of methods that can be constructed."""
 
 LEAST_WITH_ROW = 3
-"""The least number of stages for which the method has an embedded method."""
+"""The least number of stages for which Radau IIA and Lobatto IIIA methods have an embedded method."""
 
 
 def construct(kind: str, stages: int) -> Tableau:
@@ -254,10 +254,11 @@ def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:
 
 
 def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
-    """Return the roots of a polynomial that has only real roots. The roots are expressed by square roots if
-    possible.
+    """Return the roots of a polynomial that has only real roots. If possible, they are expressed by square
+    roots.
 
-    Roots that cannot be expressed by square roots have the names c1, c2, ... in ascending order.
+    Otherwise, the roots of an irreducible factor have the names c1, c2, ... in ascending order. The last of
+    them has no name, but is expressed by the other roots and the coefficients.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

@@ -22,7 +22,7 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
     weights if they are given.
 
     Each row has one entry for each stage. In a triangular array, the zeros at the end of all rows may be left
-    out. Raises :class:`~orderconds.errors.TableauError`, whose message names the wrong entry.
+    out. Raises :class:`~orderconds.errors.TableauError` for a wrong entry, and if the lengths do not match.
 
     >>> runge_kutta([[], [0.5]], [0, 1])
     {'family': 'rk', 'A': [[], ['0.5']], 'b': [0, 1]}
@@ -44,8 +44,8 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
 
 
 def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> None:
-    """Raise an error unless all rows have the full length, or all rows have the lengths of a triangular
-    array.
+    """Raise TableauError unless there are ``stages`` rows that have ``stages`` entries each, or 0, 1, 2, ...
+    entries, or 1, 2, 3, ... entries.
     """
     lengths = [len(x) for x in rows]
     shapes = ([stages] * stages, list(range(stages)), list(range(1, stages + 1)))
@@ -132,7 +132,8 @@ def _product(rows: object, where: str) -> Data:
 
 
 def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
-    """Return the given keys, together with the keys for the name, the source and the claims.
+    """Return the given keys, together with the keys for the name, the source and the claims. An empty source
+    is omitted, and so are claims that are None.
 
     >>> named({"family": "rk"}, "m", "", {"rkmk(1)": 3, "explicit": True})["claims"]
     {'rkmk': [{'cutoff': 1, 'order': 3}], 'explicit': True}

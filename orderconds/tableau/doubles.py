@@ -1,14 +1,14 @@
 """Coefficients that are given as binary floating-point numbers (doubles).
 
 A double is usually a rounded coefficient: 0.3333333333333333 is close to the intended coefficient 1/3, but
-not equal to it. The text of such a coefficient ends with ``d``, as in ``0.3333333333333333d``. It denotes a
-ball: its centre is exactly the double x, its radius is ``UNITS * 2^-53 * max(1, |x|)``. Rounding a number
-once changes it by at most ``2^-53 |x|``. The factor ``UNITS`` and the bound 1 make the radius large enough
-for a coefficient that was computed with a few roundings. In such a computation, for example of ``1/2 -
-sqrt(3)/6``, the terms may be larger than the result.
+not equal to it. In a tableau file, the text of such a coefficient ends with ``d``, as in
+``0.3333333333333333d``. This text denotes a ball, which is an interval around the double x. The radius of the
+ball is ``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a number x by at most ``2^-53 |x|``. The radius
+is larger than this bound, because many coefficients are computed with a few roundings. In such a computation,
+for example of ``1/2 - sqrt(3)/6``, the terms may also be larger than the result.
 
-A double that needs at most :data:`SHORT` bits, such as 0.5, 3.0 or -0.375, is an exact number: a rounded
-number has so few bits only with probability 2^-27.
+A double that needs at most :data:`SHORT` bits, such as 0.5, 3.0 or -0.375, counts as an exact number, because
+a rounded number has so few bits only with probability 2^-27.
 """
 
 from __future__ import annotations
@@ -21,21 +21,21 @@ from fractions import Fraction
 from orderconds.errors import TableauError
 
 UNITS = 8
-"""The default uncertainty of a double x, in units of 2^-53 max(1, |x|)."""
+"""The default radius of the ball that a double x denotes, in units of 2^-53 max(1, |x|)."""
 
 ROUNDING = Fraction(1, 2**53)
 """The largest relative error of rounding a number to a double."""
 
 SHORT = 26
-"""A double with at most this number of significant bits is exact."""
+"""A double with at most this number of significant bits counts as an exact number."""
 
 PRINTED = 16
 """A decimal in a file of another program is assumed to be a printed double if it has at least this number of
 digits."""
 
 LARGE = 64
-"""The largest binary exponent of doubles that are written as exact decimals. The decimals of larger numbers
-would be too long."""
+"""A double counts as an exact number only if its numerator and its denominator have at most this number of
+bits. The exact decimals of other doubles would be too long."""
 
 LONGEST = 1200
 """An upper bound of the number of significant decimal digits of a double."""
@@ -44,7 +44,7 @@ _DOUBLE = re.compile(r"-?(?:\d+\.?\d*|\.\d+)d", re.ASCII)
 
 
 def radius(value: Fraction, units: Fraction | int = UNITS) -> Fraction:
-    """Return the uncertainty of the coefficient that a double represents.
+    """Return the radius of the ball that the double ``value`` denotes: units 2^-53 max(1, |value|).
 
     >>> float(radius(Fraction(1, 2))) == 8 * 2.0**-53, radius(Fraction(4)) == 4 * radius(Fraction(1))
     (True, True)
@@ -70,7 +70,7 @@ def double_text(x: float, where: str = "") -> str:
 
 
 def is_double(text: str | int) -> bool:
-    """Return True if a coefficient is the text of a double.
+    """Return True if a coefficient is a decimal with the suffix ``d``, which denotes a double.
 
     >>> is_double("-0.1d"), is_double("1/3"), is_double(1)
     (True, False, False)
@@ -79,8 +79,8 @@ def is_double(text: str | int) -> bool:
 
 
 def decimal_text(text: str) -> str:
-    """Return the decimal of a double, without exponent and with at least :data:`PRINTED` digits. Other
-    programs convert this decimal to the same double.
+    """Convert the text of a double, such as ``0.1d``, to a decimal without suffix and exponent. The decimal
+    has at least :data:`PRINTED` digits, and other programs read it as the same double.
 
     >>> decimal_text("-0.3333333333333333d"), decimal_text("0.1d")
     ('-0.3333333333333333', '0.10000000000000001')
@@ -103,7 +103,8 @@ def is_short(x: float) -> bool:
 
 
 def printed(value: Fraction) -> str:
-    """Return the decimal of a double with at least :data:`PRINTED` digits, without exponent and sign.
+    """Return the absolute value of a double as a decimal without exponent. The decimal has at least
+    :data:`PRINTED` digits.
 
     >>> printed(Fraction(1 / 3)), printed(Fraction(0.1))
     ('0.3333333333333333', '0.10000000000000001')
@@ -118,9 +119,9 @@ def printed(value: Fraction) -> str:
 
 
 def is_printed(decimal: str) -> bool:
-    """Return True if a decimal without exponent is the text of a double. This is assumed of every decimal of
-    16 or 17 digits. A decimal with more digits is the text of a double if the nearest double, rounded to the
-    same number of digits, equals the decimal.
+    """Return True if a decimal without exponent was probably printed from a double. For a decimal of 16 or 17
+    digits, the result is always True; for fewer digits, it is False. For more digits, the result is True if
+    the nearest double, rounded to the same number of digits, equals the decimal.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")
     (True, False, False)

@@ -1,8 +1,9 @@
 r"""The coefficients of a method as equations in LaTeX, for methods that have no Butcher array and for arrays
 that are too wide.
 
-Each equation is broken into lines that fit in a column of a two-column article. A coefficient is exact if its
-text is short. Otherwise it is a rounded decimal that ends in ``\ldots``.
+Each equation is broken into lines that fit in a column of a two-column article. A coefficient is printed
+exactly if its text is short and contains no name. Otherwise it is printed as a decimal that is cut off and
+ends in ``\ldots``. Doubles are printed with six digits.
 """
 
 from __future__ import annotations
@@ -32,10 +33,10 @@ if TYPE_CHECKING:
     from orderconds.tableau.record import Tableau
 
 SHORT = 10
-"""Rounded decimals are printed with this number of digits."""
+"""A coefficient that is not printed exactly is cut off after this number of digits."""
 
 WIDE = 75.0
-"""A coefficient that is wider than this number of points is printed as a rounded decimal."""
+"""A coefficient is printed exactly only if its width is at most this number of points."""
 
 MOST = 34
 """The largest number of lines. A formula with more lines does not fit on a page."""
@@ -51,7 +52,7 @@ part."""
 def equations(tableau: Tableau) -> str:
     r"""Return the equations that define the method, aligned at the equality signs.
 
-    If the equations do not fit on a page, the result states only the number of stages or factors.
+    If the equations do not fit on a page, the result states only the number of stages, nodes or coefficients.
 
     >>> from orderconds.tableau import Tableau
     >>> print(equations(Tableau.cf([[], [["1/2"]]], [[0, 1]])))
@@ -66,7 +67,8 @@ def equations(tableau: Tableau) -> str:
 
 
 def has_name(text: str) -> bool:
-    """Return True if a coefficient contains a name, which is the generator of a field of numbers.
+    """Return True if the text of a coefficient contains a name other than ``sqrt``. Such a name denotes a
+    number that is defined elsewhere, for example as a root of a polynomial.
 
     >>> has_name("1/2 + sqrt(3)/6"), has_name("1 - 2*g")
     (False, True)
@@ -75,8 +77,8 @@ def has_name(text: str) -> bool:
 
 
 def short_text(x: Element, tableau: Tableau) -> str:
-    """Return the text of a coefficient. A double is printed with six digits. The text of a ball has about
-    :data:`SHORT` characters.
+    """Return the text of a coefficient. If the tableau contains doubles, the text has six digits. If the
+    coefficient is a ball with a long text, the text is cut off after :data:`SHORT` digits.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau = Tableau.rk([[0, 0], ["1/2", 0]], [0, 1])
@@ -165,7 +167,8 @@ def _splitting(method: Splitting, tableau: Tableau) -> Iterator[Equation]:
 
 
 def _magnus(method: Magnus, tableau: Tableau) -> Iterator[Equation]:
-    """Yield the nodes, the named Lie elements, and the exponents. The first exponential acts first."""
+    """Yield the nodes, the named Lie elements, and the exponents Omega_1, Omega_2, .... The exponential of
+    Omega_1 acts first."""
     yield "c", _list(method.c, tableau)
     for name, combination in method.elements:
         yield _name(name), _brackets(combination, tableau)
@@ -190,16 +193,16 @@ def _name(name: str) -> str:
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
-    """Return the parts of a formula: a product of exponentials, applied to its initial value. The exponential
-    at the right acts first."""
+    """Return the parts of the formula for a stage: a product of exponentials, applied to y_0 or to an earlier
+    stage. The exponential at the right acts first."""
     start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
     parts = [part for row in reversed(stage.exponentials) for part in _exponential(row, tableau)]
     return [*parts[:-1], parts[-1] + start] if parts else [start]
 
 
 def _exponential(row: Row, tableau: Tableau) -> list[str]:
-    """Return the exponential of h times a linear combination. A linear combination of one term is printed
-    without brackets."""
+    """Return the parts of the formula exp(h sum_j x_j k_j), where ``row`` contains the x_j. A sum of one term
+    is printed without brackets."""
     terms = _sum([(x, f"k_{{{j}}}") for j, x in enumerate(row, start=1)], tableau)
     if len(terms) == 1:
         factor, _, index = terms[0].rpartition("k_")
@@ -209,7 +212,8 @@ def _exponential(row: Row, tableau: Tableau) -> list[str]:
 
 
 def _sum(combination: Sequence[tuple[Element, str]], tableau: Tableau) -> list[str]:
-    """Return the terms of a linear combination, each with its sign."""
+    """Return the terms of a linear combination, each with its sign. Terms with coefficient zero are omitted;
+    if no term remains, the result is a single 0."""
     written: list[str] = []
     for x, vector in combination:
         if tableau.ring.is_zero(x) is True:

@@ -1,9 +1,9 @@
-"""Evaluate the coefficients of a file in one ring: Q, the number field of their radicals, or balls.
+"""Evaluate the coefficients of a file in one ring: Q, a number field, or balls (intervals).
 
 The coefficients determine the ring: rationals stay rational; radicals and named roots build a number field,
-of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`. If a coefficient contains ``~``, or if the degree
-would be larger, all coefficients become balls. Equal expressions in one file denote the same number, and the
-program represents them by the same object.
+of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`. If a coefficient is a rounded decimal (``~``) or a
+double (``d``), or if the degree would be larger, all coefficients become balls. Equal expressions in one file
+denote the same number, and the program represents them by the same object.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ MAX_SIZE = 40_000
 
 class NamedRoot(Struct, frozen=True):
     """A real root of a polynomial over Q. ``minpoly`` contains the ascending coefficients of the polynomial.
-    The decimal ``near`` identifies the root: no other root is near this decimal."""
+    The decimal ``near`` identifies the root: exactly one root differs from it by at most one unit of its last
+    digit."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -34,11 +35,12 @@ Definition = Expression | NamedRoot
 
 
 class Scalars(Protocol):
-    """The ring in which expressions are evaluated: a number field that is extended by each new root, or
-    balls."""
+    """The ring in which expressions are evaluated, for example balls, or a number field that is extended by
+    each new root."""
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
-        """Return a rational number or, if the unit is positive, a ball around this number."""
+        """Return the rational number ``value`` or, if ``unit`` is positive, the ball of radius ``unit``
+        around this number."""
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real root of x with this index (2 for the square root). Raises ValueError for an even
@@ -55,10 +57,11 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Evaluate expressions in the smallest ring that contains all of them. The keys are the positions of the
-    expressions in the file.
+    """Return the ring of the expressions and their values. The keys of ``expressions`` and of the values are
+    positions in the file.
 
-    ``numbers`` may refer to each other, in any order, without a cycle. Raises :class:`TableauError`.
+    ``numbers`` are the named numbers of the file; they may refer to each other in any order, but not in a
+    cycle. Raises :class:`TableauError` if a number has no value, for example after a division by zero.
 
     >>> from orderconds.tableau.grammar import parse
     >>> ring, values = evaluate({"a": parse("sqrt(g)/2", "")}, {"g": Constant(Fraction(3))}, "")
@@ -153,8 +156,8 @@ class _Evaluation:
         return result
 
     def check_unused(self) -> None:
-        """Evaluate the numbers to which no coefficient refers. This evaluation reports errors in these
-        numbers."""
+        """Evaluate all named numbers. Otherwise, errors in numbers to which no coefficient refers would not
+        be reported."""
         for name in self.numbers:
             self.place = f"numbers.{name}"
             self.value(Name(name))

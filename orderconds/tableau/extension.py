@@ -1,10 +1,11 @@
-"""Continuous extensions: weights b_i(theta) that give the solution at the time t + theta h inside a step.
+"""Continuous extensions: weights b_i(theta) that give the solution at the time t_0 + theta h, inside a step
+of length h that begins at t_0.
 
 The extension of a Runge-Kutta method uses the stages of the step, with the weights b_i(theta) in place of
 b_i. It has order q if the elementary weight with b_i(theta) is the polynomial theta^|t| / gamma(t) for each
-rooted tree t of at most q nodes (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
-section II.6). The extension of an RKMK method uses the same weights in the Lie algebra: y(theta) = exp(h
-sum_i b_i(theta) k_i).y_0.
+rooted tree t of at most q nodes; |t| is the number of nodes, and gamma(t) is the density (Hairer, Norsett and
+Wanner, Solving Ordinary Differential Equations I, section II.6). The extension of an RKMK method uses the
+same weights for the Lie algebra elements k_i of the stages: y(theta) = exp(h sum_i b_i(theta) k_i).y_0.
 """
 
 from __future__ import annotations
@@ -41,6 +42,6 @@ class Extension:
         return self.combined(tuple(1 for _ in self.rows[0]))
 
     def combined(self, factors: tuple[Element, ...]) -> Row:
-        """Return sum_p factors[p - 1] beta_p, where beta_p contains the coefficients of theta^p for all
-        stages."""
+        """Return the numbers sum_p factors[p - 1] beta_ip, one for each stage i, where beta_ip is the
+        coefficient of theta^p in b_i(theta)."""
         return tuple(sum((f * x for f, x in zip(factors, row, strict=True)), 0 * row[0]) for row in self.rows)

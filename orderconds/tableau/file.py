@@ -42,8 +42,8 @@ KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma",
 """Keys that identify a tableau file: a TOML file that contains one of these keys is read as a tableau
 file."""
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
-"""The characters that a tableau file must not contain: control characters except tab and newline, invisible
-line ends, and changes of the direction of writing."""
+"""The characters that ``source`` and ``bibtex`` must not contain: control characters except tab and newline,
+the line and paragraph separators of Unicode, and characters that change the direction of writing."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -91,7 +91,8 @@ def text_of(path: str | Path) -> str:
 
 
 def bytes_of(path: str | Path) -> bytes:
-    """Return the content of a regular file. Raises TableauError if the file is too large for a tableau.
+    """Return the content of a tableau file, without a byte order mark. Raises TableauError if the file is too
+    large, is not a regular file or cannot be read.
 
     >>> from orderconds.tableau import find
     >>> bytes_of(find("kutta3"))[:4]
@@ -103,8 +104,8 @@ def bytes_of(path: str | Path) -> bytes:
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Return True if a TOML file is to be treated as a tableau file, because it has a key of a tableau file
-    or cannot be read.
+    """Return True if a TOML file is to be treated as a tableau file. This is the case if the file contains
+    one of the keys :data:`KEYS`, or if it cannot be read or is not valid TOML.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -155,8 +156,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # The error already states the name of the tableau and the key. Here ``where``, usually the path of the
-    # file, replaces the name of the tableau.
+    # The position in this error begins with the name of the tableau. It is replaced by ``where``, usually the
+    # path of the file, as in all other errors of this module.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -169,7 +170,8 @@ def read(data: Mapping[str, object], where: str) -> File:
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
-    """Return the typed file, in the format that the key ``family`` names."""
+    """Convert the keys and values of a file to the format that the key ``family`` names. Raises TableauError
+    if there is no such format, or if the keys or types do not fit it."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
         given = "no family" if family is None else f"family = {family!r}"
@@ -285,8 +287,8 @@ def _numbers(entry: Format, where: str) -> dict[str, Definition]:
 
 
 def _rational(x: str | int, where: str) -> Fraction:
-    """Parse a rational number: either a coefficient of a minimal polynomial, or a decimal that the source of
-    the method prints."""
+    """Parse a rational number: either a coefficient of a minimal polynomial, or a decimal as printed in the
+    publication of the method. Raises TableauError if the number is not rational."""
     try:
         return _fraction(_parsed(x, where))
     except (TypeError, ZeroDivisionError):
@@ -313,7 +315,8 @@ def _decimal(text: str, where: str) -> Constant:
 
 
 def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
-    """Return the table ``[proof]`` of the file. The names in this table are verified."""
+    """Return the table ``[proof]`` of the file, or None if there is none. Raises TableauError if the table
+    refers to unknown names or contradicts the file."""
     given = entry.proof
     if given is None:
         return None
@@ -330,11 +333,17 @@ def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
             raise TableauError(
                 f"the unknown name {name!r}", where=f"{place}.pins", expected=f"one of {', '.join(decimals)}"
             )
-    if (given.reduction == "simplifying") is not bool(given.assumptions):
+    if given.reduction == "simplifying" and not given.assumptions:
         raise TableauError(
-            f"reduction = {given.reduction!r} with {len(given.assumptions)} assumptions",
+            'reduction = "simplifying" without assumptions',
             where=place,
-            expected='assumptions such as { B = 6, C = 3, D = 2 } with reduction = "simplifying" only',
+            expected="assumptions and their orders, such as assumptions = { B = 6, C = 3, D = 2 }",
+        )
+    if given.reduction != "simplifying" and given.assumptions:
+        raise TableauError(
+            f"assumptions with reduction = {given.reduction!r}",
+            where=place,
+            expected='reduction = "simplifying", or no assumptions',
         )
     known = {*entry.numbers, *symbolic.expressions}
     for name in given.printed:

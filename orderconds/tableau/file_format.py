@@ -29,21 +29,23 @@ MAX_PARTS = 6
 
 class RootEntry(Struct, forbid_unknown_fields=True):
     """A real root of a polynomial. ``minpoly`` contains the ascending coefficients of the polynomial. The
-    decimal ``near`` identifies the root: no other root is near this decimal."""
+    decimal ``near`` identifies the root: exactly one root differs from it by at most one unit of its last
+    digit."""
 
     minpoly: list[Coefficient]
     near: str
 
 
 class CutoffClaim(Struct, forbid_unknown_fields=True):
-    """The claimed order in a family with the option ``cutoff``."""
+    """The claimed order in a family that has the option ``cutoff``, for one value of this option."""
 
     cutoff: Annotated[int, Meta(ge=0)]
     order: Annotated[int, Meta(ge=1)]
 
 
 class ProofEntry(Struct, forbid_unknown_fields=True):
-    """The equations that the rounded decimals of the file solve (:mod:`orderconds.tableau.unknowns`)."""
+    """The table ``[proof]``: it names the equations that the rounded decimals of the file solve
+    approximately. The keys are explained in :mod:`orderconds.tableau.unknowns`."""
 
     conditions: str
     order: Annotated[int, Meta(ge=1, le=20)]
@@ -61,8 +63,8 @@ value of ``cutoff``."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The keys of every format. The values in the table ``numbers`` have the type :data:`Number`, the values
-    in the table ``claims`` the type :data:`Claim`.
+    """The base class of all formats, with the keys that all of them share. The values in the table
+    ``numbers`` have the type :data:`Number`, the values in the table ``claims`` the type :data:`Claim`.
 
     The key ``order`` is also a claim. It claims the order in the family that has the name of the format.
     """
@@ -79,8 +81,8 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored in named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The name of the array that identifies this format. It is empty for the default format, which is assumed
-    if no array identifies another format."""
+    """The name of an array that identifies this format in a file of arrays. The name is empty for the default
+    format, which is assumed if the file contains no such array."""
     as_products: ClassVar[bool] = False
     """True if a file of arrays stores a tableau of this format as a list of exponentials."""
 
@@ -95,10 +97,12 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
         yield from ()
 
     def verify(self, where: str) -> None:
-        """Raise :class:`TableauError` unless the rows have the right lengths."""
+        """Raise :class:`TableauError` if values of the file contradict each other, for example the lengths of
+        rows."""
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method, given the value of the coefficient at every position."""
+        """Return the method and its embedded method, given the value of the coefficient at every position.
+        The embedded method is None if the file has none."""
         raise TypeError(f"{type(self).__name__} is an abstract format")
 
     def extension(self, values: Mapping[str, Element], ring: Ring) -> Extension | None:
@@ -118,7 +122,7 @@ def row_places(row: list[Coefficient], place: str) -> Places:
 
 
 def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) -> Row:
-    """Return the row at position ``place``, extended by zeros to full length if the row in the file is
+    """Return the row at position ``place``, extended by zeros to length ``s`` if the row in the file is
     shorter.
 
     >>> from orderconds.ring import QQ
@@ -129,7 +133,8 @@ def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) ->
 
 
 def counted(s: int, where: str, noun: str = "stages") -> int:
-    """Return the number of stages s; raise :class:`TableauError` unless 1 <= s <= :data:`MAX_STAGES`.
+    """Return the number s; raise :class:`TableauError` unless 1 <= s <= :data:`MAX_STAGES`. The message calls
+    the counted objects ``noun``.
 
     >>> counted(3, "b")
     3

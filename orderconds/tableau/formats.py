@@ -67,7 +67,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
-        """Check that A has as many rows as b has entries, and that no row of A is longer than b."""
+        """Check that A has as many rows as b has entries, and that the lengths of all other rows fit this
+        number."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.A) != s:
             raise TableauError(
@@ -99,7 +100,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(f"polynomials of degree {degree}", where=where, expected=expected)
 
     def coefficients(self) -> Places:
-        """Yield A by rows, then b, then the embedded weights, then the continuous extension by rows."""
+        """Yield A by rows, then b, then c, then the embedded weights, then the continuous extension by
+        rows."""
         for i, row in enumerate(self.A):
             yield from row_places(row, f"A[{i + 1}]")
         yield from row_places(self.b, "b")
@@ -111,7 +113,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield from row_places(row, f"dense.b[{i + 1}]")
 
     def extension(self, values: Mapping[str, Element], ring: Ring) -> Extension | None:
-        """Return the continuous extension."""
+        """Return the continuous extension, or None if the file has none."""
         if self.dense is None:
             return None
         degree = max(map(len, self.dense.b))
@@ -119,7 +121,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         return Extension(tuple(rows), self.dense.order)
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the Runge-Kutta method, and its embedded weights."""
+        """Return the Runge-Kutta method and its embedded weights, or None in place of missing weights. Raises
+        TableauError if c differs from the row sums of A, or if the embedded weights are equal to b."""
         s = len(self.b)
         A = tuple(filled_row(values, f"A[{i + 1}]", s, ring) for i in range(s))
         method, embedded = RungeKutta(A, filled_row(values, "b", s, ring)), None
@@ -198,21 +201,23 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 class StageEntry(Struct, forbid_unknown_fields=True):
     """A product of exponentials that is applied to stage ``from`` (counted from 1), or to y0 if the key
-    ``from`` is missing. The first exponential acts first."""
+    ``from`` is missing. ``exp`` contains one row of coefficients for each exponential; the first exponential
+    acts first."""
 
     exp: list[list[Coefficient]] = []
     start: int | None = field(default=None, name="from")
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """A second update of lower order that uses the same stages. If the method has s stages, the start s + 1
-    means that the product is applied to the result of the first update."""
+    """A second update of lower order that uses the same stages. In a method of s stages, the value s + 1 of
+    the key ``from`` means that the product is applied to the result of the first update."""
 
     order: Annotated[int, Meta(ge=1)]
 
 
 class LowStorage(Struct, forbid_unknown_fields=True):
-    """A scheme with two registers (2N): K <- A_i K + F(Y), Y <- exp(h B_i K) Y."""
+    """A 2N scheme, which stores only two registers, Y and K. Let F be the vector field and h the step size.
+    Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y."""
 
     A: list[Coefficient]
     B: list[Coefficient]
@@ -269,7 +274,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield "update", self.update
 
     def coefficients(self) -> Places:
-        """Yield the exponentials of the stages and the update, or A and B."""
+        """Yield A and B of a low-storage scheme, or the exponentials of the stages and the update. Then yield
+        the exponentials of the embedded update."""
         if self.low_storage:
             yield from row_places(self.low_storage.A, "low_storage.A")
             yield from row_places(self.low_storage.B, "low_storage.B")
@@ -281,7 +287,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield from row_places(row, f"embedded.exp[{r + 1}]")
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the commutator-free method, and its embedded update."""
+        """Return the commutator-free method and its embedded update, or None in place of a missing update."""
         if self.low_storage:
             s = len(self.low_storage.B)
             A, B = (filled_row(values, f"low_storage.{key}", s, ring) for key in "AB")
@@ -301,7 +307,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
-    """Check that no row is longer than s, and that the product starts from y0 or from an earlier stage."""
+    """Check that no row is longer than s, and that the product starts from y0 or from one of the first
+    ``before`` stages."""
     for r, row in enumerate(entry.exp):
         verify_length(row, s, f"{where}.exp[{r + 1}]")
     if entry.start is not None and not 1 <= entry.start <= before:
@@ -338,8 +345,9 @@ FORMATS: dict[str, type[Format]] = {
 
 
 def array_format(names: Collection[str]) -> str:
-    """Return the format of a tableau whose arrays have these names. Each format is recognised by the name of
-    one array that other formats do not contain.
+    """Return the format of a tableau whose arrays have these names. A format is recognised by the name of one
+    array, its ``distinctive_key``. The arrays of a ``prk`` tableau contain the keys of both ``prk`` and
+    ``rk``; then the alphabetically first format is returned. If no key occurs, the format is ``composition``.
 
     >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
     ('rk', 'prk', 'composition')

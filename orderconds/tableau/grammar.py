@@ -9,11 +9,12 @@ parser reads them, and no text is executed as code.
     power   = atom ["^" (["-"] integer | "(" sum ")")]
     atom    = integer | decimal | decimal "~" | decimal "d" | name | "sqrt" "(" sum ")" | "(" sum ")"
 
-``0.5`` is exactly 1/2; ``0.81772~`` is a ball whose radius is one unit of the last digit;
-``0.3333333333333333d`` is a double, a ball whose radius is a few rounding errors
-(:mod:`orderconds.tableau.doubles`). An exponent is a fraction of integers; ``a^b^c`` is an error, because
-programs disagree on the meaning (a^b)^c or a^(b^c). This module bounds the length of the text, the nesting
-and the exponents. The module :mod:`orderconds.tableau.evaluate` bounds the size of intermediate values.
+``0.5`` is exactly 1/2. ``0.81772~`` is a rounded decimal; it denotes a ball (an interval) whose radius is one
+unit of the last digit. ``0.3333333333333333d`` is a double; it denotes a ball whose radius is a few rounding
+errors (:mod:`orderconds.tableau.doubles`). An exponent is a fraction of integers. ``a^b^c`` is an error,
+because some programs read it as (a^b)^c and others as a^(b^c). This module bounds the length of the text, the
+nesting and the exponents. The module :mod:`orderconds.tableau.evaluate` bounds the size of intermediate
+values.
 """
 
 from __future__ import annotations
@@ -49,14 +50,14 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     @property
     def is_double(self) -> bool:
-        """True if the number was given as a double. The test uses that the radius ``unit`` is a power of ten
-        for every rounded decimal, but for no double."""
+        """True if the number was given as a double. The radius ``unit`` of a rounded decimal is always a
+        power of ten; the radius of a double never is."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 
 
 class Name(Struct, frozen=True, cache_hash=True):
-    """A name defined under ``numbers``."""
+    """A reference to a number that the file defines in its table ``numbers``."""
 
     name: str
 
@@ -87,7 +88,7 @@ ZERO = Constant(Fraction(0))
 def parse(text: str, where: str = "") -> Expression:
     """Parse one coefficient.
 
-    Raises :class:`TableauError` with the position of the error.
+    Raises :class:`TableauError` if the text does not satisfy the grammar. The message contains ``where``.
 
     >>> parse("0.81772~")
     Constant(value=Fraction(20443, 25000), unit=Fraction(1, 100000))
@@ -98,7 +99,8 @@ def parse(text: str, where: str = "") -> Expression:
 
 
 def spell(x: Expression, limit: int | None = None) -> str:
-    """Return the text of an expression. If the text is longer than ``limit``, it is shortened.
+    """Return the text of an expression. If ``limit`` is given, the text is cut off after the first token at
+    which it has more than ``limit`` characters.
 
     >>> [spell(parse(text)) for text in ("-(1 - sqrt(2))*3/4", "2^(-1/3)", "0.50~", "1 - (2 - 3)")]
     ['(-(1 - sqrt(2)))*3/4', '2^(-1/3)', '0.50~', '1 - (2 - 3)']
@@ -151,7 +153,8 @@ def _parts(x: Expression, least: int) -> Iterator[str]:
 
 
 def _constant(x: Constant) -> str:
-    """Return the text of a constant: a decimal if its expansion is finite, else a fraction."""
+    """Return the text of a constant. A double has the suffix ``d``, and a rounded decimal has the suffix
+    ``~``. An exact number is a decimal if its expansion is finite, otherwise a fraction in parentheses."""
     if x.is_double:
         return f"{'-' if x.value < 0 else ''}{Decimal(repr(abs(float(x.value)))):f}d"
     unit = x.unit or next(
@@ -312,7 +315,8 @@ class _Parser:
         return follows
 
     def double(self, content: str) -> Constant:
-        """Return the double nearest to a decimal, with its uncertainty."""
+        """Return the double nearest to a decimal, as a ball. Zero is exact. Raises TableauError if the
+        decimal is too large for a double."""
         x = float(content)
         if x == inf:
             raise self.error(f"{content[:20]} ... in {self.shown()}", "a number in the range of doubles")

@@ -33,7 +33,8 @@ def _files() -> dict[str, Path]:
 
 
 def available() -> tuple[str, ...]:
-    """Return the sorted names of all tableaux. Each file has the name of its tableau.
+    """Return the sorted names of all tableaux. The name of a tableau is the name of its file without the
+    suffix ``.toml``.
 
     >>> "gauss2" in available()
     True

@@ -42,7 +42,8 @@ _SMALLER = 0.8
 """The ratio of the width of a digit in a fraction, an index or an exponent to its normal width."""
 
 _SMALLEST = 0.68
-"""The same ratio for the smallest font, which is used for a fraction inside a fraction."""
+"""The least ratio of the width of a digit to its normal width. It applies to the smallest font, for example
+to a fraction inside a fraction."""
 
 
 def width(latex: str) -> float:
@@ -55,7 +56,7 @@ def width(latex: str) -> float:
 
 
 class _Reader:
-    """A reader of a formula, token by token."""
+    """The computation of the width of a formula, token by token."""
 
     def __init__(self, latex: str) -> None:
         self.tokens = _TOKEN.findall(latex)
@@ -128,8 +129,9 @@ def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
 
 
 def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
-    r"""Yield the lines of an equation for the environment ``aligned``. A line is broken between two parts.
-    ``free`` is the width that is available for a right-hand side.
+    r"""Yield the lines of an equation for the environment ``aligned``. ``left`` is the left-hand side, and
+    ``parts`` are the parts of the right-hand side. A new line begins only at the start of a part. ``free`` is
+    the width that is available for a right-hand side.
 
     >>> list(lines("x", ["a + b", " + c"], 30))
     ['x &= a + b', '&\\quad  + c']

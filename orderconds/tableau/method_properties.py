@@ -1,6 +1,7 @@
 """Properties of methods, as identities between their coefficients.
 
-Each property is True, False, or None if the coefficients are balls too wide to decide.
+Each property is True or False. It is None if the coefficients are balls (intervals) that are too wide to
+decide.
 """
 
 from __future__ import annotations
@@ -70,7 +71,8 @@ def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
-    """Return True if the pair is symplectic for H = T(p) + V(q): b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
+    """Return True if the pair is symplectic for separable Hamiltonians H = T(p) + V(q): b_i ahat_ij + bhat_j
+    a_ji = b_i bhat_j.
 
     The source is HLW Theorem VI.4.6.
 
@@ -104,7 +106,7 @@ def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is stiffly accurate: a_sj = b_j.
+    """Return True if the method is stiffly accurate: a_sj = b_j for all j, where s is the number of stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -154,9 +156,9 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Return True if a step of length -h undoes a step of length h (HLW V.3).
 
-    The condition for an adjoint pair is alpha_{s+1-i} = beta_i. A splitting satisfies the condition if the
-    list of its flows is equal to the reversed list. The condition for a Magnus method is in
-    :mod:`orderconds.tableau.reversal`.
+    A composition of s pairs, with the steps alpha_i h of a basic method and beta_i h of its adjoint, is
+    symmetric if alpha_{s+1-i} = beta_i. A splitting is symmetric if the list of its flows is equal to the
+    reversed list. The condition for a Magnus method is in :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

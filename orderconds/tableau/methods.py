@@ -46,8 +46,9 @@ class RungeKutta:
         """Return the Crouch-Grossman method of the tableau: one exponential for each non-zero a_ij, in the
         order of increasing j.
 
-        Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0. In the update, b_j replaces a_ij (HLW IV.8.3,
-        (1.4)). A coefficient is skipped only if it is proved to be zero.
+        Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0. Here k_j is the vector field at stage j. In the
+        update, b_j replaces a_ij (HLW IV.8.3, (1.4)). A coefficient is skipped only if it is proved to be
+        zero.
         """
 
         def product(row: Row) -> Stage:
@@ -92,8 +93,8 @@ class PartitionedRungeKutta:
 class Stage:
     """A product of exponentials that acts on stage ``start``, or on y0 if ``start`` is None.
 
-    ``exponentials`` are rows of length s. A row beta denotes exp(h sum_j beta_j k_j). The first row acts
-    first.
+    ``exponentials`` contains one row for each exponential. A row beta has one entry for each stage j, and
+    denotes exp(h sum_j beta_j k_j), where k_j is the vector field at stage j. The first row acts first.
     """
 
     start: int | None
@@ -155,7 +156,7 @@ class CommutatorFree:
 
 def _reduced(rows: tuple[Row, ...], ring: Ring) -> list[Row]:
     """Return the reduced product of exponentials: zero exponents are removed, and neighbouring exponentials
-    that commute are combined."""
+    with proportional exponents are combined. Two such exponentials commute."""
     kept: list[Row] = []
     for row in rows:
         if kept and _proportional(kept[-1], row, ring):

@@ -30,8 +30,9 @@ from orderconds.tableau.products import AdjointComposition, Magnus, Method, Spli
 
 
 class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "composition"``: the steps gamma of a symmetric method of order 2, or the steps alpha and
-    beta of a method and its adjoint."""
+    """``family = "composition"``: a composition of basic steps. The file contains either the steps gamma of a
+    symmetric basic method of order 2, or the steps alpha of any basic method and the steps beta of its
+    adjoint."""
 
     base: Literal["symmetric-2", "adjoint-pair"]
     gamma: list[Coefficient] | None = None
@@ -42,12 +43,13 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return the kind of the basic method. The keys of the steps (gamma, or alpha and beta) determine
-        it."""
+        """Return the value of the key ``base``: ``symmetric-2`` if ``names`` contains gamma, otherwise
+        ``adjoint-pair``."""
         return {"base": "symmetric-2" if "gamma" in names else "adjoint-pair"}
 
     def verify(self, where: str) -> None:
-        """Check that the given steps fit the basic method, and that alpha and beta have the same length."""
+        """Check that the file contains gamma for the base ``symmetric-2``, or alpha and beta of the same
+        length for the base ``adjoint-pair``."""
         pair = self.base == "adjoint-pair"
         for key, row in (("gamma", self.gamma), ("alpha", self.alpha), ("beta", self.beta)):
             if (row is None) is (pair is (key != "gamma")):
@@ -85,8 +87,8 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "splitting"``: flows of named parts; ``rkn`` is the name of the part V if [V,[V,[V,T]]] =
-    0."""
+    """``family = "splitting"``: a product of flows of the named parts of a vector field. The optional key
+    ``rkn`` names one of two parts, V. It states that [V,[V,[V,T]]] = 0, where T is the other part."""
 
     parts: list[str]
     step: list[tuple[str, Coefficient]]
@@ -132,10 +134,11 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "magnus"``: nodes c, and exponents as tables of brackets. Nodes are counted from 1.
+    """``family = "magnus"``: nodes c, and one table for each exponent. The keys of a table are terms, such as
+    nodes or brackets of nodes, and the values are their coefficients. Nodes are counted from 1.
 
     ``elements`` defines Lie elements with names. Later elements and the exponents may contain these names.
-    ``map`` is ``exp`` or ``cay``.
+    ``map`` is the map to the group: ``exp`` (exponential) or ``cay`` (Cayley transform).
     """
 
     c: list[Coefficient]

@@ -24,8 +24,8 @@ class Splitting:
     """A splitting method, which is a product of flows of the parts of a vector field. The step (k, x) is the
     flow of part k over the time x h.
 
-    ``parts`` contains the names of the parts. ``rkn`` is the part V with [V,[V,[V,T]]] = 0
-    (Runge-Kutta-Nystroem), or None.
+    ``parts`` contains the names of the parts. For two parts T and V with [V,[V,[V,T]]] = 0
+    (Runge-Kutta-Nystroem), ``rkn`` is the index of V in ``parts``; otherwise it is None.
 
     >>> Splitting(("T", "V"), ((0, 1), (1, 1)), rkn=1).s
     2
@@ -75,7 +75,8 @@ class AdjointComposition:
         return AdjointComposition(alpha, beta)
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the tableau with the explicit Euler method as Phi and the implicit Euler method as Phi*.
+        """Return the composition as a Runge-Kutta tableau, where Phi is the explicit Euler method and Phi* is
+        the implicit Euler method.
 
         Phi_{alpha h} Phi*_{beta h} evaluates f at only one argument, which is the stage of this pair. Hence
         b_i = beta_i + alpha_i, a_ii = beta_i, a_ij = b_j for j < i (HLW, Section II.4).
@@ -101,8 +102,8 @@ class AdjointComposition:
 
 
 MOST_WORDS = 10_000
-"""The largest number of products of nodes for which the brackets in exponents are expanded. Exponents with
-more products are compared without expansion."""
+"""The brackets in the exponents of a Magnus method are expanded only if the expansion contains at most this
+number of products of nodes."""
 
 
 @dataclass(frozen=True)
@@ -110,8 +111,8 @@ class Magnus:
     """A method for Y' = A(t) Y: a product of exponentials of combinations of brackets of A_i = h A(c_i h).
 
     ``exponents`` are combinations of brackets; the exponential of the first combination acts first.
-    ``elements`` are Lie elements, to which later elements and the exponents may refer. ``transform`` is
-    ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1 (1 + x/2).
+    ``elements`` are pairs of a name and a Lie element; later elements and the exponents may contain the name.
+    ``transform`` is ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     >>> from orderconds.ring import QQ
     >>> Magnus((QQ.rational(1, 2),), (((0, QQ.one),),)).is_commutator_free(QQ)
@@ -142,8 +143,8 @@ class Magnus:
         )
 
     def words(self, ring: Ring) -> tuple[NodeSeries, ...]:
-        """Return each exponent as a combination of words of nodes. The nodes of a word are in the order of
-        action and are counted from 0."""
+        """Return each exponent as a combination of words of nodes. The nodes are counted from 0, and the
+        first node of a word acts first: (i, j) denotes the product A_j A_i."""
         named: dict[str, NodeSeries] = {}
         for name, combination in self.elements:
             named[name] = expand(combination, named, ring)
@@ -156,12 +157,14 @@ class Magnus:
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Return True if the exponents contain few enough products for :meth:`words` to expand them."""
+        """Return True if the exponents expand to at most :data:`MOST_WORDS` products of nodes, so that
+        :meth:`words` is fast enough."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Return True if every exponent is a linear combination of the A_i, without brackets."""
+        """Return True if every exponent is a linear combination of the A_i, without brackets. Return False
+        also if the exponents contain too many products to expand."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)

@@ -1,6 +1,7 @@
 """Properties of a tableau, computed from its coefficients.
 
-Each property is True, False, or None if the coefficients are balls too wide to decide.
+Each property is True or False. It is None if it cannot be decided, for example because the coefficients are
+balls (intervals) that are too wide.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ from orderconds.tableau.two_registers import Rewriting, two_registers
 
 
 def properties(tableau: Tableau) -> dict[str, Verdict]:
-    """Return the properties that are defined for this tableau, in the order of :data:`PROPERTIES`.
+    """Return the properties that are defined for this tableau, in the order of
+    :data:`orderconds.tableau.method_properties.PROPERTIES`.
 
     For a commutator-free method these are ``explicit``, ``symmetric``, ``fsal`` and ``low_storage``.
 
@@ -58,8 +60,8 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     """Return the scheme with two registers (2N) that is equal to the method, or the reason why there is none.
     Return None for a method that is neither a tableau (A, b) nor a commutator-free method.
 
-    Let the file have a ``[proof]``. If the method is a 2N scheme for all values of the rounded decimals,
-    ``holds`` of the result is True.
+    If balls are too wide to decide and the file has a ``[proof]``, random numbers replace the rounded
+    decimals. If the method with random numbers is a 2N scheme, ``holds`` of the result is True.
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
@@ -103,8 +105,8 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Return True if a product of exponentials is symmetric for all values of its rounded decimals; None if
-    this is undecided."""
+    """Return True if the method is symmetric for all values of its rounded decimals. The test replaces the
+    decimals by random numbers. If the test fails, or if the file has no ``[proof]``, the result is None."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember

@@ -1,8 +1,9 @@
-"""Coefficients from Python: integers, fractions, texts, floats, SymPy numbers, and rows of them.
+"""Conversion of Python numbers to coefficients of a tableau file. The numbers are integers, fractions, texts,
+floats, SymPy numbers, and rows of them.
 
-The result is a coefficient of a tableau file. A float is converted to the text of a double
-(:mod:`orderconds.tableau.doubles`). A text must satisfy the grammar of tableau files. Error messages name the
-wrong entry, such as ``A[2][1]``, with indices that count from 1.
+A float is converted to the text of a double (:mod:`orderconds.tableau.doubles`). A text must satisfy the
+grammar of tableau files. Error messages name the wrong entry, such as ``A[2][1]``, with indices that count
+from 1.
 """
 
 from __future__ import annotations
@@ -23,8 +24,7 @@ EXPECTED = (
 
 
 SMALL = 1024
-"""The largest denominator with which a floating-point number of less than 64 bits counts as an exact
-number."""
+"""A NumPy float of less than 64 bits counts as an exact number if its denominator is at most this number."""
 
 
 class _Listed(Protocol):
@@ -42,8 +42,8 @@ class _Narrow(Protocol):
 def coefficient(x: object, where: str) -> Coefficient:
     """Return a number as the coefficient of a tableau file.
 
-    Floats of NumPy with less than 64 bits become rounded decimals (``~``). TableauError is raised for
-    complex numbers, infinities, NaN and all other objects.
+    A NumPy float of less than 64 bits becomes a rounded decimal (``~``), unless its denominator is small.
+    Raises TableauError for complex numbers, infinities, NaN, truth values and objects that are not numbers.
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]
@@ -88,7 +88,7 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
     """Return a floating-point number of less than 64 bits as a coefficient. The coefficient is exact if its
-    denominator is small, otherwise it is a rounded decimal."""
+    denominator is small; otherwise it is a decimal rounded to ``digits`` significant digits."""
     text = double_text(x, where)
     if Fraction(x).denominator <= SMALL:
         return text
@@ -114,7 +114,7 @@ def _of_sympy(x: object, where: str) -> Coefficient:
 
 
 def row(values: object, where: str) -> list[Coefficient]:
-    """Return the coefficients of a sequence of numbers.
+    """Return the coefficients of a sequence of numbers. Error messages call the sequence ``where``.
 
     >>> row((0, 0.5, "1/2"), "b")
     [0, '0.5', '1/2']
@@ -123,7 +123,8 @@ def row(values: object, where: str) -> list[Coefficient]:
 
 
 def matrix(values: object, where: str) -> list[list[Coefficient]]:
-    """Return the coefficients of rows of numbers.
+    """Return the coefficients of a matrix, given by rows of numbers. Error messages call the matrix
+    ``where``.
 
     >>> matrix([[], [0.5]], "A")
     [[], ['0.5']]

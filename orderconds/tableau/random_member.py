@@ -4,9 +4,10 @@ and the radicals.
 If an identity holds for the random numbers, it holds for all values of the decimals, except with negligible
 probability. The reason is a theorem. Let each coordinate of a point be drawn at random from 2^128 numbers.
 Two different rational functions of degree at most D then have the same value at this point with probability
-at most D / 2^128 (Schwartz 1980; Zippel 1979). The numbers are computed from a digest of the file. Hence
-nobody can construct a file for which the test gives a wrong result. All computations are exact computations
-with rational numbers, not computations modulo primes.
+at most D / 2^128 (Schwartz 1980; Zippel 1979). The random numbers are computed from a digest of all
+coefficients in the file. A change of a coefficient changes all random numbers. Hence nobody can construct a
+file for which the test gives a wrong result. All computations are exact computations with rational numbers,
+not computations modulo primes.
 """
 
 from __future__ import annotations
@@ -26,8 +27,9 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""The number of bits of a random number. The degree D in the bound D / 2^128 is far below 2^40, because the
-size of all intermediate values is limited."""
+"""The number of bits of a random number. A test of an identity of degree D gives a wrong result with
+probability at most D / 2^128. The degree D is far below 2^40, because the size of all intermediate values is
+limited."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """The errors that are raised if a random method cannot be evaluated, because numbers grow too large or a
@@ -77,7 +79,8 @@ class RandomMember(Rationals):
 
 
 def description(symbolic: SymbolicCoefficients) -> str:
-    """Return a text that determines the coefficients as functions of the decimals.
+    """Return a text that contains all coefficients and named numbers of a file, as parsed expressions. The
+    random numbers are computed from a digest of this text.
 
     >>> from orderconds.tableau import Tableau
     >>> file = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]').file
@@ -88,7 +91,7 @@ def description(symbolic: SymbolicCoefficients) -> str:
 
 
 def radicals(symbolic: SymbolicCoefficients) -> tuple[Power, ...]:
-    """Return the different radicals in a file.
+    """Return the different radicals in a file. A radical is a power with an exponent that is not an integer.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["sqrt(3)"]\\nnumbers.a = "0.5~*sqrt(3)"\\n'

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RealNumber:
-    """A real number that is not a fraction. ``text`` is the number as a tableau file contains it.
+    """A real number that is not given as a fraction. ``text`` is the number in the grammar of tableau files,
+    and ``nearest`` is the nearest double.
 
     ``float(x)`` returns the nearest double. Therefore NumPy can convert arrays of such numbers:
     ``numpy.array(tableau.A, dtype=float)``.
@@ -53,12 +54,13 @@ class RealNumber:
 
 
 Value = Fraction | float | RealNumber
-"""A coefficient: a fraction if it is rational, a float if it was given as a float, else a real number."""
+"""A coefficient: a Fraction if it is an exact rational number in its ring; otherwise a float if the tableau
+contains doubles, else a RealNumber."""
 
 
 def value_of(x: Element, ring: Ring, doubles: bool = False) -> Value:
-    """Return an element of a ring as a value for a Python user. If ``doubles`` is true, balls are returned as
-    floats, because the coefficients were given as floats.
+    """Return an element of a ring as a value for a Python user. An exact rational number in the ring becomes
+    a Fraction. Every other element becomes a float if ``doubles`` is true, otherwise a :class:`RealNumber`.
 
     >>> from orderconds.ring import QQ
     >>> value_of(QQ.one / 2, QQ)

@@ -39,7 +39,8 @@ from orderconds.tableau.write import as_data
 
 @dataclass(frozen=True, repr=False)
 class Tableau:
-    """A named method over ``ring``; ``family`` is the format of its file: ``rk``, ``prk``, ``cf``, ...
+    """A named method with coefficients in ``ring``; ``family`` is the format of its file: ``rk``, ``prk``,
+    ``cf``, ...
 
     :meth:`rk` and :meth:`cf` build a tableau from numbers, :meth:`load` reads a file or the library.
 
@@ -76,7 +77,7 @@ class Tableau:
         name: str = "tableau",
         source: str = "",
     ) -> Tableau:
-        """Return the Runge-Kutta method with the coefficients A, of s rows, and the s weights b.
+        """Return the Runge-Kutta method with the matrix A, which has s rows, and the s weights b.
 
         Numbers are integers, fractions, texts such as ``"1/4 - sqrt(3)/6"``, numbers of SymPy, or floats; A
         and b are lists, arrays of NumPy or matrices of SymPy. A float with a small denominator, such as 0.5,
@@ -159,9 +160,10 @@ defined under numbers (none)
 
     @property
     def A(self) -> tuple[tuple[Value, ...], ...]:
-        """The rows of A. A rational entry is a fraction, an entry that was given as a float is a float, and
-        every other entry is a :class:`~orderconds.tableau.real_number.RealNumber`. For a commutator-free
-        method, A contains the sums of the coefficients over all exponentials of a stage."""
+        """The rows of A. An entry that is an exact rational number in the ring of the tableau is a Fraction.
+        If the tableau contains doubles, every other entry is a float; otherwise it is a
+        :class:`~orderconds.tableau.real_number.RealNumber`. For a commutator-free method, A contains the sums
+        of the coefficients over all exponentials of a stage."""
         return tuple(self._values(x) for x in self.abelian().A)
 
     @property
@@ -192,8 +194,8 @@ defined under numbers (none)
 
     @cached_property
     def orders(self) -> dict[str, int]:
-        """The computed orders of the tableau in all families to which the method belongs, by the label of the
-        family: ``{"rk": 4, ...}``.
+        """The computed order of the method in each family to which the method belongs. The keys are the
+        labels of the families: ``{"rk": 4, ...}``.
 
         :func:`orderconds.check` also returns certificates and failing conditions.
         """
@@ -258,12 +260,12 @@ defined under numbers (none)
         return replace(self, method=lower, embedded=None, proof=None, file=None)
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
-        """Return the method, converted to the first of these formats to which a conversion exists; None if
-        there is no conversion.
+        """Return the method in the first of these formats in which the method is given or to which it can be
+        converted. Return None if there is no such format.
 
-        No conversion is needed if the format of the file is wanted. A composition of a symmetric method can
-        be converted to ``rk`` as a composition of midpoint rules. A composition of an adjoint pair can be
-        converted to ``rk`` as a composition of Euler methods, and to ``splitting``.
+        A composition of a symmetric method can be converted to ``rk`` as a composition of midpoint rules. A
+        composition of an adjoint pair can be converted to ``rk`` as a composition of Euler methods, and to
+        ``splitting``.
         """
         method = self.method
         for wanted in formats:
@@ -345,8 +347,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that the keys define. The order of an embedded method is computed. It is the order
-    of the embedded method on vector spaces."""
+    """Return the tableau that the keys in ``data`` define. If it has an embedded method, the order of this
+    method on vector spaces is computed and stored as its claimed order."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:

@@ -1,12 +1,15 @@
 """Symmetry of Magnus methods: a method is symmetric if a step of length -h undoes a step of length h.
 
-In the step of length -h from the end point, the value at node i is -A_{s+1-i}, if the nodes are symmetric
-about 1/2. This reverse step undoes the step of length h under one condition: for each k, the substitution of
--A_{s+1-i} for A_i changes the k-th exponent to the negative of the k-th exponent from the end. A combination
-of nodes is called odd if this substitution changes its sign, and even if it does not change the combination.
-The parity of a bracket or product follows from the parities of its factors. If a method has only one exponent
-and this exponent is odd, the condition is satisfied, and the method is recognised as symmetric without
-expansion of nested brackets. In all other cases exponents are compared as combinations of products of nodes.
+Let A_i = h A(c_i h) be the value at node i of s nodes c_i that are symmetric about 1/2. In the step of length
+-h from the end point, the value at node i is -A_{s+1-i}. This reverse step undoes the step of length h under
+one condition: for each k, the substitution of -A_{s+1-i} for A_i changes the k-th exponent to the negative of
+the k-th exponent from the end.
+
+A combination of the A_i is called odd if this substitution changes its sign, and even if it does not change
+the combination. The parity of a bracket or product follows from the parities of its factors. If a method has
+only one exponent and this exponent is odd, the condition is satisfied, and the method is recognised as
+symmetric without expansion of nested brackets. In all other cases exponents are compared as combinations of
+products of nodes.
 """
 
 from __future__ import annotations
@@ -46,7 +49,7 @@ def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
 
 def sign(method: Magnus, ring: Ring) -> int | None:
     """Return the parity of the first exponent under the substitution A_i -> -A_{s+1-i}: -1 if the exponent is
-    odd, 1 if it is even, None if it is neither.
+    odd, 1 if it is even, None if it is neither or if this is undecided.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

@@ -12,7 +12,8 @@ from orderconds.tableau.methods import RungeKutta
 
 
 def simplifying_order(B: int, C: int, D: int) -> int:
-    """Return the order that B(p), C(q), D(r) imply.
+    """Return the order that the assumptions B(p), C(q), D(r) imply. The arguments B, C, D are the numbers p,
+    q, r.
 
     >>> simplifying_order(6, 3, 2), simplifying_order(10, 5, 5)
     (6, 10)
@@ -21,8 +22,9 @@ def simplifying_order(B: int, C: int, D: int) -> int:
 
 
 def simplifying(method: RungeKutta, ring: Ring, assumptions: Mapping[str, int]) -> Iterator[Element]:
-    """Yield the left-hand side minus the right-hand side of each equation of B(p), C(q) and D(r). The number
-    k runs from 1 to p in B, from 1 to q in C, and from 1 to r in D.
+    """Yield the left-hand side minus the right-hand side of each equation of B(p), C(q) and D(r). The mapping
+    ``assumptions`` contains p, q, r under the keys B, C, D. The number k runs from 1 to p in B, from 1 to q
+    in C, and from 1 to r in D.
 
     B: sum_i b_i c_i^(k-1) = 1/k; C: sum_j a_ij c_j^(k-1) = c_i^k/k (k = 1 is omitted, because this equation
     defines c); D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k.
@@ -75,7 +77,8 @@ def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
 
 
 def _simplifies(algebra: NodalAlgebra, m: int) -> bool:
-    """Return True if C(m) and D(m) hold. The test uses only polynomials with rational coefficients."""
+    """Return True if C(m) and D(m) hold. In ``algebra``, vectors over the stages are polynomials in the nodes
+    with rational coefficients, so the test needs no other numbers."""
     stages = range(int(algebra.modulus.degree()))
     powers = [fmpq_poly([0] * k + [1]) % algebra.modulus for k in range(max(m + 1, len(stages)))]
     for k in range(1, m + 1):

@@ -27,24 +27,25 @@ coefficients."""
 
 
 LARGEST = 100
-"""The largest number of stages in an implicit block of A for which stability is decided. For a rational block
-of this size, the computation with flint takes a second."""
+"""Stability is decided only if no diagonal block of the block triangular matrix A has more rows than this.
+For a rational block of this size, the computation with flint takes a second."""
 
 EFFORT = 10**11
-"""The limit on the work over number fields other than Q. The unit of work is the multiplication of one bit by
-one bit; work up to the limit takes about a second. The limit is necessary because the remainders in Euclid's
-algorithm grow fast."""
+"""The limit on the work of polynomial operations in the field of the coefficients. The unit of work is the
+multiplication of one bit by one bit; work up to the limit takes about a second. The limit is necessary
+because the coefficients of the remainders in Euclid's algorithm grow fast."""
 
 
 class SignedRing(Ring, Protocol):
     """A ring whose elements have signs."""
 
     def sign(self, x: Element) -> int | None:
-        """Return the sign, or None if the ring cannot decide."""
+        """Return the sign (-1, 0 or 1), or None if the ring cannot decide."""
 
 
 class StabilityFunction(Struct, frozen=True):
-    """R = numerator/denominator in lowest terms, over an exact field with signs."""
+    """The stability function R = numerator/denominator in lowest terms. Both polynomials are given by their
+    ascending coefficients in an exact field with signs."""
 
     numerator: tuple[Element, ...]
     denominator: tuple[Element, ...]
@@ -93,10 +94,11 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
 
 def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
     """Return the result of :func:`stability` for a composition of midpoint rules with step sizes gamma_i h.
-    Its stability function is R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
+    The stability function of the composition is R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    |R| = 1 on the imaginary axis and at infinity. A negative gamma_i gives a pole in the left half plane. If
-    another step size is equal to -gamma_i, the factor of that step size cancels this pole.
+    |R| = 1 on the imaginary axis and at infinity. Hence the composition is never L-stable. A negative gamma_i
+    gives a pole in the left half plane, unless gamma_j = -gamma_i for some j: then the factors of gamma_i and
+    gamma_j cancel.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}
@@ -143,7 +145,8 @@ class _Limited:
 
 
 def _bits(x: Element) -> int:
-    """Return the number of bits of an element of Q or of a number field."""
+    """Return the largest number of bits of a rational coefficient of x, an element of Q or of a number field.
+    The bits of the numerator and of the denominator are added."""
     coefficients = x.polynomial.coeffs() if hasattr(x, "polynomial") else [x]
     return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
 
@@ -221,8 +224,8 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
-    """Return True if every zero of Q has positive real part. This holds if Routh's scheme of Q(-z) has no
-    change of sign.
+    """Return True if every zero of Q has positive real part. This is the case if and only if the first column
+    of Routh's scheme of Q(-z) has no zero and no change of sign.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
     [True, False]

@@ -1,16 +1,17 @@
 """Schemes with two registers (2N): K <- A_i K + F(Y), Y <- exp(h B_i K) Y, and their recognition in tableaux.
 
-The state Y and one element K of the Lie algebra are all that a step stores (Williamson, J. Comput. Phys. 35
-(1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). As a commutator-free method a 2N scheme
-has one exponential for each stage, and each stage begins where the previous stage ended. On a vector space, a
-2N scheme is a Runge-Kutta method. Row i + 1 of A minus row i is B_i K_i, as a combination of F_1, ..., F_s;
-here b counts as row s + 1.
+Here F is the vector field and h is the step size. A step stores only the state Y and one element K of the Lie
+algebra (Williamson, J. Comput. Phys. 35 (1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225).
+As a commutator-free method a 2N scheme has one exponential for each stage, and each stage begins where the
+previous stage ended. On a vector space, a 2N scheme is a Runge-Kutta method. Let F_1, ..., F_s be the vector
+field at its stages, and let row s + 1 of its matrix be b. Then row i + 1 minus row i contains the
+coefficients of F_1, ..., F_s in B_i K_i.
 
 The recognition compares the increment from each stage to the next, or to the update, with B_i K_i, where K_i
-= F_i + sum_{j < i} A_{j+1} ... A_i F_j. The coefficient of F_i in an increment is B_i, and A_i is the
-quotient of the coefficients of F_{i-1} and F_i. If B_i is zero, a later increment gives A_i. At the end, the
-increments of the scheme are compared with those of the tableau. This is necessary because the quotients use
-only some of the coefficients.
+= F_i + sum_{j < i} A_{j+1} ... A_i F_j. In the increment that begins at stage i, the coefficient of F_i is
+B_i, and A_i is the quotient of the coefficients of F_{i-1} and F_i. If B_i is zero, a later increment gives
+A_i. These quotients use only some of the coefficients. Therefore all increments of the scheme are then
+compared with those of the tableau.
 """
 
 from __future__ import annotations
@@ -37,7 +38,8 @@ class TwoRegisters:
         return len(self.B)
 
     def increments(self, ring: Ring) -> tuple[Row, ...]:
-        """Return the rows B_i K_i, one for each stage, as combinations of F_1, ..., F_s.
+        """Return, for each stage i, the coefficients of B_i K_i as a combination of F_1, ..., F_s. F_j is the
+        vector field at stage j, and K_i is the content of the register K at stage i.
 
         >>> from orderconds.ring import QQ
         >>> half, two = QQ.rational(1, 2), QQ.rational(2)
@@ -72,7 +74,8 @@ class Rewriting:
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     """Return the 2N scheme that is equal to ``method``, or the reason why there is none.
 
-    A tableau (A, b) is compared on a vector space, a commutator-free method on every group.
+    A tableau (A, b) needs to be equal to the scheme on vector spaces only, a commutator-free method on every
+    group.
 
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
@@ -103,8 +106,8 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
     """Return the last exponent of the second update if the second update is the update followed by one
     exponential. Otherwise, return None.
 
-    Let this exponent be sum_i D_i F_i. The second update then needs only one additional register, E <- E +
-    D_i F_i.
+    Let this exponent be sum_i D_i F_i, where F_i is the vector field at stage i. The second update then needs
+    only one additional register E, to which stage i adds D_i F_i.
 
     >>> from orderconds.tableau import Tableau, find
     >>> pair = Tableau.load(find("cf43"))
@@ -134,13 +137,14 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"the denominator of A_{i + 1} is zero: in the increment of stage {m + 1}, the coefficient "
                 f"of k_{i + 1} is 0, but the coefficient of k_{i} is {ring.text(rows[m][i - 1])}"
             )
-    # If ``above`` is empty, no increment from number i on contains F_{i-1}. Every value of A_i is then
-    # correct, and zero is returned.
+    # At this point, all denominators of A_i are zero. If ``above`` is empty, no increment from number i on is
+    # known to contain F_{i-1}. Then A_i is arbitrary, and zero is returned.
     return Rewriting(False, reason=above) if above else ring.zero
 
 
 def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
-    """Compare every coefficient of the scheme with the corresponding coefficient of the method."""
+    """Compare the increments of the scheme with ``rows``, the increments of the method. Return the scheme, or
+    the reason why the method is not equal to it."""
     holds: Verdict = True
     for i, (row, expected) in enumerate(zip(rows, scheme.increments(ring), strict=True)):
         for j, (x, y) in enumerate(zip(row, expected, strict=True)):

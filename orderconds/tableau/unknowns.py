@@ -1,8 +1,8 @@
 """The rounded decimals of a file as unknowns of equations, and the ``[proof]`` table of the file.
 
-A decimal with ``~`` approximates a number without a known closed form. With a ``[proof]`` table it is an
-unknown: the exact coefficients solve the order conditions that the table names, and are near the decimals of
-the file.
+A decimal with ``~`` approximates a number without a known closed form. In a file with a ``[proof]`` table,
+such a decimal is an unknown of the order conditions that the table names. The exact coefficients solve these
+conditions and are near the decimals.
 
 ::
 
@@ -44,7 +44,8 @@ class RootedRing(Ring, Protocol):
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal of a file, given by its name and its absolute value."""
+    """A rounded decimal of a file. ``constant`` is the decimal without its sign, because a minus sign counts
+    as an operation on the decimal."""
 
     name: str
     constant: Constant
@@ -52,7 +53,8 @@ class Unknown(Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Proof:
-    """The equations whose approximate solution is given by the decimals of a file.
+    """The table ``[proof]`` of a file: equations of which the rounded decimals in the file are an approximate
+    solution.
 
     The equations are solved for ``unknowns``. The decimals in ``pinned`` count as exact numbers. ``printed``
     contains the decimals as they are printed in the source.
@@ -103,7 +105,8 @@ class SymbolicCoefficients(Struct, frozen=True):
         return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 
     def decimals(self) -> tuple[Unknown, ...]:
-        """Return every rounded decimal, named numbers first, in the order of the file."""
+        """Return every different rounded decimal, named numbers first, in the order of the file. If one
+        number or coefficient contains several decimals, their values become part of their names."""
         names_of: dict[Constant, str] = {}
         for name, definition in (*self.numbers.items(), *self.expressions.items()):
             for constant in rounded_and_exact(definition):

@@ -23,8 +23,8 @@ from orderconds.tableau.record import Tableau
 
 @dataclass(frozen=True)
 class Work:
-    """Field evaluations, exponentials and brackets of one step. Exponentials and brackets are None for
-    methods that are not Lie group methods."""
+    """Field evaluations, exponentials and brackets of one step. Exponentials and brackets are None if they
+    are not counted, for example for classical Runge-Kutta methods."""
 
     evaluations: int
     exponentials: int | None = None
@@ -36,8 +36,8 @@ class Work:
 
 
 def evaluations(tableau: Tableau) -> Work | None:
-    """Return the number of field evaluations of a step, or None if the cost of a method of this format is not
-    counted in field evaluations.
+    """Return the number of field evaluations of a step, or None for a method whose cost is not counted in
+    field evaluations, such as a splitting.
 
     >>> from orderconds.tableau import find
     >>> evaluations(Tableau.load(find("rk4")))
@@ -53,7 +53,8 @@ def evaluations(tableau: Tableau) -> Work | None:
 
 def commutator_free_work(tableau: Tableau) -> Work | None:
     """Return the cost of a step of a commutator-free method. A Butcher tableau is interpreted as a
-    Crouch-Grossman method.
+    Crouch-Grossman method. For a method that cannot be interpreted in this way, return the result of
+    :func:`evaluations`.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> commutator_free_work(heun)
@@ -72,7 +73,7 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
     """Return the cost of a step of a Crouch-Grossman method, which has one exponential for each non-zero
-    coefficient of the Butcher tableau.
+    coefficient of the Butcher tableau. For a commutator-free method, only field evaluations are counted.
 
     >>> from orderconds.tableau import find
     >>> crouch_grossman_work(Tableau.load(find("cg3")))
@@ -84,7 +85,8 @@ def crouch_grossman_work(tableau: Tableau) -> Work | None:
 
 
 def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
-    """Return the cost of a step with dexpinv truncated after the power ``cutoff``.
+    """Return the cost of a step of the RKMK method in which dexpinv is truncated after the power ``cutoff``.
+    For a method without a Butcher tableau, return the result of :func:`evaluations`.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> munthe_kaas_work(heun, 1)
@@ -186,6 +188,7 @@ def _nested(cutoff: int | None) -> int:
 
 
 def _distinct(rows: Sequence[Sequence[Element]], ring: Ring) -> int:
-    """Return the number of different non-zero exponents."""
+    """Return the number of different non-zero exponents. ``rows`` contains the coefficients of each
+    exponent."""
     moving = [row for row in rows if any(ring.is_zero(x) is not True for x in row)]
     return len({tuple(ring.key(x) for x in row) for row in moving})

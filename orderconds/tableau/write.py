@@ -32,8 +32,9 @@ Spell = Callable[[Element], str]
 def dumps(tableau: Tableau) -> str:
     """Return the tableau as TOML text.
 
-    Coefficients from a file keep their text, names, decimals and proof. Other coefficients are written in
-    full; a ball is written with the digits that are correct to one unit in the last place (``~``).
+    If the coefficients are those of a file, the texts, named numbers and proof of the file are kept.
+    Otherwise, the coefficients are written in full (:func:`without_names`); a ball is written with the digits
+    that are correct to one unit in the last place (``~``).
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\n[numbers]\\na = "0.50~"\\n'
@@ -67,8 +68,8 @@ def as_data(tableau: Tableau) -> Data:
 def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
     """Return the keys and values of a file in which the coefficients are written in full.
 
-    Names remain only for roots without a formula and, if ``name_radicals`` is true, for square roots inside
-    other roots.
+    Named numbers remain only for real roots that the file defines by a polynomial (``minpoly``). If
+    ``name_radicals`` is true, square roots inside other roots also get names.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'

@@ -2,9 +2,9 @@
 
 Colour 0 (black) denotes the first part y of a partitioned system, and colour 1 (white) denotes the second
 part z. Encoding: one byte ``2 level + colour`` for each vertex, in preorder; branches are in descending
-order. Apart from the colour of the root, the encoding is equal to the encoding in
-:mod:`orderconds.trees.directed`. An edge whose child is white has kind 1, because its coefficient ahat_ij
-belongs to the second tableau.
+order. In :mod:`orderconds.trees.directed`, each edge has a kind, 0 or 1. Here the kind of an edge is the
+colour of its child: an edge to a white child has kind 1, because its coefficient ahat_ij belongs to the
+second tableau. Apart from the colour of the root, the two encodings are therefore equal.
 """
 
 from __future__ import annotations

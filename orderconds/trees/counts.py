@@ -11,8 +11,8 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of multisets of total weight 1, 2, .... The argument contains the numbers of
-    elements of weight 1, 2, ....
+    """Return the numbers of multisets of total weight 1, 2, ..., n. The argument ``counts`` contains the
+    numbers of different elements of weight 1, 2, ..., n.
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)

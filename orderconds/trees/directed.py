@@ -128,7 +128,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def representative(tree: DirectedTree) -> DirectedTree:
-    """Return the tree with its root moved to the vertex that makes the condition simplest to read.
+    """Return the tree with its root moved to the vertex for which the order condition of the tree is simplest
+    to read.
 
     The criteria, in this order, are: fewest edges of the rarer kind, least height, fewest edges of kind 1.
 

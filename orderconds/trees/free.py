@@ -1,9 +1,10 @@
 """Free (unrooted) trees, and the effect of moving the root of a tree.
 
 The conditions of symplectic Runge-Kutta methods are indexed by free trees. The reason is that b_i a_ij + b_j
-a_ji = b_i b_j implies phi(u o v) + phi(v o u) = phi(u) phi(v), where o is Butcher's product (Sanz-Serna and
-Abia 1991; HLW VI.7.1). If a tree can be rooted as u o u, then phi(u o u) = phi(u)^2/2. The condition of this
-tree therefore follows from the condition of u. Such a tree is called superfluous.
+a_ji = b_i b_j implies phi(u o v) + phi(v o u) = phi(u) phi(v) for all rooted trees u and v. Here phi is the
+elementary weight and o is Butcher's product (Sanz-Serna and Abia 1991; HLW VI.7.1). If a tree can be rooted
+as u o u, then phi(u o u) = phi(u)^2/2. The condition of this tree therefore follows from the condition of u.
+Such a tree is called superfluous.
 """
 
 from __future__ import annotations
@@ -61,7 +62,8 @@ def representative(tree: Tree) -> Tree:
 
 
 def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
-    r"""Yield the trees u, v and v o u for each edge at the root of a canonical tree u o v.
+    r"""Yield three trees u, v and v o u for each edge at the root of a canonical tree. The edge divides the
+    tree u o v into u, which contains the root, and v.
 
     >>> list(moves(b"\0\1\1"))[0]
     (b'\x00\x01', b'\x00', b'\x00\x01\x02')

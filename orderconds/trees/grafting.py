@@ -1,11 +1,12 @@
 """Products of trees: Butcher's product, and grafting. Grafting corresponds to the derivative of one
 elementary differential along another.
 
-Let u > v denote the graft of u onto v. Then F(u > v) is the derivative of F(v) in the direction F(u).
-Unordered trees with this product form the free pre-Lie algebra (Chapoton and Livernet 2001). For an ordered
-tree, F([t_1 ... t_k]) = X_1 ... X_k f, where X_l differentiates along the fixed element F(t_l) of the Lie
-algebra. In a further derivative of F, the new operator is written to the left of X_1. Hence ordered trees are
-grafted to the left of the existing branches (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+Let F(t) be the elementary differential of a tree t, and let u > v denote the graft of u onto v. Then F(u > v)
+is the derivative of F(v) in the direction F(u). Unordered trees with this product form the free pre-Lie
+algebra (Chapoton and Livernet 2001). For an ordered tree, F([t_1 ... t_k]) = X_1 ... X_k f, where X_l
+differentiates along the fixed element F(t_l) of the Lie algebra. In a further derivative of F, the new
+operator is written to the left of X_1. Hence ordered trees are grafted to the left of the existing branches
+(Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ def butcher_product(u: Tree, v: Tree) -> Tree:
 
 
 def graft(u: Tree, v: Tree) -> Counter[Tree]:
-    r"""Return the sum, over all vertices of v, of the trees in which u is a new branch at the vertex. Both
-    trees are unordered.
+    r"""Return the trees that result if u is attached as a new branch to one vertex of v. The value of a tree
+    is the number of vertices of v that give this tree. Both trees are unordered.
 
     >>> sorted(graft(b"\0", b"\0\1\1").items())
     [(b'\x00\x01\x01\x01', 1), (b'\x00\x01\x02\x01', 2)]
@@ -84,7 +85,8 @@ def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
 
 
 def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:
-    r"""Return the 2^k divisions of a word of k trees into two subwords.
+    r"""Return the 2^k divisions of a word of k trees into two subwords. Each tree belongs to one of the two
+    subwords, and the trees of a subword keep their order.
 
     >>> deshuffles(b"\0")
     ((b'', b'\x00'), (b'\x00', b''))

@@ -1,9 +1,9 @@
 """Ordered (planar) rooted trees and ordered forests. Each level sequence is computed from the preceding one,
 in place.
 
-The sequences of n levels that start at 0 and never rise by more than one are exactly the ordered forests with
-n vertices. The sequences that contain the level 0 only at the start are the trees. Both are listed in
-descending lexicographic order.
+An ordered forest with n vertices is a sequence of n levels that starts with 0 and in which no level exceeds
+the preceding one by more than one. The forest is a tree if level 0 occurs only at the start. Forests and
+trees are listed in descending lexicographic order.
 """
 
 from __future__ import annotations

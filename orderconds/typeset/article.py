@@ -18,7 +18,8 @@ def article(family: str, by_order: Sequence[Sequence[OrderCondition]], *, explai
     r"""Return the conditions of a family in LaTeX. If ``explain`` is true, LaTeX comments state the
     elementary differential of each condition.
 
-    The first line lists the packages. The label of condition k of order n is ``FAMILY:n:k``.
+    The first line is a comment that names the required LaTeX packages. The label of condition k of order n is
+    ``FAMILY:n:k``.
 
     >>> from orderconds.derivation import derive
     >>> print(article("rk", derive("rk", order=2).by_order).splitlines()[0])
@@ -61,7 +62,8 @@ def _comment(condition: OrderCondition, *, explain: bool) -> str:
 
 
 def _signs(diagram: Diagram) -> list[str]:
-    """Return the signs of all vertices and the directions of all edges that occur in the drawings."""
+    """Return the signs of all vertices and edges in the drawing of a tree. The sign of an edge is its
+    direction."""
     signs = list[str]()
     for vertex in diagram:
         signs.append(vertex.sign)
@@ -77,11 +79,12 @@ MEANINGS = {
     "transport": "a diamond is a coadjoint action on the momentum",
     "bracket": "two branches at a point are a commutator",
 }
-"""Explanations of signs in the drawings of trees. Signs that are self-explanatory are omitted."""
+"""The meanings of the signs in the drawings of trees. Signs that need no explanation are omitted."""
 
 
 def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:
-    """Return a sentence that explains the column of trees."""
+    """Return a sentence that explains the column of trees and the ``signs`` in it. The sentence is empty for
+    a family without drawings of trees."""
     if kind is None:
         return ""
     words = signs & {"letter", "bracket"}

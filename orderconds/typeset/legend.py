@@ -11,10 +11,11 @@ from orderconds.formula.notation import LATEX
 
 
 def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
-    r"""Return one sentence in LaTeX that defines the coefficients in the conditions of a family.
+    r"""Return a LaTeX text that defines the coefficients in the conditions of a family and states the range
+    of the sums. The text is empty if the conditions contain no coefficients.
 
-    Abscissae are defined as row sums of other coefficients. Therefore the sentence also defines the
-    coefficients in these row sums.
+    Abscissae are defined as row sums of other coefficients. Therefore the text also defines the coefficients
+    in these row sums.
 
     >>> from orderconds.derivation import derive
     >>> print(legend("rk", derive("rk", order=2)).replace("; ", ";\n"))
@@ -36,8 +37,8 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
 
 
 def _range(indices: set[str]) -> str:
-    """Return a sentence that states the range of the sums. ``indices`` contains the first character of each
-    index in the conditions."""
+    """Return a sentence that states the range of the sums, or an empty text if there are no sums. ``indices``
+    contains the first character of each index in the conditions."""
     if any(index.isupper() for index in indices):
         return " Lower-case indices run over all stages, upper-case indices over all exponentials."
     return " Sums run over all stages." if any(index.isalpha() for index in indices) else ""

@@ -17,14 +17,14 @@ from orderconds.typeset.counts import sum_of_counts
 from orderconds.typeset.legend import legend
 
 MOST = 300
-"""The largest number of conditions in a table."""
+"""The largest number of conditions in a table or formula. Further conditions are omitted."""
 
 WIDE = 90
-"""The largest width of a left-hand side in characters."""
+"""The largest width of a line in characters. A longer left-hand side is broken into several lines."""
 
 
 def formula(conditions: Sequence[OrderCondition]) -> str:
-    r"""Return a displayed LaTeX formula with one equation on each line.
+    r"""Return a displayed LaTeX formula with one equation for each of the first :data:`MOST` conditions.
 
     >>> from orderconds.derivation import derive
     >>> print(formula(derive("rk", order=2).conditions))

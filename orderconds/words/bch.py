@@ -96,8 +96,8 @@ def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str
 
 
 def _coefficient(bracketed: str, word: str, expansions: dict[str, Expansion]) -> int:
-    """Return the coefficient of ``word`` in a bracketed Lyndon word, from the expansions of its two
-    factors."""
+    """Return the coefficient of ``word`` in the expansion of the bracketed Lyndon word ``bracketed``. It is
+    computed from the expansions of the two standard factors of ``bracketed``."""
     left, right = standard_factors(bracketed)
     x, y, i, j = expansions[left], expansions[right], len(left), len(right)
     return x.get(word[:i], 0) * y.get(word[i:], 0) - y.get(word[:j], 0) * x.get(word[j:], 0)

@@ -26,8 +26,8 @@ from orderconds.words.shuffle import Series, Word
 
 
 def iterated_integral(word: Word) -> Fraction:
-    """Return the value of the flow on a word: the integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ...
-    < s_n < 1.
+    """Return the coefficient of the word k_1 ... k_n in the solution Y(1) with Y(0) = I: the integral of
+    s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1.
 
     It is the product of 1/(k_1 + ... + k_j) over j = 1, ..., n.
 
@@ -125,7 +125,8 @@ def dcay_inverse() -> Series:
 
 
 def words_of_weight(weight: int) -> Iterator[Word]:
-    """Yield all words over the letters 1, 2, ... of this weight. Short words come first.
+    """Yield all words of this weight over the letters 1, 2, ..., where letter k has weight k. Short words
+    come first.
 
     >>> list(words_of_weight(3))
     [(3,), (1, 2), (2, 1), (1, 1, 1)]
@@ -146,7 +147,8 @@ def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
 
 @lru_cache(maxsize=1 << 14)
 def _fer_field(n: int, word: Word) -> Fraction:
-    """Return the number c for which the coefficient of a word in A_n is c t^(weight - 1)."""
+    """Return the number c for which the coefficient of a word in A_n(t) is c t^(w - 1), where w is the weight
+    of the word. The series A_n is defined in :func:`fer`."""
     if n == 1:
         return Fraction(len(word) == 1)
     result = Fraction(0)
@@ -158,12 +160,14 @@ def _fer_field(n: int, word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
-    """Return the coefficient of a word in ad_{F_n}^k A_n."""
+    """Return the coefficient of a word in ad_{F_n}^k A_n at t = 1, where A_n and F_n are defined in
+    :func:`fer`."""
     if k == 0:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # In the product F x, x acts first.
+        # The first part of a word acts first. In the product F x, the head of the word therefore belongs to
+        # x.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result

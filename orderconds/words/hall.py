@@ -1,5 +1,5 @@
-"""Hall bases of free Lie algebras with any grading, and the rewriting of brackets as combinations of basis
-elements.
+"""Hall bases of free Lie algebras, and the rewriting of brackets as combinations of basis elements. Each
+letter may have any positive integer as its weight.
 
 Brackets are sorted by weight; brackets of equal weight are sorted by the order of their construction. A
 bracket [x, y] of basis elements belongs to the basis iff x < y, and y is a letter or y = [y', y''] with y' <=
@@ -54,9 +54,9 @@ class HallBasis:
         return self._of_weight[n]
 
     def rewrite(self, bracket: Bracket) -> Coordinates:
-        """Return the coordinates of any bracket of letters.
+        """Return the coordinates of any bracket of letters in the Hall basis.
 
-        Raises :class:`ValueError` if its weight is above the largest weight of the basis.
+        Raises :class:`ValueError` if the weight of the bracket is above the largest weight of the basis.
 
         >>> HallBasis("AB", 3).rewrite((("A", "B"), "A"))
         {('A', ('A', 'B')): Fraction(-1, 1)}

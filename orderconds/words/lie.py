@@ -17,7 +17,7 @@ from orderconds.words.lyndon import is_lyndon
 from orderconds.words.shuffle import Letter, Series, Word, add, concatenate
 
 Bracket = Letter
-"""A letter, or a bracket (a pair of brackets or letters)."""
+"""A letter, or a pair (x, y) that denotes the bracket [x, y], where x and y are letters or pairs."""
 
 Key = Callable[[Letter], Letter]
 """A function that returns the sort key of a letter."""

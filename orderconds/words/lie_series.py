@@ -44,7 +44,7 @@ class LieSeries:
 
 @dataclass(frozen=True)
 class LieTerm:
-    """One term: the weight, the bracket as nested pairs of letters, and the coefficient."""
+    """One term of a Lie series: its weight, its bracket as nested pairs of letters, and its coefficient."""
 
     weight: int
     bracket: Bracket

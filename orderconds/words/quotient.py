@@ -24,7 +24,8 @@ word is the name of the functional."""
 
 
 def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int) -> tuple[Functional, ...]:
-    """Return a basis of the functionals on words of this length that vanish on the ideal of ``generators``.
+    """Return a basis of the functionals on words of this length that vanish on the two-sided ideal generated
+    by ``generators``.
 
     Each functional is named by one of its words. The names are different, and are Lyndon words if possible.
     No functional contains the name of another functional.
@@ -35,8 +36,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # The words of the columns without pivot become the names of the functionals. Pivot columns are chosen
-        # from the left. Lyndon words are therefore at the right, so that they become names if possible.
+        # Each column of the matrix belongs to a word. The words of the columns without pivot become the names
+        # of the functionals. Pivot columns are chosen from the left, so the columns of Lyndon words are
+        # placed at the right. Lyndon words then become names if possible.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)

@@ -1,5 +1,6 @@
-"""The two products of words. The shuffle product corresponds to the product of two values of one
-group-like series. Concatenation corresponds to the product of two series."""
+"""The two products of words: the shuffle product and concatenation. Concatenation of words extends to the
+product of series. The value of a group-like series on the shuffle product of two words is the product of its
+values on these words."""
 
 from __future__ import annotations
 
@@ -59,6 +60,7 @@ def concatenate(
     weigh: Callable[[Letter], int] = lambda a: 1,
 ) -> Series:
     """Return the product of two series by concatenation. Words of weight above ``weight`` are omitted.
+    ``weigh`` returns the weight of a letter.
 
     >>> concatenate({("A",): Fraction(2)}, {("B",): Fraction(3), ("B", "B"): Fraction(1)}, 2)
     {('A', 'B'): Fraction(6, 1)}
@@ -75,7 +77,8 @@ def concatenate(
 def exponential(
     x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter], int] = lambda a: 1
 ) -> Series:
-    """Return exp(x) up to a weight, for a series x without constant term.
+    """Return the terms of exp(x) up to ``weight``, for a series x without constant term. ``weigh`` returns
+    the weight of a letter.
 
     >>> {"".join(word): str(value) for word, value in exponential({("A",): Fraction(1)}, 2).items()}
     {'': '1', 'A': '1', 'AA': '1/2'}
@@ -91,7 +94,8 @@ def exponential(
 def logarithm(
     x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter], int] = lambda a: 1
 ) -> Series:
-    """Return log(x) up to a weight, for a series x with constant term 1.
+    """Return the terms of log(x) up to ``weight``, for a series x with constant term 1. ``weigh`` returns the
+    weight of a letter.
 
     >>> logarithm(exponential({("A",): Fraction(2)}, 3), 3)
     {('A',): Fraction(2, 1)}

@@ -238,16 +238,19 @@ def test_pairs_alone_need_no_part_of_single_sites():
 @pytest.mark.slow
 def test_the_energy_of_a_splitting_is_bounded_and_spins_keep_their_length():
     lattice = load_lattice(emit(magnet(2), "splitting:strang", target="c"))
-    spins = states((8, 8))
+    spins = states((16, 16))
     first, errors = energy(spins), []
     for _ in range(100):
         spins = lattice.run(spins, 0.05, 1000).states
         errors.append(energy(spins) - first)
-    lengths = np.abs(np.linalg.norm(spins, axis=-1) - 1)
-    # 1e5 steps: the error of the energy has no trend, and the lengths change by rounding errors only.
-    assert lengths.max() < 1e-12
+    changes = np.linalg.norm(spins, axis=-1) - 1
+    # 1e5 steps: the error of the energy has no trend, and the lengths change by rounding errors only. The
+    # changes are a random walk, so their mean square over all spins is tested. Its square root is 2.6e-14 to
+    # 2.8e-14 for four initial states, and 3.7e-14 to 4.1e-14 if a rotation adds its small terms last.
+    assert np.sqrt(np.mean(changes**2)) < 3.3e-14
+    assert abs(changes.mean()) < 1e-14
     early, late = np.array(errors[:50]), np.array(errors[50:])
-    assert np.abs(errors).max() < 0.02 * 64
+    assert np.abs(errors).max() < 0.02 * 256
     assert abs(late.mean() - early.mean()) < 3 * (late.std() + early.std())
 
 
@@ -293,7 +296,6 @@ def test_a_million_spins_run():
         (np.zeros((4, 2)), r"expected an array of shape \(n1, 3\)"),
         (np.zeros(3), r"expected an array of shape \(n1, 3\)"),
         ([[1, 2, 3], [4, 5]], "rows of different lengths"),
-        (np.array([["a"] * 3] * 4), "expected real numbers"),
         (np.ones((1, 3)), r"expected another number of sites, found the shape \(1,\)"),
         ([[1, 0, 0], [np.nan, 0, 0], [0, 0, 1]], r"found the state \[nan, 0.0, 0.0\] at site \(1,\)"),
     ],
@@ -301,6 +303,11 @@ def test_a_million_spins_run():
 def test_states_of_another_form_are_refused(given, message):
     with pytest.raises(ValueError, match=message):
         module("chain", "cf:cf4").run(given, 0.1, 1)
+
+
+def test_states_that_are_not_real_numbers_are_refused():
+    with pytest.raises(TypeError, match="expected real numbers"):
+        module("chain", "cf:cf4").run(np.array([["a"] * 3] * 4), 0.1, 1)
 
 
 def test_more_sites_than_memory_are_refused():
@@ -375,7 +382,7 @@ def test_other_methods_and_targets_are_refused():
         emit(chain(), "cf:cf4", target="python")
     with pytest.raises(InputError, match="load_lattice"):
         load(emit(chain(), "cf:cf4", target="c"))
-    with pytest.raises(InputError, match="single system"):
+    with pytest.raises(InputError, match="expected a module for a chain or lattice"):
         load_lattice(emit("free_rigid_body", "cf:cf4", target="c"))
     with pytest.raises(SceneError, match="at least"):
         unrolled(chain(), (1,))

@@ -431,7 +431,7 @@ def test_modules_are_loaded_by_their_own_function():
     artifact = emit(KS, "cf:cf4", target="python")
     with pytest.raises(InputError, match="semilinear"):
         load(artifact)
-    with pytest.raises(InputError, match="no module for a semilinear"):
+    with pytest.raises(InputError, match="expected a module for a semilinear"):
         load_spectral(emit("free_rigid_body", "cf:cf4", target="python"))
 
 

@@ -42,11 +42,11 @@ class AffineAction(Action):
         return group.require(MatrixElements).order - 1
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return A y + b."""
+        """Return A y + b for g = [[A, b], [0, 1]]."""
         n = len(y)
         rows = [g[i : i + n + 1] for i in range(0, n * (n + 1), n + 1)]
         return tuple(dot(row[:n], y) + row[n] for row in rows)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return L y + c."""
+        """Return L y + c, where x has the matrix [[L, c], [0, 0]]."""
         return self.act(d, group, group.require(MatrixElements).hat(d, x), y)

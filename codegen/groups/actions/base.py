@@ -20,9 +20,10 @@ class Action(ABC):
     """A left action: e.y = y and (g k).y = g.(k.y).
 
     A point y of the manifold is a flat tuple of scalars; its length may depend on the group. ``name`` is
-    printed in messages and headers. ``needs`` is the capability that the formulas require of the group.
-    ``on_itself`` is true if the points are elements of the group, in the coordinates of the group.
-    :func:`codegen.groups.register` adds the class to the list of actions.
+    printed in messages and headers. ``needs`` is the class of the operations that the group must have for
+    this action (:mod:`codegen.groups.capabilities`). ``on_itself`` is true if the points are elements of the
+    group, in the coordinates of the group. :func:`codegen.groups.register` adds the class to the list of
+    actions.
     """
 
     name: str
@@ -61,8 +62,8 @@ class Action(ABC):
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x.y for x in the algebra, a tuple as long as y: the derivative of exp(eps x).y at eps =
-        0."""
+        """Return x.y, the derivative of exp(eps x).y at eps = 0, for x in the algebra. It is a tuple as long
+        as y."""
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
         """Return a point closer to the orbit of ``start`` than y. If y has the distance eps from the orbit,
@@ -74,5 +75,5 @@ class Action(ABC):
         return y
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x).y; a subclass may have a formula that does not form exp(x)."""
+        """Return exp(x).y. A subclass may override this method by a formula that does not compute exp(x)."""
         return self.act(d, group, group.exp(d, x), y)

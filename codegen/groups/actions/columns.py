@@ -11,10 +11,11 @@ from codegen.ir.domain import Domain
 
 
 class Columns(Action):
-    """Matrices acting on n x k matrices, g.Y = g Y: k columns, or the subspace that they span.
+    """Matrices acting on n x k matrices, g.Y = g Y.
 
-    A point is the matrix Y row by row, where k is the number of ``columns``. The orbit of orthonormal columns
-    under rotations is the Stiefel manifold; :class:`Stiefel` checks that the columns are orthonormal.
+    A point is the matrix Y row by row, where k is the number of ``columns``. Y may also represent the
+    subspace that its columns span. The orbit of orthonormal columns under rotations is the Stiefel manifold;
+    :class:`Stiefel` checks that the columns are orthonormal.
     """
 
     name = "linear maps of columns"
@@ -26,7 +27,7 @@ class Columns(Action):
         self.columns = columns
 
     def point_size(self, group: LieGroup) -> int:
-        """Return n k."""
+        """Return n k, the number of entries of the matrix Y."""
         return group.require(MatrixElements).order * self.columns
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -36,5 +37,5 @@ class Columns(Action):
         return tuple(dot(g[n * i : n * i + n], column) for i in range(n) for column in columns)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return hat(x) y."""
+        """Return A Y, where A is the matrix of x, and y contains the matrix Y row by row."""
         return self.act(d, group, group.require(MatrixElements).hat(d, x), y)

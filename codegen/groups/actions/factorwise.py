@@ -33,8 +33,8 @@ class FactorwiseAction(Action):
         self.name = " x ".join(action.name for action in actions)
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` unless there is one action for each factor, and each
-        factor admits its action."""
+        """Raise :class:`codegen.errors.SceneError` unless there is one action for each factor, each factor
+        can act in this way, and each action defines the number of coordinates of its points."""
         self.require(group, DirectProduct, where)
         factors = group.require(DirectProduct).factors
         if len(factors) != len(self.actions):
@@ -66,14 +66,15 @@ class FactorwiseAction(Action):
         return sizes
 
     def _split(self, group: LieGroup, y: Vector[S]) -> list[Vector[S]]:
-        """Return the coordinates of each point."""
+        """Return the coordinates of the points y1, y2, ... that y contains."""
         sizes = self._sizes(group)
         return [tuple(y[end - n : end]) for end, n in zip(accumulate(sizes), sizes, strict=True)]
 
     def _each(
         self, group: LieGroup, operation: Callable[..., Vector[S]], x: Vector[S], y: Vector[S]
     ) -> Vector[S]:
-        """Return operation(action, factor, part of x, part of y) for each factor, joined to one tuple."""
+        """Call operation(action, factor, own part of x, own part of y) for each factor; return the results,
+        joined to one tuple."""
         parts = group.require(DirectProduct).parts(x)
         rows = zip(self._pairs(group), parts, self._split(group, y), strict=True)
         return tuple(

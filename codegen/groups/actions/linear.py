@@ -24,8 +24,8 @@ class Linear(Action):
         return matvec(g, y)
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y; if the group consists of rotations or of large matrices, the matrix exp(x) is not
-        formed."""
+        """Return exp(x) y. Some groups compute this vector without the matrix exp(x), for example most groups
+        of large matrices."""
         rotations = group.offers(Rotations)
         if rotations is None:
             return group.require(MatrixElements).exp_times(d, x, y)
@@ -45,5 +45,5 @@ class Linear(Action):
         return rescaled(d, y, defect)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return hat(x) y."""
+        """Return A y, where A is the matrix of x."""
         return matvec(group.require(MatrixElements).hat(d, x), y)

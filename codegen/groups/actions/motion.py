@@ -20,7 +20,7 @@ class Motion(Action):
         return group.require(PointMotions).point_size
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return R y + a."""
+        """Return R y + a, where g is the rotation R followed by the translation by a."""
         return group.require(PointMotions).move(d, g, y)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:

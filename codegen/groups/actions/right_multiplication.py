@@ -52,6 +52,6 @@ class RightMultiplication(Action):
         translation = group.offers(LeftTranslation)
         if translation is not None:
             return tuple(-a for a in translation.left_velocity(d, y, x))
-        # y x = (y x y^-1) y
+        # y x = (y x y^-1) y = (Ad_y x).y
         moved = group.require(Coadjoint).Ad(d, y, x)
         return tuple(-a for a in group.velocity(d, moved, y))

@@ -43,12 +43,12 @@ class Stiefel(Columns):
             )
 
     def _gram(self, y: Vector[S]) -> list[list[S]]:
-        """Return Y^T Y."""
+        """Return Y^T Y, where y contains the matrix Y row by row."""
         columns = [y[j :: self.columns] for j in range(self.columns)]
         return [[dot(a, b) for b in columns] for a in columns]
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return Y^T Y = 1, entry by entry."""
+        """Return the equations Y^T Y = 1, one for each entry on or below the diagonal."""
         gram, one = self._gram(y), d.rational(1)
         return tuple(
             (f"(Y^T Y)[{i}, {j}] = {int(i == j)}", gram[i][j] - one if i == j else gram[i][j])

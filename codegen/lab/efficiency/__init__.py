@@ -1,1 +1,2 @@
-"""Work-precision diagrams of emitted methods and peers, and the fastest method for each accuracy."""
+"""Work-precision diagrams of emitted methods and of peers (other integrators), and the fastest method for
+each accuracy."""

@@ -18,8 +18,8 @@ from codegen.lab.timing import span_times
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
 """Tolerances, from loose to tight. The first tolerance is looser than the first tolerance of peers, because
-methods with an error estimate of low order are measured, too. For a tight tolerance they need too many steps.
-"""
+some emitted methods have an error estimate of low order. For tight tolerances these methods need too many
+steps."""
 
 
 @dataclass
@@ -52,7 +52,8 @@ class AdaptiveCandidate(EmittedCandidate):
         return self.arrive(control, spans=spans).accepted
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
-        """Run over ``spans`` time spans with this tolerance, and return the result at the end."""
+        """Run over ``spans`` time spans with this tolerance, and return the state and the numbers of steps at
+        the end. Raise RunFailed if a step fails."""
         first, last = map(float, self.scene.span)
         try:
             return self.runner.integrator.adaptive(
@@ -68,7 +69,8 @@ class AdaptiveCandidate(EmittedCandidate):
             raise RunFailed(str(error)) from error
 
     def measure(self, control: float) -> Row:
-        """Run over the span with the tolerance ``control``."""
+        """Run over the span with the tolerance ``control``, and return the row. If the run fails, the row
+        contains the reason."""
         first, last = map(float, self.scene.span)
         statistics = Statistics()
         try:

@@ -29,8 +29,8 @@ SECONDS = 50.0
 class AdvisedMethod:
     """A method that reaches the error: its name, its step size or its tolerance, and the measured values.
 
-    ``h`` is None for a method with step-size control, ``tolerance`` is None for equal steps. ``command``
-    emits the integrator.
+    ``h`` is None for a method with step-size control, ``tolerance`` is None for equal steps. ``form`` is the
+    key of the form of the equations. ``command`` is the shell command that emits the integrator.
     """
 
     method: str
@@ -120,7 +120,8 @@ def recommend(
 
 
 def _interval(span: object) -> tuple[Fraction, Fraction]:
-    """Return a time interval; raise InputError unless ``span`` is a pair of rational numbers."""
+    """Return a time interval. Raise InputError unless ``span`` is a pair of rational numbers, the first less
+    than the second."""
     try:
         first, last = (Fraction(t) for t in span)  # type: ignore[attr-defined]
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):

@@ -126,7 +126,7 @@ def bench(
     If no methods are named, the default methods for the scene are used (:func:`methods_for`). The methods in
     ``adaptive`` run with step-size control by their embedded methods. ``forms`` selects classical forms of
     the equations by their keys, for peers and for methods that integrate coordinates. By default all forms
-    are measured. Names and options are checked before the first measurement (InputError). If a method cannot
+    are measured. Wrong names and options raise InputError before the first measurement. If a method cannot
     be emitted for the scene, the only row of this method contains the reason.
     """
     for target in targets:

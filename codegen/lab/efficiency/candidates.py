@@ -28,7 +28,7 @@ brackets takes seconds.
 
 
 DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
-"""The degrees with which families without a tableau are tried."""
+"""A family without a tableau, such as ``taylor``, has one recipe for each of these degrees."""
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,8 @@ class Recipe:
     step-size control.
 
     ``order`` is the order that the file of the tableau claims; it is 0 if the file claims no order.
-    ``stages`` is the number of stages or factors of the tableau; it is equal for all recipes of one
-    ``tableau``. ``explicit`` is True if each stage of the tableau depends only on earlier stages.
+    ``stages`` is the number of stages or factors of the tableau. If the family has no tableau, both numbers
+    are the degree. ``explicit`` is True if each stage of the tableau depends only on earlier stages.
     """
 
     method: str

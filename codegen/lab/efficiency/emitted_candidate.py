@@ -77,7 +77,8 @@ class EmittedCandidate:
         return self.equations.error(state, self.exact)
 
     def measure(self, control: float) -> Row:
-        """Run over the span in ``control`` steps."""
+        """Run over the span in ``control`` steps, and return the row. If the run fails, the row contains the
+        reason."""
         steps = int(control)
         first, last = self.scene.span
         h = float(Fraction(last - first) / steps)

@@ -26,7 +26,7 @@ class Equations:
 
     @property
     def printed(self) -> bool:
-        """True if the coordinates are the coordinates of the scene."""
+        """True if the equations are those of the scene as printed, in the coordinates of the scene."""
         return self.form is None or self.form.printed
 
     @property

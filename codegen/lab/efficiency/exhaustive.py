@@ -3,9 +3,10 @@ its family or a time limit for predictions. A benchmark compares the usual searc
 
 Each recipe is first run by the interpreter with more and more steps, as long as a compiled run with this
 number of steps may be fast enough. The counted operations give the time of a step, and the measured error
-gives the number of steps for the required error. The product of this time and this number, divided by SAFE,
-is a lower bound of the time of the recipe. If this bound exceeds WORST times the best measured time for every
-required error, the recipe is excluded. If the interpreted runs of a recipe have large errors, and the recipe
+gives the number of steps for the required error. The product of this time and this number, divided by the
+safety factor SAFE, is a lower bound of the time of the recipe. If this bound exceeds WORST times the best
+known time for every required error, the recipe is excluded; WORST is the largest acceptable ratio of a time
+to the best time. If the interpreted runs of a recipe have large errors, and the recipe
 is implicit or has step-size control, its bound is not reliable, and the recipe is not excluded. All recipes
 that are not excluded are emitted, compiled and raced. A sample of the excluded recipes is also raced. The
 times of the sample show whether the bound is safe.
@@ -33,7 +34,8 @@ WORST = 1.25
 """The largest accepted ratio of the time of a recommended recipe to the best time."""
 
 SAFE = 8.0
-"""A predicted time (the number of steps times the time of a step) may be too large by at most this factor."""
+"""A safety factor. The search assumes that a predicted time (the number of steps times the time of a step) is
+too large by at most this factor."""
 
 T = TypeVar("T")
 
@@ -65,7 +67,8 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least measured time, in seconds, for an error."""
+        """Return the least time, in seconds, for an error: of the known recipe and of all measured recipes
+        that reach the error."""
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 
@@ -73,11 +76,11 @@ class Exhausted:
         """Return the numbers of recipes in words."""
         counts = (
             f"{self.raced} recipes measured, {self.excluded} excluded because their predicted time is above "
-            f"the bound, {self.refused} cannot be compiled, {self.copies} have the code of another recipe"
+            f"the bound, {self.refused} cannot be compiled, {self.copies} have the same code as others"
         )
         if math.isfinite(self.nearest):
             counts += (
-                f"; the fastest of {SAMPLE} excluded recipes takes {self.nearest:.1f} times the best time"
+                f"; the fastest excluded recipe of a sample takes {self.nearest:.1f} times the best time"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 
@@ -123,8 +126,8 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return the interpreted runs of all recipes. A recipe with step-size control and the same recipe without
-    step-size control share a run."""
+    """Return the predictions for all recipes, which are computed by interpreted runs. A recipe with step-size
+    control and the same recipe with equal steps share a prediction."""
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
     jobs = [(recipe, bars) for recipe in recipes]
@@ -141,8 +144,8 @@ def _key(recipe: Recipe) -> Key:
 
 
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
-    """Return the smallest ratio of the predicted time for an error to the limit for the same error. If the
-    ratio is above 1, the recipe is excluded.
+    """Return the smallest ratio of the predicted time for an error to the limit for the same error.
+    ``limits`` maps each error to its limit in seconds. If the ratio is above 1, the recipe is excluded.
 
     Three kinds of recipes have the ratio 0 and are not excluded, unless a single step exceeds all limits.
     First, recipes whose interpreted runs fail: emitted code may succeed, because it solves equations by
@@ -166,7 +169,8 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
 
 
 def sampled(excluded: Sequence[T]) -> list[T]:
-    """Return a sample of the excluded recipes, which are sorted by their predicted times.
+    """Return a sample of the excluded recipes, which must be sorted by :func:`least_ratio`. Half of the
+    sample are the first recipes; the other half is spread over the rest.
 
     >>> sampled(range(102))
     [0, 1, 2, 3, 4, 5, 6, 22, 38, 54, 70, 86]
@@ -182,7 +186,8 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 
 
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
-    """Race a recipe for each error; return the least ratio of its time to the best time of other recipes."""
+    """Race a recipe for each error. Return the least ratio of its time to the best time of other recipes, or
+    infinity if it reaches no error."""
     done.codes.add(candidate.code)
     done.raced += 1
     racer = search.racer(candidate)

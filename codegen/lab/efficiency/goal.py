@@ -66,7 +66,8 @@ class Goal:
         return "explicit" in self.needs
 
     def met(self, properties: Features) -> bool:
-        """Return True if a compiled recipe satisfies the needs."""
+        """Return True if a compiled recipe satisfies the needs. If ``stack`` is given, the stack memory of
+        the recipe must also have a known bound of at most ``stack`` bytes."""
         given = {
             "manifold": properties.on_manifold,
             "symplectic": properties.symplectic,

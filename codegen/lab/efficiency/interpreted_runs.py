@@ -28,7 +28,7 @@ iteration, then for Newton's method."""
 
 SETTLED = 1e-9
 """The iteration of an interpreted implicit block ends when the relative change is at most SETTLED. The error
-of a method is much larger than SETTLED.
+of the method itself is much larger than SETTLED.
 """
 
 
@@ -41,8 +41,8 @@ class CountingDomain(FloatDomain):
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Count one sweep. Return two values: True if the iteration may end, for example because the relative
-        change is at most SETTLED, and the change."""
+        """Count one sweep. Return a pair: True if the iteration may end, and the change of the unknowns. The
+        iteration may also end as soon as the relative change is at most SETTLED."""
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
         return done or change <= SETTLED * max(map(abs, old), default=0.0), change
@@ -58,7 +58,8 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
     """Return the state at the end of the span after equal steps, and the average number of sweeps over an
     implicit block that an emitted program needs in a step.
 
-    Raises ArithmeticError if the run is not finished when the process has used ``end`` CPU seconds.
+    Raises ArithmeticError if a state is not finite, or if the process has used ``end`` CPU seconds before the
+    end of the run.
     """
     first, last = problem.span
     domain = CountingDomain(float((last - first) / steps))
@@ -71,9 +72,9 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
         )
         state = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
         if not all(map(math.isfinite, state)):
-            raise ArithmeticError("a number is not finite")
+            raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
-            raise ArithmeticError("the run takes too long")
+            raise ArithmeticError("the interpreted run takes too long")
     # An emitted program solves its equations to twice as many digits, so it needs about twice as many sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
@@ -93,10 +94,10 @@ def controlled_run(
     state, tried, most = problem.initial(domain), 0, FIRST
     while now < last:
         if time.process_time() > end:
-            raise ArithmeticError("the run takes too long")
+            raise ArithmeticError("the interpreted run takes too long")
         length = min(domain.h, last - now)
         if not now + length > now:
-            raise ArithmeticError("the steps become too short")
+            raise ArithmeticError("the steps of an interpreted run become too short")
         domain.h, tried = length, tried + 1
         try:
             inputs = _inputs(program, problem, state, now)

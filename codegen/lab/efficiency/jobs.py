@@ -1,7 +1,8 @@
 """The order in which recipes are predicted, and the bar of each recipe.
 
-The bar of a recipe is an error and a time. The interpreter executes steps of the recipe only if the recipe
-can reach the error in this time.
+A recipe is a method with equal steps or step-size control, on one form of the equations. The bar of a recipe
+is an error and a time. The interpreter executes steps of the recipe only if the recipe can reach the error in
+this time.
 """
 
 from __future__ import annotations
@@ -28,9 +29,9 @@ again when the number of predictions has grown by the factor 1 + 1/FRESH.
 
 
 EVEN = 4.0
-"""The queue with the smallest delay is next. The delay increases by one for every EVEN recipes that were
-taken from the queue, and for every EVEN orders between the order of the queue and the usual order. It also
-increases by one for every factor of two in the predicted time of the recipes.
+"""Recipes wait in queues, and the queue with the smallest delay is next. The delay increases by one for every
+EVEN recipes that were taken from the queue, and for every EVEN orders between the order of the queue and the
+usual order. It also increases by one for every factor of two in the predicted time of the recipes.
 """
 
 FAILED = 4.0
@@ -64,10 +65,10 @@ class Jobs(Sequence[Job]):
 
     A job is created only when a worker process is free, so its bars use all predictions up to this time. The
     queues take turns, and queues of orders that are usual for an error are first. Queues of slow kinds of
-    recipes are delayed by the binary logarithm of a ratio: the predicted time of this kind divided by the
-    least predicted time of all kinds. ``controlled`` contains the recipes that can also run with step-size
-    control, each with the goals for which it can do so. The recipes of the methods ``early`` are first, so
-    that slow recipes are recognised early.
+    recipes are delayed by the binary logarithm of a ratio: the least predicted time of this kind divided by
+    the least predicted time of all kinds. ``controlled`` maps each recipe that can also run with step-size
+    control to the goals that it may then satisfy. The recipes of the methods ``early`` are predicted first,
+    so that slow recipes are recognised early.
     """
 
     def __init__(
@@ -110,7 +111,7 @@ class Jobs(Sequence[Job]):
         return job, tuple(bar for bar in bars if not bar.hopeless(recipe.family))
 
     def _next(self) -> Recipe:
-        """Remove the next recipe from its queue."""
+        """Remove the next recipe from its queue and return it."""
         if self.early:
             recipe = self.early.popleft()
             queue = self.kind(recipe), recipe.order
@@ -133,7 +134,7 @@ class Jobs(Sequence[Job]):
         predicted time of this kind of recipe and b the least predicted time of all kinds. If there are
         several goals, the goal with the smallest a/b is used.
 
-        The result is FAILED if all predictions of this kind of recipe failed.
+        The result is FAILED if all predictions of this kind of recipe failed, and 0 if there are none yet.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -147,8 +148,9 @@ class Jobs(Sequence[Job]):
         return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
-        """Use a prediction for later jobs. Vague predictions are not used, because the times that they
-        predict are too short.
+        """Use a prediction for later jobs. Failed predictions are not used. Vague predictions are used only
+        if they contain a prediction with step-size control, because their times for equal steps are too
+        short.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return

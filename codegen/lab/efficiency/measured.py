@@ -17,7 +17,7 @@ from orderconds.errors import InputError
 from orderconds.tableau import Tableau
 
 MOST_SECONDS = 1e5
-"""The longest CPU time that one run may take, in seconds."""
+"""The largest ``budget`` that a caller may pass to :func:`bench` or to ``recommend``, in seconds."""
 
 
 def bench(

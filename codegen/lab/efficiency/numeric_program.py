@@ -82,7 +82,7 @@ class Numeric(Operation):
         return self.label
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
-        """Return the results for doubles."""
+        """Return the results of the function for arguments that are doubles."""
         flat: list[Scalar] = []
         for x in args:
             if isinstance(x, tuple):
@@ -117,8 +117,8 @@ class NumericLinear(Operation):
 
 @dataclass
 class NumericPrograms:
-    """The Python functions of the operations of one problem. Each function is compiled when it is first
-    used.
+    """Replaces the operations of step programs by Python functions. Each function is compiled when it is
+    first needed, and used again for equal operations.
     """
 
     functions: dict[object, Evaluate] = field(default_factory=dict)

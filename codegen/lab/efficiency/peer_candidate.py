@@ -55,7 +55,8 @@ class PeerCandidate:
         """
 
     def measure(self, control: float) -> Row:
-        """Prepare the peer for one tolerance or number of steps, run it, and measure its CPU time."""
+        """Prepare the peer for one tolerance or number of steps, run it, and return the row with its error
+        and CPU time. If the peer fails, the row contains the reason."""
         assert self.equations is not None
         start = time.perf_counter()
         try:

@@ -132,7 +132,7 @@ class Prediction:
 class Bar:
     """The bar that a recipe must reach: an error of at most ``error`` in at most ``seconds``.
 
-    ``least`` contains the least errors that methods of the next higher orders reach in this time, as triples:
+    ``least`` contains the least errors that methods of the next two orders reach in this time, as triples:
     family, explicit or not, error. The family '' denotes the least error of all families. ``steps`` is the
     number of steps of the first interpreted run. If ``explicit`` is true, methods that solve equations are
     excluded.
@@ -147,8 +147,8 @@ class Bar:
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
         """Return True if a method whose step takes at least ``step_seconds`` cannot reach the bar.
 
-        If the methods of the next higher orders do not come close to the error, methods of lower order do not
-        either.
+        The method also cannot reach the bar if the methods of the next two orders miss the error by more than
+        the factor :data:`FAR`.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -156,8 +156,9 @@ class Bar:
         return known.get((family, explicit), known.get(("", explicit), 0.0)) > FAR * self.error
 
     def most(self, step_seconds: float) -> float:
-        """Return the largest number of steps to interpret; a run with more steps would exceed the time of the
-        bar.
+        """Return the largest number of steps to interpret, for steps that take ``step_seconds`` in compiled
+        code. A compiled run with more steps would exceed ``seconds``. The result is at least ``steps``, and
+        otherwise at most :data:`MANY_STEPS`.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -225,9 +226,10 @@ class Predictor:
         return replace(known, controlled=self.controlled(controlled, known, min(bar.error for bar in bars)))
 
     def controlled(self, method: Method, equal: Prediction, target: float) -> Prediction | None:
-        """Return the prediction for a method with step-size control; None if no interpreted run succeeds.
+        """Return the prediction for a method with step-size control. Return None if the method has no error
+        estimate, if no interpreted run has a small error, or if too many methods of its kind have failed.
 
-        ``equal`` is the prediction for equal steps. The tolerance is reduced until the error is below
+        ``equal`` is the prediction for equal steps. The tolerance is reduced until the error is at most
         ``target`` or the time for interpreted runs is used up.
         """
         kind = (method.family, equal.explicit)

@@ -31,7 +31,7 @@ from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED
 
 HALVINGS = 6
-"""The number of bisections of the number of steps or of the tolerance."""
+"""The largest number of bisections, of the number of steps or of the exponent of the tolerance."""
 
 FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
@@ -84,7 +84,8 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
 
 @dataclass(frozen=True)
 class Result:
-    """The fastest run that reaches the error: its control, its error, and its CPU time in seconds.
+    """The fastest run of an entry that reaches the error: its control, its error, and its CPU time in
+    seconds.
 
     ``steps`` is the number of (accepted) steps. If no run reaches the error, ``reached`` is False and the
     result describes the most accurate run.
@@ -100,7 +101,8 @@ class Result:
 
     @property
     def tolerance(self) -> float | None:
-        """The relative and absolute tolerance of a run with step-size control."""
+        """Both the relative and the absolute tolerance of a run with step-size control; None for a run with
+        equal steps."""
         return 10.0**-self.control if self.entry.recipe.adaptive else None
 
 
@@ -157,23 +159,23 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the cheapest run that reaches an error.
 
-        ``best`` is the least CPU time of all other recipes in seconds. If the runs take much longer than
-        ``best``, the search ends and ``reached`` is False.
+        ``best`` is the least CPU time of all other recipes in seconds. The search ends if a run takes much
+        longer than ``best``. If no run has then reached the error, the result has ``reached`` = False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
         if not fine:
             known = {c: e for c, e in self.errors.items() if math.isfinite(e)}
             if not known:
-                return Result(self.entry, 0.0, 0, math.inf, math.inf, False, "no run arrives")
+                return Result(self.entry, 0.0, 0, math.inf, math.inf, False, "every run failed")
             control = min(known, key=lambda c: known[c])
             return Result(self.entry, control, self.counts[control], known[control], math.inf, False)
         control = self._coarsened(control, error)
         return Result(self.entry, control, self.counts[control], self.errors[control], self.seconds(control))
 
     def halved(self, result: Result) -> Result | None:
-        """Return the result of a run with half the step size. The result is None for step-size control, or if
-        the run fails.
+        """Return the result of a run with half the step size. The result is None for step-size control, if
+        the run fails, or if it would need more than MOST_STEPS steps.
         """
         control = 2.0 * result.control
         if self.entry.recipe.adaptive or control > MOST_STEPS or not math.isfinite(self.error(control)):
@@ -209,8 +211,8 @@ class Racer:
         return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
 
     def _coarsened(self, control: float, error: float) -> float:
-        """Return the coarsest control (the fewest steps or the largest tolerance) that reaches the error,
-        found by bisection.
+        """Return the coarsest control (fewest steps or largest tolerance) that reaches the error. It is found
+        by bisection between ``control``, which reaches the error, and the next coarser control.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

@@ -16,10 +16,11 @@ from codegen.lab.efficiency.work_precision import Row
 
 @dataclass(frozen=True)
 class Place:
-    """The fastest and the second fastest candidate for an error of 10^-decade, with their CPU times in
-    seconds.
+    """The fastest candidate ``winner`` and the second fastest candidate ``second`` for an error of
+    10^-decade. Their CPU times are ``seconds`` and ``behind``, in seconds.
 
-    If a candidate was measured on several forms, its label is followed by the name of the form.
+    If a candidate was measured on several forms, its label is followed by the name of the form. If only one
+    candidate reaches the error, ``second`` is '' and ``behind`` is None.
     """
 
     decade: int
@@ -66,7 +67,8 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the CPU seconds to reach ``error`` with one form of the equations."""
+    """Return the CPU seconds to reach ``error`` in rows of one form of the equations; None if no row reaches
+    it."""
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None

@@ -116,7 +116,7 @@ def place_json(task: Task, place: Result) -> dict[str, object]:
 
 
 def step_of(task: Task, place: Result) -> float | None:
-    """Return the step size of a run; None for a run with step-size control."""
+    """Return the step size of a run; None for a run with step-size control, or if every run failed."""
     first, last = task.problem().span
     return None if place.entry.recipe.adaptive or not place.steps else float((last - first) / place.steps)
 

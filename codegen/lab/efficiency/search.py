@@ -64,8 +64,9 @@ PREDICTING = 0.5
 """When the reference solution is known, predictions may use this fraction of the remaining time budget."""
 
 UNREACHED = 1e-3
-"""If the predictions say that no recipe reaches a goal, the predicted gain of each recipe for this goal is
-UNREACHED."""
+"""The predicted gain of a recipe for a goal if no recipe is predicted to reach the goal, or if the recipe can
+be the fastest only by an unknown gain of step-size control. The number is small, so that such recipes are
+measured late."""
 
 LONG_STEPS = 20_000
 """The number of steps of the long run that tests recommendations for long times."""
@@ -150,7 +151,7 @@ class Search:
     def expected(self, recipe: Recipe, error: float) -> float:
         """Return a cautious (short) estimate of the time of a recipe for an error, in seconds. It is the
         predicted time, corrected by the ratio of measured to predicted times for this kind of recipe, and
-        divided by a safety factor.
+        divided by a safety factor. The result is infinite if the recipe has no prediction.
         """
         prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
@@ -169,7 +170,9 @@ class Search:
         return seconds / CONTROLLED if unknown and self.kind(recipe) not in self._of_kind else seconds
 
     def prediction(self, recipe: Recipe) -> Prediction | None:
-        """Return the prediction for a recipe with equal steps or with step-size control."""
+        """Return the prediction for a recipe; None if the recipe was not predicted. If there is no prediction
+        with step-size control, the prediction for equal steps is returned.
+        """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
 
@@ -188,7 +191,9 @@ class Search:
         return recipe.family, prediction is None or prediction.explicit, recipe.adaptive
 
     def race(self) -> None:
-        """Emit and measure recipes, in the order of their predicted gains."""
+        """Emit and measure recipes, in the order of their predicted gains. Stop when no remaining recipe may
+        be the fastest. If the budget is used before that, stop and set ``complete`` to False.
+        """
         while True:
             self._correct()
             ready = self._next()
@@ -215,7 +220,8 @@ class Search:
         reaches the goal, the safety factor times the least predicted time replaces the best measured time.
         Recipes whose gain from step-size control is unknown are last.
 
-        If no recipe of a kind was measured yet, only one recipe of this kind is returned.
+        If no recipe of a kind was measured yet, only one recipe of this kind is returned. At most
+        :data:`ROUND` recipes are returned.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -247,7 +253,7 @@ class Search:
         return prediction is not None and not prediction.failure
 
     def best(self, goal: Goal) -> float:
-        """Return the least measured time, in seconds, for a goal."""
+        """Return the least measured time, in seconds, for a goal; infinity if no recipe has reached it."""
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
@@ -267,7 +273,7 @@ class Search:
         return [result for result in fastest.values() if goal.met(result.entry.features)]
 
     def racer(self, candidate: Entry) -> Racer:
-        """Return a racer for an entry."""
+        """Return the racer that runs an entry."""
         return Racer(self.task.equations(candidate.recipe.form), self.exact, candidate)
 
     def _measure(self, recipe: Recipe) -> None:
@@ -357,7 +363,7 @@ class Search:
 
 
 def geometric_mean(values: Sequence[float]) -> float:
-    """Return the geometric mean.
+    """Return the geometric mean of positive numbers.
 
     >>> geometric_mean([1.0, 4.0])
     2.0

@@ -18,7 +18,7 @@ from codegen.lab.reference import Reference
 from orderconds.errors import InputError
 
 BUDGET = 1.0
-"""The longest CPU time of one run, in seconds."""
+"""The default limit of the CPU time of one run, in seconds."""
 
 MOST_STEPS = 5 * 2**21
 
@@ -61,7 +61,7 @@ class Row:
     form: str = ""
 
     def as_json(self) -> dict[str, str | float | int | None]:
-        """Return plain data."""
+        """Return the row as a dictionary of plain data, which can be written as JSON."""
         return asdict(self)
 
 
@@ -197,7 +197,8 @@ def doubled_steps() -> Iterator[float]:
 
 
 def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
-    """Return True if the next run would take longer than ``budget`` CPU seconds."""
+    """Return True if the next run would take longer than ``budget`` CPU seconds. The next run is expected to
+    take twice as long as the last run."""
     last = rows[-1]
     return last.seconds is not None and 2 * last.seconds > budget
 

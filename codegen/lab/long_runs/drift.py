@@ -63,18 +63,19 @@ modulation.
 """
 
 CONFINED = 0.04
-"""An upper bound of the ratio V/(n D), where V is the variance of the means of n blocks, and D is the
-variance of the increments between consecutive means. The ratio is less than CONFINED for 3 % of all random
-walks, whatever their length and size."""
+"""A record is not a random walk if its ratio V/(n D) is less than CONFINED. Here V is the variance of the
+means of n blocks, and D is the variance of the increments between consecutive means. The ratio is less than
+CONFINED for only 3 % of all random walks, whatever their length and size."""
 
 STRAIGHT = 0.0225
-"""An upper bound of the ratio V/(n D) described at CONFINED; here V is the variance of the block means about
-a fitted line. The ratio is less than STRAIGHT for 1 % of all random walks.
-"""
+"""The slope of a record is not that of a random walk if the ratio V/(n D) of CONFINED is less than STRAIGHT.
+Here V is the variance of the block means about a fitted line. The ratio is less than STRAIGHT for only 1 % of
+all random walks."""
 
 STEADY = 3.2
-"""A lower bound of the following ratio: the mean increment between the means of BLOCKS blocks, divided by the
-standard error of this mean increment. The ratio exceeds STEADY for 1 % of all random walks."""
+"""The slope of a record is also not that of a random walk if the following ratio exceeds STEADY: the mean
+increment between the means of BLOCKS blocks, divided by the standard error of this mean increment. The ratio
+exceeds STEADY for only 1 % of all random walks."""
 
 TINY = 1e-24
 """Let d be the largest deviation. A variance below TINY d^2 is attributed to rounding errors."""
@@ -256,7 +257,8 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
 
 
 def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
-    """Return the mean increment in units of its standard error; see :data:`STEADY`."""
+    """Return the absolute mean increment of the block means in units of its standard error; see
+    :data:`STEADY`."""
     increments = numpy.diff(_means(t, y, BLOCKS)[1])
     error = float(increments.std(ddof=1)) / math.sqrt(len(increments))
     return abs(float(increments.mean())) / error if error > 0.0 else math.inf

@@ -43,7 +43,7 @@ class Properties:
     reversal: float | None
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return the properties as a dictionary of plain data, which can be written as JSON."""
         return {
             "symplectic": self.symplectic,
             "symmetric": self.symmetric,
@@ -54,7 +54,8 @@ class Properties:
 
 
 def properties(compiled: Compiled, run: LongRun) -> Properties:
-    """Return the properties of a method from its long run and from two steps in 60 digits."""
+    """Return the properties of a method, measured in its long run and, for symmetry, in steps with 60 digits
+    (:func:`reversal`)."""
     back = reversal(compiled, run.h)
     kept = run.kept[0] if run.kept and not run.failure else None
     drifts = None if kept is None else kept.drift.drifts

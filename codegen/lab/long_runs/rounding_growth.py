@@ -42,7 +42,8 @@ TIMES = 9
 """The number of measurements of a deviation. The number of steps doubles from one measurement to the next."""
 
 EXACT = 1e-30
-"""A quantity counts as exactly conserved if one step in 60 digits has a smaller relative change."""
+"""A quantity counts as exactly conserved if one step, computed in 60 digits, changes the quantity by less
+than EXACT, relative to its size."""
 
 
 CHAIN = 3
@@ -52,7 +53,7 @@ because the quantity may be stationary at one state.
 
 NEARLY = 1e-14
 """For a state that rounding errors have moved off the manifold, NEARLY replaces the bound EXACT: a quantity
-counts as exactly conserved if a step from this state has a smaller relative change."""
+counts as exactly conserved if its relative change in a step from this state is less than NEARLY."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,9 @@ class Growth:
 
     @property
     def law(self) -> str:
-        """The names of the laws of growth whose exponent is in the confidence interval."""
+        """The law of growth: ``bounded`` if the confidence interval of the exponent is below 1/4. Otherwise
+        ``random walk`` (exponent 1/2), ``systematic`` (exponent 1), or both, if the interval contains these
+        exponents; else ``neither law``. The half width of the interval is at least 0.1 in this test."""
         if self.exponent + self.half_width < 0.25:
             return "bounded"
         laws = {"random walk": 0.5, "systematic": 1.0}
@@ -81,7 +84,7 @@ class Growth:
         return " or ".join(held) or "neither law"
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return the growth as a dictionary of plain data, which can be written as JSON."""
         return {
             "quantity": self.quantity,
             "compensated": self.compensated,
@@ -210,7 +213,7 @@ def _quantities(
 
 
 def _distance(values: Vector, before: Vector, scale: Scalar) -> float:
-    """Return the largest change of a quantity relative to its size."""
+    """Return the largest absolute difference between components of two values, divided by ``scale``."""
     return float(max(abs(a - b) for a, b in zip(values, before, strict=True)) / scale)
 
 
@@ -240,7 +243,8 @@ def _deviations(
     domain: PreciseDomain,
     carried: bool,
 ) -> list[dict[str, float]]:
-    """Return the deviation of every quantity after each number of steps."""
+    """Return, for each number of steps in ``counts``, the deviation of every quantity after this number of
+    steps from ``start``. ``carried`` is True for a step with compensated summation."""
     number, size = domain.context.mpf, len(start)
 
     def values(state: Sequence[float]) -> dict[str, Vector]:

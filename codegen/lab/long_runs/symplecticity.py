@@ -1,10 +1,11 @@
 """The symplectic defect of a step on T*G: the amount by which the tangent map of the step changes the
 canonical symplectic form.
 
-In right trivialisation the form at (q, mu) is <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]> (H.
-Marthinsen, *Lie group integrators*, eq. (2.26)). The interpreter computes the tangent map by central
-differences in 40 digits. The error of the difference quotients is therefore negligible compared with the
-defect of the method.
+In right trivialisation a tangent vector at (q, mu) is a pair (xi, nu): xi is in the Lie algebra, nu in its
+dual. The form maps (xi_1, nu_1) and (xi_2, nu_2) to <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]> (H.
+Marthinsen, *Lie group integrators*, eq. (2.26)). The tangent map is computed by central differences of steps
+in 40 digits. The error of the difference quotients is therefore negligible compared with the defect of the
+method.
 """
 
 from __future__ import annotations
@@ -28,23 +29,23 @@ OFFSET = 10
 """The offset of a central difference is 10^-OFFSET; the error of the difference is about 10^(-2 OFFSET)."""
 
 SWEEPS = 40
-"""The largest number of fixed-point iterations for an implicit block. If the iterations do not converge,
-Newton's method is used.
+"""The largest number of fixed-point iterations for each system of implicit equations in a step. If the
+iterations do not converge, Newton's method is used.
 """
 
 LEFT = 0.5
 """If the relative deviation of a conserved quantity exceeds LEFT, the state is not close to the exact
-solution, and later states are not used.
+solution. This state and all later states of the run are not used.
 """
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
-    """Return the largest symplectic defect of a step from the initial state and from other states of a run.
+    """Return the largest symplectic defect of single steps from three states of a run.
 
-    The other states are the middle of the run and the state with the fastest motion, for example the
-    pericentre of an orbit. A state is used only if up to this state no relative deviation of a conserved
-    quantity exceeds :data:`LEFT`. Raises ArithmeticError if the equations of a step have no solution in 40
-    digits.
+    Only the part of the run is used in which no relative deviation of a conserved quantity exceeds
+    :data:`LEFT`. The three states are the initial state, the middle state of this part, and the state of this
+    part with the fastest motion, for example the pericentre of an orbit. Raises ArithmeticError if the
+    equations of a step have no solution in 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -54,8 +55,8 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
 
 
 def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[float, list[float]]]:
-    """Return times and states: the initial state, the middle of the run, and the state with the fastest
-    motion.
+    """Return three states with their times: the initial state, and from the part of the run that is close to
+    the exact solution (:data:`LEFT`) the middle state and the state with the fastest motion.
     """
     valid = 1
     for k in range(1, len(trajectory.states)):
@@ -88,9 +89,9 @@ def symplectic_defect(
     J is the tangent map of the step, and Omega is the matrix of the symplectic form.
 
     ``state`` contains the coordinates of the group element, then the momentum. The scene must be Hamiltonian.
-    Implicit blocks are solved by fixed-point iteration. If the iteration does not converge, Newton's method
-    starts from ``near``, the solutions that the emitted code computes in floating point. Raises
-    :class:`NotConverged` if Newton's method does not converge either.
+    Implicit equations are solved by fixed-point iteration. If the iteration does not converge, Newton's
+    method starts from ``near``, the solutions that the emitted code computes in floating point. Raises
+    :class:`NotConverged` if ``near`` is None in this case, or if Newton's method does not converge either.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
@@ -111,7 +112,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # This call replaces ``solution`` by a solution in 40 digits.
+        # This call replaces ``solution`` by a solution in 40 digits. Later steps start from this solution.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

@@ -1,7 +1,8 @@
-"""The record of a long run: conserved quantities at every step, and states at evenly spaced samples.
+"""The record of a long run: states at evenly spaced samples, and deviations of conserved quantities.
 
-The steps are processed in chunks, and the quantities are evaluated on the array of states of a chunk. Only
-samples are stored, but the largest deviation is the maximum over all steps.
+The quantities are evaluated after every step. For each interval between two samples, only the mean, the
+largest and the smallest deviation of its steps are stored. To save time, the quantities are evaluated on
+arrays that contain the states of many steps (a chunk).
 """
 
 from __future__ import annotations
@@ -23,7 +24,9 @@ from codegen.scene.problem import Problem
 
 SAMPLES = 1000
 CANCELLED = 1e-2
-"""The terms of a quantity count as cancelling if its value is at most CANCELLED times its magnitude."""
+"""The terms of a quantity count as cancelling if its absolute value is at most CANCELLED times its magnitude,
+the sum of the absolute values of its terms.
+"""
 
 CHUNK = 100_000
 """Number of steps whose states are in memory at the same time."""
@@ -50,7 +53,7 @@ class Series:
     lows: list[float] = field(default_factory=list)
 
     def append(self, values: numpy.ndarray) -> None:
-        """Append the signed deviations of one interval."""
+        """Append the mean, the peak and the low of one interval; ``values`` are its signed deviations."""
         absolute = numpy.abs(values)
         crosses = values.min() < 0.0 < values.max()
         with numpy.errstate(all="ignore"):  # The sum of large deviations may overflow to infinity.
@@ -67,10 +70,11 @@ class Series:
 
 @dataclass
 class Trajectory:
-    """The record of a run: times, states and numbers of steps at the samples, the quantities, and the message
-    of a failed step.
+    """The record of a run: ``times``, ``states`` and ``counts`` (numbers of steps) of the samples.
 
-    ``scales`` are the sizes of the quantities (:func:`scale`).
+    ``series`` contains the deviations of each quantity by its name, ``scales`` the sizes of the quantities
+    (:func:`scale`), and ``magnitudes`` the sums of the absolute values of their terms. ``steps`` is the
+    number of completed steps. ``failure`` is the message of a failed step, or ''.
     """
 
     times: list[float]
@@ -86,7 +90,9 @@ class Trajectory:
 def record(
     scene: Problem, integrator: Integrator, initial: Sequence[float], h: float, steps: int, first: float
 ) -> Trajectory:
-    """Run ``steps`` steps from time ``first`` and record the conserved quantities of a scene."""
+    """Make ``steps`` steps from the time ``first`` and return the record of the run. If a step fails, the
+    record ends before this step.
+    """
     stride = max(steps // SAMPLES, 1)
     chunk = stride * max(CHUNK // stride, 1)
     evaluate = array_functions(scene)
@@ -113,7 +119,10 @@ def record(
 
 
 def scale(start: float, magnitude: float) -> float:
-    """Return the size of a quantity: its absolute initial value, or its magnitude if its terms cancel.
+    """Return the size of a quantity, by which its deviations are divided.
+
+    The size is the absolute initial value, or the magnitude if the terms of the quantity cancel
+    (:data:`CANCELLED`). If both are zero, the size is 1.
 
     >>> scale(-2.0, 3.0), scale(1e-12, 3.0), scale(0.0, 0.0)
     (2.0, 3.0, 1.0)
@@ -140,9 +149,10 @@ def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
 def array_functions(
     scene: Problem, kept: Mapping[str, tuple[Expr, ...]] | None = None
 ) -> dict[str, ArrayFunction]:
-    """Return expressions as functions of arrays; values that are not finite become infinite.
+    """Return the expressions in ``kept`` as functions of arrays, by the same names.
 
-    ``kept`` are by default the conserved quantities of the scene.
+    By default ``kept`` contains the conserved quantities of the scene. The functions return +infinity for
+    every value that is not finite.
     """
 
     def vectorised(f: Evaluate) -> ArrayFunction:

@@ -23,8 +23,8 @@ BODY = '{% include "sections/advice.html.j2" %}'
 OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
-"""The safety factor of predicted run times. The factor is smaller than in a search for a single goal, because
-the time of this search is divided among many goals.
+"""A method is measured only if its predicted run time is at most SAFETY times the best measured time. The
+factor is smaller than in a search for a single goal, because this search divides its time among many goals.
 """
 
 
@@ -33,7 +33,8 @@ class Advised:
     """The fastest method for one error: its name, its step size or tolerance, its number of steps, and its
     CPU time in seconds.
 
-    ``command`` emits the integrator; it is empty for a peer.
+    ``command`` emits the integrator. If the time is interpolated between measured runs, ``command`` is empty,
+    and the step size, the tolerance and the number of steps are None. This is the case for every peer.
     """
 
     error: float
@@ -47,8 +48,8 @@ class Advised:
 
 @dataclass(frozen=True)
 class Line:
-    """A requirement with the fastest method for each error of :data:`DECADES`. The entry is None if no method
-    reaches the error.
+    """A requirement, and in ``best`` the fastest method for each error 10^-k with k in :data:`DECADES`. The
+    entry is None if no method reaches the error.
     """
 
     need: str
@@ -84,7 +85,7 @@ class Advice(Measurement[Recommendations]):
     part_of = "cost"
 
     def run(self, subject: Subject) -> Recommendations:
-        """Search the library, or only the methods that the user named."""
+        """Return the fastest methods of the library, or only of the methods that the user named."""
         cost = Cost().result(subject)
         known = [features(m.compiled, m.artifact) for m in subject.compiled.measured]
         known += [
@@ -163,11 +164,12 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return lines in which gaps are filled with methods that were measured for the page of the report. A gap
-    is an error for which the search found no method.
+    """Return ``lines`` with their gaps filled, if possible. A gap is an error for which the search found no
+    method.
 
-    The times of these methods are interpolated between measured runs. Gaps remain for requirements that
-    include long times, because only the search makes long runs.
+    A gap is filled with the fastest method that satisfies the requirement, among the methods that were
+    measured for the page of the report. Its time is interpolated between measured runs. Gaps remain for
+    requirements that include long times, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -220,7 +222,8 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 
 
 def cell(best: Advised | None) -> dict[str, str] | None:
-    """Return the texts of a cell; None if no method reaches the error."""
+    """Return the texts in a cell of the table (method, time, step size and steps, command); None if no method
+    reaches the error."""
     if best is None:
         return None
     control = "" if best.h is None else f"h = {best.h:.4g}"

@@ -22,7 +22,7 @@ from codegen.scenes import file_stem
 
 @dataclass(frozen=True)
 class CostResult:
-    """The rows of the bench, and the candidates that were measured."""
+    """The measured rows, one for each run, and the candidates: the methods and peers that made the runs."""
 
     result: Result
     candidates: tuple[Candidate, ...]
@@ -86,12 +86,12 @@ class Cost(Measurement[CostResult]):
         return Section('{% include "sections/cost.html.j2" %}', data(result.result, subject))
 
     def files(self, result: CostResult, subject: Subject) -> Mapping[str, str]:
-        """Return the rows as CSV."""
+        """Return one CSV file with a row for each run: its name and its content."""
         return {f"{file_stem(subject.scene)}.csv": table(result.result.rows)}
 
 
 def data(result: Result, subject: Subject) -> dict[str, object]:
-    """Return the variables of the template."""
+    """Return the variables of the template of this section."""
     name, last = result.scene.name, float(result.scene.span[1])
     title = f"Error against CPU time, {result.scene.title}"
     picture = efficiency_figure(
@@ -100,9 +100,9 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
     return {
         "picture": Picture(
             picture,
-            "Error against the CPU time of the whole run (least of several measurements). Broad lines end "
-            "at the upper quartile of the measured times. Dashed, with open markers: peers. Dash-dotted: "
-            "step-size control. Dotted: slopes of order p with equal steps.",
+            "Error against the CPU time of the whole run (least of several measurements). A broad line leads "
+            "from this time to the upper quartile of the measured times. Dashed, with open markers: peers. "
+            "Dash-dotted: step-size control. Dotted: slopes of order p with equal steps.",
             subject.bench_command(),
         ),
         "places": [
@@ -125,7 +125,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
 
 
 def _decades(numbers: Sequence[int]) -> str:
-    """Return the errors 10^-k as a list of intervals.
+    """Return a text that lists the errors 10^-k for increasing numbers k; consecutive numbers form a range.
 
     >>> _decades([2, 4, 5, 6])
     '10⁻² and 10⁻⁴ to 10⁻⁶'
@@ -140,8 +140,8 @@ def _decades(numbers: Sequence[int]) -> str:
 
 
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
-    """Return, for each method and peer, the set-up times and the operations of one step. The operations are
-    those of the run with the shortest steps.
+    """Return one row of texts for each method and peer: the set-up times, and the operations and the time of
+    one step. The last run without failure, which has the shortest steps, determines the values of a step.
     """
     lines = []
     for label, rows in entries.items():

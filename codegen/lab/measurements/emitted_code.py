@@ -25,7 +25,7 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
         return [{"method": m.label, **{k: m.artifact.manifest[k] for k in keys}} for m in result]
 
     def verdict(self, result: tuple[CompiledMethod, ...], subject: Subject) -> str:
-        """Return the methods with the fewest and with the most lines of emitted code."""
+        """Return a sentence that names the methods with the shortest and with the longest emitted code."""
         lengths = sorted((sum(text.count("\n") for _, text in m.files), m.label) for m in result)
         if not lengths:
             return ""

@@ -19,7 +19,8 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Stored:
-    """The result of a figure in the cache: the SVG element, the note, and the numbers."""
+    """A drawn figure in the form that the cache stores: the SVG element, the note (a sentence that is added
+    to the caption), and the numbers that the figure shows."""
 
     svg: str
     note: str
@@ -39,8 +40,8 @@ Results = tuple[Result, ...]
 
 
 class Figures(Measurement[Results]):
-    """Draws the figures of the scene. The figures do not depend on the methods and the effort of the
-    report."""
+    """Draws the figures that the file of the scene declares. They do not depend on the methods or on the
+    effort that the user requests for the report."""
 
     name = "figures"
     title = "Figures"

@@ -20,7 +20,8 @@ Result = MethodResults[LongRun]
 
 
 class LongRuns(Measurement[Result]):
-    """Measures the drift of conserved quantities over many steps. The step size is span/100."""
+    """Measures the drift of conserved quantities over many steps. The step size is a hundredth of the time
+    span of the scene."""
 
     name = "long"
     title = "Long runs"
@@ -57,8 +58,9 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence on the first quantity of the page. It states each observed law of growth, such as
-        ``bounded`` or ``drift``, and the methods whose deviations follow this law.
+        """Return a sentence on one quantity: the energy, else the first invariant, else the manifold
+        equations. The sentence states each observed law of growth of the deviations, such as ``bounded`` or
+        ``drift``, and the methods to which this law applies.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -90,8 +92,8 @@ def _count(n: int) -> str:
 
 
 def _shown(runs: Sequence[LongRun]) -> list[str]:
-    """Return the quantities that have a diagram: the energy or the first invariant, and the manifold
-    equations.
+    """Return the names of the quantities that have a diagram: the energy (or the first invariant if there is
+    no energy), and the manifold equations if there are any.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]

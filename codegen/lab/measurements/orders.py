@@ -17,7 +17,8 @@ Result = MethodResults[OrderStudy]
 
 
 class Orders(Measurement[Result]):
-    """Compares the observed orders of emitted code, in every target, with the certified order."""
+    """Compares the observed order of the emitted code with the order that the order conditions prove, for
+    every target, such as C or Python."""
 
     name = "orders"
     title = "Orders"
@@ -80,7 +81,8 @@ class Orders(Measurement[Result]):
 
 
 def agreement(spread: float | None) -> str:
-    """Return a text with the largest difference between the results of the targets and of the interpreter."""
+    """Return a text for ``spread``, the largest difference between the final states that the targets and the
+    interpreter compute; None means that no number of steps succeeds with all of them."""
     if spread is None:
         return "no run"
     return scientific(spread) if spread else "bit for bit"

@@ -57,7 +57,8 @@ class StabilityTests(Measurement[Result]):
         return not result.failures and all(s.honest for s in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
-        """Return one line for each wrong result and each method that failed."""
+        """Return one line for each step with extreme input whose result is wrong, and one line for each
+        method that could not be tested."""
         for stability in result.measured:
             for wrong in stability.wrong:
                 yield f"{stability.scene} {stability.method}: {wrong.case.name}: {wrong.verdict}"
@@ -65,8 +66,8 @@ class StabilityTests(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the stability tests failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence with the number of wrong results, and with the methods that have the longest
-        usable step.
+        """Return a sentence with the number of wrong results of steps with extreme input, the longest usable
+        step, and the methods that have it.
         """
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
         wrong = [method for kind, method in answers if kind == "wrong"]
@@ -88,18 +89,19 @@ class StabilityTests(Measurement[Result]):
         return f"{sentence[0].upper()}{sentence[1:]}." if parts else ""
 
     def section(self, result: Result, subject: Subject) -> Section:
-        """Return all tables."""
+        """Return the diagram of the stability regions and all tables."""
         return Section('{% include "sections/stability.html.j2" %}', data(result, subject))
 
     def overview(self, result: Result, subject: Subject) -> Section | None:
-        """Return the number of wrong results."""
+        """Return a paragraph with the number of wrong results of steps with extreme input; None if no such
+        step was made."""
         answers = sum(len(s.findings.answers) for s in result.measured)
         wrong = sum(len(s.wrong) for s in result.measured)
         return Section(OVERVIEW, {"wrong": wrong, "all": answers}) if answers else None
 
 
 def data(result: Result, subject: Subject) -> dict[str, object]:
-    """Return the variables of the template."""
+    """Return the variables of the template of this section."""
     methods = result.measured
     stiff = [(s, v) for s in methods for v in s.findings.stiff]
     rows = [_row(s) for s in methods]

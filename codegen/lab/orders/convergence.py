@@ -1,9 +1,8 @@
 """Convergence: the observed order of a method on a scene, compared with the stated order.
 
-The error at the end of the span is measured in the norm of the scene (:mod:`codegen.lab.distance`) against a
-reference from extrapolation. Steps are halved until the slopes have settled
-(:mod:`codegen.lab.orders.step_sizes`). The stated order comes from the order conditions, never from the
-slopes.
+The error is the distance of the final state from a reference solution (:mod:`codegen.lab.distance`). The
+steps are halved until the slopes of the errors have settled (:mod:`codegen.lab.orders.step_sizes`). The
+stated order comes from the order conditions, from the tableau file or from the user, never from the slopes.
 """
 
 from __future__ import annotations
@@ -52,8 +51,8 @@ class Convergence:
 
     @property
     def observed(self) -> float | None:
-        """The observed order: the last slope of the runs that are not excluded. If kinks of the solution make
-        the slopes irregular, the observed order is the mean slope.
+        """The observed order: the last slope of the runs that are not excluded; None if there is no slope. If
+        :attr:`limit` is below the stated order, slopes are irregular, and the order is the mean slope.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -63,15 +62,17 @@ class Convergence:
 
     @property
     def verdict(self) -> str:
-        """``holds``, ``fails`` or ``undecided``."""
+        """The result of the comparison with the stated order: ``holds``, ``fails`` or ``undecided``. If
+        :attr:`limit` is below the stated order, the result is ``undecided``.
+        """
         if self.limit < self.stated.order:
             return "undecided"
         return self.refinement.verdict(self.stated.order)
 
     @property
     def limit(self) -> float:
-        """The highest order that equal steps can have in spite of the kinks of the solution; infinity if the
-        solution has no kinks."""
+        """The highest order that equal steps can have if the solution has kinks (points at which the field is
+        not smooth); infinity if it has none."""
         # If k derivatives of the field are continuous at a kink, the local error of the step that contains
         # the kink has order k + 2. The number of steps that contain a kink does not depend on h, so the error
         # at the end has this order, too.
@@ -114,7 +115,8 @@ class Convergence:
         return f"{self.verdict}: {about}; {self._short()}"
 
     def _crossed(self) -> str:
-        """Return a text on the order that is possible if the solution has kinks."""
+        """Return a text on the highest order that is possible because the solution has kinks (points at which
+        the field is not smooth)."""
         number = len(self.kinks)
         places = "one point" if number == 1 else f"{number} points"
         return (
@@ -187,9 +189,10 @@ def converge(
     to_rounding: bool = False,
     form: ClassicalForm | None = None,
 ) -> Convergence:
-    """Run a method with shorter and shorter steps and return its convergence.
+    """Run a method with shorter and shorter steps and return the result.
 
-    ``steps`` prescribes the numbers of steps. By default the first run has five steps, and each further run
+    ``stated`` is the order to test, and ``exact`` is the reference solution. ``steps`` prescribes the
+    numbers of steps. By default the first run has five steps, and each further run
     has twice as many steps as the previous run. The runs end when the slopes have settled (with
     ``to_rounding``: when rounding errors dominate), or when a further run would have more than
     ``runner.most_steps`` steps. ``form`` is the classical form of the equations that ``runner`` integrates;

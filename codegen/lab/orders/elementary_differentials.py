@@ -26,8 +26,8 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 
 
 class RingDomain(Domain):
-    """Arithmetic in an exact ring, for polynomial scenes. The step size ``h`` is set to 1, because elementary
-    differentials do not contain it."""
+    """Arithmetic in an exact ring, for polynomial scenes. Elementary differentials do not contain the step
+    size ``h``, so ``h`` has the arbitrary value 1."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
@@ -66,8 +66,10 @@ def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
 class FrozenFields:
     """The elementary differentials of the field of an autonomous scene at its initial point.
 
-    Trees and forests are ordered (:mod:`orderconds.trees.levels`). The initial point is displaced along the
-    frozen field of the first tree of a forest, then along the frozen field of the second tree, and so on.
+    Trees and forests are ordered (:mod:`orderconds.trees.levels`). :meth:`tree` assigns an element F(t) of
+    the Lie algebra to each tree t, and F(t) defines the frozen field y -> F(t).y. To differentiate along the
+    trees of a forest, the initial point is displaced along the frozen field of the first tree, then along the
+    frozen field of the second tree, and so on.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -133,7 +135,8 @@ class CanonicalFields:
 
 
 def action_fields(scene: Problem, ring: Ring) -> ActionFields:
-    """Return the elementary velocities and covectors of an autonomous polynomial Hamiltonian scene.
+    """Return an object that computes the elementary differentials of an autonomous polynomial Hamiltonian
+    scene at its initial point: velocities in the Lie algebra, and covectors in its dual.
 
     Group elements are represented by their matrices; for R^n these are the matrices of translations.
     """

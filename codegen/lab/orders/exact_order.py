@@ -1,9 +1,9 @@
 """The exact order of an emitted step program, computed from its local error over Q[[h]].
 
-A slope only estimates the order. For a scene whose field is polynomial or rational, the Taylor coefficients
-of the local error are exact numbers. The order is p if the coefficients of h, ..., h^p vanish and the
-coefficient of h^(p+1) does not vanish. Coordinates of the initial state that are not in the ring of the
-method's coefficients are replaced by nearby rational numbers. The initial point may then lie off the
+Slopes of errors only estimate the order. For a scene whose field is polynomial or rational, the Taylor
+coefficients of the local error are exact numbers. The order is p if the coefficients of h, ..., h^p vanish
+and the coefficient of h^(p+1) does not vanish. Coordinates of the initial state that are not in the ring of
+the method's coefficients are replaced by nearby rational numbers. The initial point may then lie off the
 manifold. This does not matter, because the equations, the group action and the order conditions are valid at
 such points, too.
 """
@@ -54,7 +54,7 @@ class ExactLocalError:
 
     @property
     def verdict(self) -> str:
-        """``holds`` if the order is at least the order from the order conditions, else ``fails``."""
+        """``holds`` if the exact order is at least the order from the order conditions, else ``fails``."""
         return "holds" if self.order >= self.certified.order else "fails"
 
     def sentence(self) -> str:

@@ -1,10 +1,10 @@
 """The exact local error of a step program: its Taylor coefficients in h, computed in two ways.
 
-The interpreter runs a program on a polynomial scene over Q[[h]] and returns the series of the state after one
-step. Picard iteration returns the series of the exact flow. The difference of the two series starts at
-h^(p+1), where p is the order. In theory, the leading coefficient of the difference is a sum over the order
-conditions: the residual of each condition times an elementary differential of the scene. Comparing the
-leading coefficient with this sum tests the program against the order conditions.
+First, the interpreter runs a program on a polynomial scene over Q[[h]] and returns the series of the state
+after one step. The series of the exact solution, which Picard iteration returns, is subtracted. The
+difference starts at h^(p+1), where p is the order. Second, the theory predicts the coefficient of h^(p+1). It
+is a sum over the order conditions: the residual of each condition times an elementary differential of the
+scene. Comparing the two coefficients tests the program against the order conditions.
 """
 
 from __future__ import annotations
@@ -32,9 +32,10 @@ from orderconds.trees import directed, levels
 
 
 def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the state after one step from the initial state of the scene, as series in h up to ``order``.
+    """Return the state after one step from the initial state of the scene, as power series in h up to
+    h^``order``.
 
-    ``scene`` is the problem from which the program was lowered. Raises ArithmeticError if the field of the
+    ``scene`` is the problem for which the program was generated. Raises ArithmeticError if the field of the
     scene is not rational in the coordinates, or if the initial state is not in ``ring``.
     """
     domain = SeriesDomain(ring, order)
@@ -48,7 +49,8 @@ def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
 
 
 def exact_flow(scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the exact solution after the time h from the initial state, by Picard iteration."""
+    """Return the exact solution after the time h as power series in h, computed by Picard iteration from the
+    initial state."""
     domain = SeriesDomain(ring, order)
     start = scene.initial(domain)
     t = _time(scene, domain) + domain.h
@@ -69,7 +71,8 @@ def _integral(ring: PowerSeries, x: Scalar) -> Scalar:
 
 
 def local_error(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the state after one step minus the exact flow, as series in h up to ``order``."""
+    """Return the state after one step minus the exact solution after the time h, as power series in h up to
+    h^``order``."""
     pairs = zip(step(program, scene, ring, order), exact_flow(scene, ring, order), strict=True)
     return tuple(x - y for x, y in pairs)
 
@@ -86,11 +89,12 @@ def leading_term(error: Vector) -> tuple[int, Vector]:
 
 
 def predicted(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the coefficients of h^power that the order conditions of a method predict.
+    """Return the coefficients of h^power in the local error, as the order conditions of a method predict
+    them: one coefficient for each coordinate.
 
-    The coefficients of all lower powers must vanish. ``scene`` is the problem from which the program was
-    lowered. It must be autonomous and polynomial. For symplectic partitioned methods the scene must be
-    Hamiltonian on T*R^n, and the order conditions are those of trees with directed edges.
+    The method must satisfy the conditions of all orders below ``power``. ``scene`` is the problem for which
+    the program was generated. It must be autonomous and polynomial. For symplectic partitioned methods it
+    must be Hamiltonian on T*R^n, and the order conditions are those of trees with directed edges.
     """
     if not scene.autonomous:
         raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")
@@ -108,8 +112,8 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
-    """Return the violated order conditions of one order, as pairs: the tree or forest of the condition, and
-    its residual.
+    """Return the violated conditions of order ``power``, as pairs: the tree or forest of the condition, and
+    the residual of the condition.
     """
     family = family_of(method)
     conditions = family.all_conditions(power)
@@ -129,8 +133,8 @@ def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
 
 
 def _trees(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the term of the B-series: the sum over rooted trees t of residual/symmetry times the elementary
-    differential F(t) (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.1)."""
+    """Return a term of the B-series (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.1): a
+    sum over rooted trees t. Each summand is residual/symmetry times the elementary differential of t."""
     fields = FrozenFields(scene, method.ring)
     terms = [
         (x * method.ring.rational(1, levels.symmetry(t)), fields.forest(t))
@@ -160,8 +164,8 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _action(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the term of the action series: a sum over words (sequences of trees). Each word is weighted by
-    its coefficient in the update minus its exact coefficient.
+    """Return a term of the action series: a sum over words (sequences of trees). The weight of a word is its
+    coefficient in the numerical solution minus its coefficient in the exact solution.
     """
     ring = method.ring
     family = family_of(method)

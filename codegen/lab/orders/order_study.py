@@ -29,7 +29,7 @@ MOST_TIMED = 2560
 
 @dataclass(frozen=True)
 class OrderStudy:
-    """The study of one method: its certified order, and its convergence by target.
+    """The study of one method: its certified order, and its convergence for each target, such as C or Python.
 
     ``times`` and ``artifact`` belong to the default target. ``spread`` is the largest difference of a
     coordinate between the final states of all targets and of the interpreter, after at least :data:`COMPARED`
@@ -102,7 +102,7 @@ def order_study(
     key = ("orders", *files, exact.digits())
     measured = (cache or MeasurementCache(None)).get(key, _Measured, measure)
     convergences = {
-        target: Convergence(scene.name, method.label, target, order, refinement)
+        target: Convergence(scene.name, method.label, target, order, refinement, exact.kinks)
         for target, refinement in measured.refinements.items()
     }
     return OrderStudy(method, order, convergences, measured.times, measured.spread, main.artifact)

@@ -55,7 +55,8 @@ class ConvergenceTest:
         digits: int = DOUBLE,
         stated: int | None = None,
     ) -> ConvergenceTest:
-        """Check the arguments and return a test. The arguments are the same as for :func:`converge`."""
+        """Check the arguments and return a test. The arguments and the errors for wrong arguments are those
+        of :func:`converge`."""
         problem = scenes.with_one_system(scenes.problem_of(scene))
         chosen = find_form(problem, form) if form not in (None, PRINTED) else None
         equations = problem if chosen is None else chosen.problem
@@ -64,12 +65,12 @@ class ConvergenceTest:
         return cls(problem, equations, known, target or DEFAULT, tuple(steps), digits, stated, chosen)
 
     def reference(self) -> Reference:
-        """Return the reference solution."""
+        """Return the reference solution of the scene, with which the runs are compared."""
         return cached_reference(self.scene)
 
     def result(self, method: Method, exact: Reference, progress: Progress = str) -> Convergence | NotEmitted:
-        """Return the convergence of one method; raise CompilerMissing if the target needs a compiler that is
-        not installed.
+        """Return the convergence of one method, or the reason why the method cannot be emitted for the scene.
+        Raises CompilerMissing if the target needs a compiler that is not installed.
         """
         try:
             known = self.stated

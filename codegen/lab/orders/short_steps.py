@@ -35,8 +35,8 @@ SWEEPS = 400
 def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
     """Return the order of very short steps from the initial state of the scene.
 
-    ``stated`` is the expected order; it determines the step sizes. The result is None if the steps cannot be
-    computed, if the difference is zero, or if the slopes do not agree.
+    ``stated`` is the expected order; it determines the step sizes. The result is None if a step cannot be
+    computed, if one step and two half steps do not differ, or if the slopes do not agree.
     """
     problem = problem_for(compiled.scene, compiled.method)
     first, last = problem.span

@@ -2,12 +2,14 @@
 order.
 
 A slope is the logarithm of the error ratio of neighbouring runs, divided by the logarithm of the ratio of
-their step sizes. If the error of a run may be a rounding error, this run and all runs with shorter steps are
-excluded. For a smooth problem the error is C h^p (1 + O(h)), so a slope differs from p by O(h). If h is
-divided by r, this difference is also divided by r. Therefore the last change of the slope, divided by r - 1,
-estimates the difference that remains. Slopes have *settled* when this estimate is at most :data:`SETTLED` for
-two consecutive slopes. The last slope must then be within :data:`TOLERANCE` of the stated order, below or
-above. The tolerance is larger than :data:`SETTLED`, but far smaller than 1, the distance to the next order.
+their step sizes. Runs whose errors may be rounding errors are excluded, and the longest sequence of
+consecutive other runs is used.
+
+For a smooth problem the error is C h^p (1 + O(h)), so a slope differs from p by O(h). If h is divided by r,
+this difference is also divided by r. Therefore the last change of the slope, divided by r - 1, estimates the
+difference that remains. Slopes have *settled* when this estimate is at most :data:`SETTLED` for two
+consecutive slopes. The last slope must then be within :data:`TOLERANCE` of the stated order, below or above.
+The tolerance is larger than :data:`SETTLED`, but far smaller than 1, the distance to the next order.
 Therefore a method whose order is higher than stated fails as well.
 """
 
@@ -33,7 +35,8 @@ FIRST = 5
 """Number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""The numbers of steps of additional runs, which are made if there are too few slopes."""
+"""The numbers of steps of additional runs. They are made if rounding errors dominate before the slopes have
+settled."""
 
 
 @dataclass(frozen=True)
@@ -91,14 +94,18 @@ class Refinement:
     def verdict(self, stated: int) -> str:
         """Return ``holds``, ``fails`` or ``undecided``.
 
-        Slopes that have settled determine the verdict. There is one exception: the slopes have settled at an
-        order other than the stated order, but very short steps have the stated order. In this case the
-        verdict is ``holds`` if the slopes are above the stated order, because a small parameter then hides
-        the leading term. The verdict is ``undecided`` if the slopes are below the stated order.
+        Orders and slopes are compared with the tolerance :data:`TOLERANCE`.
 
-        If rounding errors end the runs before the slopes settle, the order of very short steps determines the
-        verdict, provided that the last slope is not below this order. If very short steps have an order below
-        the stated order, the verdict is always ``fails``.
+        - If the slopes have settled and very short steps have an order below ``stated``, the verdict is
+          ``fails``. Orders up to :data:`ZERO` are ignored here.
+        - If the slopes have otherwise settled at the stated order, the verdict is ``holds``.
+        - If the slopes have settled at another order, the verdict depends on very short steps. If they have
+          the stated order and the slopes are above it, the verdict is ``holds``, because a small parameter
+          hides the leading term. If they have the stated order and the slopes are below it, the verdict is
+          ``undecided``. If their order is another one or is not known, it is ``fails``.
+        - If the slopes have not settled, the verdict is ``undecided``, with one exception. It is ``holds`` if
+          the errors of the finest runs are too small to be used (:attr:`too_fine`), very short steps have the
+          stated order, and the last slope is not below it.
         """
         if self.observed is None:
             return "undecided"
@@ -116,7 +123,9 @@ class Refinement:
 
     @property
     def too_fine(self) -> bool:
-        """True if the errors of the finest runs are too small to be used."""
+        """True if a run is excluded because its error is too small: close to rounding errors, or to the
+        uncertainty of the reference solution.
+        """
         return any(r.excluded and math.isfinite(r.error) for r in self.runs)
 
 
@@ -132,11 +141,12 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
     """Double the number of steps, from :data:`FIRST` up to ``most``, and return the runs.
 
-    The refinement ends when the slopes have settled or rounding dominates. With ``to_rounding`` it continues
-    after the slopes have settled. A run that failed does not end the refinement. For example, Newton's method
-    may converge to a wrong solution for a long step, fail for half of this step, and find the right solution
-    for shorter steps. If a method of high order reaches rounding before three slopes have settled, runs with
-    longer steps and intermediate runs are added.
+    ``run`` makes a run with a given number of steps. The refinement ends when the slopes have settled, or
+    when rounding errors dominate; with ``to_rounding`` only the second condition ends it. A run that failed
+    does not end the refinement. For example, Newton's method may converge to a wrong solution for a long
+    step, fail for half of this step, and find the right solution for shorter steps. With a method of high
+    order, rounding errors may dominate before the slopes have settled. Then runs with longer steps and
+    intermediate runs are added.
     """
     runs: list[Run] = []
     steps = FIRST

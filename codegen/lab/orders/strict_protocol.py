@@ -1,6 +1,6 @@
 """The strict protocol: the order of a method on demanding scenes, computed with 50 digits.
 
-The slopes are compared with a stated order: the claim of the tableau file for the family, or a given number.
+The slopes are compared with a stated order: a given number, or the order that the tableau file claims.
 A method passes if, on every scene of :mod:`codegen.lab.orders.strict_scenes`, its slopes settle at a number
 that differs from the stated order by at most 0.25. A method whose order is higher than stated fails as well.
 """

@@ -1,13 +1,16 @@
 """The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
 
-Published software has documented methods of order 2 as methods of order 4. Its tests used rotations about one
-axis, generators orthogonal to the state, or fields that do not depend on time. In the scenes of this module,
-every field f is polynomial and depends on state and time, and the values of f at different points do not
-commute. On the sphere, f has a component along the state. The groups are SO(3), GL(3) and the unipotent 4 x 4
-matrices, which are nilpotent of class three. The groups act on themselves or on vectors. Variational methods
-run on T*G with Hamiltonians that have no symmetry and depend on time. Methods for linear equations
-y' = A(t).y run on such equations, under left and right actions. Splittings run on Hamiltonians in three parts
-with exact flows; no two of these flows commute.
+Some published software documents methods of order 2 as methods of order 4. Its tests did not find the error,
+because they used rotations about one axis, generators orthogonal to the state, or fields that do not depend
+on time.
+
+The scenes depend on the kind of method. For methods for general fields, every field f is polynomial and
+depends on state and time, and the values of f at different points do not commute. On the sphere, f has a
+component along the state. The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent
+of class three. They act on themselves or on vectors. Variational methods run on T*G with Hamiltonians that
+have no symmetry and depend on time. Methods for linear equations run on equations y' = A(t).y, under left and
+right actions. Splitting methods run on Hamiltonians in three parts with exact flows; no two of these flows
+commute.
 """
 
 from __future__ import annotations
@@ -53,7 +56,7 @@ def _span() -> tuple[Rational, ...]:
 
 
 def _rotations() -> Problem:
-    """Return SO(3) acting on itself from the left."""
+    """Return a scene in which SO(3) acts on itself from the left."""
     t, half, g = Symbol("t", real=True), Rational(1, 2), SO3().point("g")
     return FieldScene(
         name="SO(3) on itself",
@@ -75,7 +78,7 @@ def _turn() -> Matrix:
 
 
 def _sphere() -> Problem:
-    """Return SO(3) acting on a sphere, with a field that has a component along the state."""
+    """Return a scene in which SO(3) acts on a sphere, with a field that has a component along the state."""
     t, m = Symbol("t", real=True), SO3().dual("m")
     return FieldScene(
         name="SO(3) on a sphere",
@@ -89,7 +92,7 @@ def _sphere() -> Problem:
 
 
 def _linear() -> Problem:
-    """Return GL(3) acting on itself from the left."""
+    """Return a scene in which GL(3) acts on itself from the left."""
     t, half, a = Symbol("t", real=True), Rational(1, 2), GL(3).point("a")
     entries = [
         a[(i + 1) % 3, j] * (half + t) - a[j, i] * a[i, (j + 2) % 3] / 3 + (t if i == j else half * (i - j))
@@ -108,7 +111,7 @@ def _linear() -> Problem:
 
 
 def _nilpotent() -> Problem:
-    """Return the unipotent 4 x 4 matrices acting on vectors."""
+    """Return a scene in which the unipotent 4 x 4 matrices act on vectors."""
     t = Symbol("t", real=True)
     places = ((0, 1), (1, 2), (2, 3), (0, 2), (1, 3), (0, 3))
     basis = [[[int((i, j) == p) for j in range(4)] for i in range(4)] for p in places]
@@ -157,13 +160,13 @@ def hamiltonians() -> tuple[Problem, ...]:
 
 @cache
 def split_hamiltonians() -> tuple[Problem, ...]:
-    """Return Hamiltonian scenes in three parts with exact flows: the kinetic energy T, the gyroscopic
-    term G of a rotating frame, and the potential V."""
+    """Return scenes whose Hamiltonian is a sum of three parts with exact flows: the kinetic energy T, the
+    gyroscopic term G of a rotating frame, and the potential V."""
     return _rotating_plane(), _rotating_top()
 
 
 def _rotating_plane() -> Problem:
-    """Return a particle in a potential without symmetry, in a rotating plane."""
+    """Return the scene of a particle in a potential without symmetry, in a rotating plane."""
     q, p = Rn(2).point("q"), Rn(2).dual("p")
     parts = {
         "T": p.dot(p) / 2,
@@ -184,7 +187,7 @@ def _rotating_plane() -> Problem:
 
 
 def _rotating_top() -> Problem:
-    """Return a symmetric top in a potential without symmetry, in a rotating frame."""
+    """Return the scene of a symmetric top in a potential without symmetry, in a rotating frame."""
     group = SO3()
     q, mu = group.point("q"), group.dual("p")
     inverse = Matrix.diag(1, 1, Rational(5, 2))
@@ -227,8 +230,8 @@ def _of_time(name: str, group: LieGroup, action: Action, f: Matrix, start: Seque
 
 
 def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
-    """Return the scenes for a family: field scenes, linear problems y' = A(t).y, Hamiltonian
-    scenes, or Hamiltonians in parts with exact flows."""
+    """Return the scenes on which the methods of a family are tested. The family determines the kind of scene:
+    linear problems y' = A(t).y, Hamiltonians in parts with exact flows, other Hamiltonians, or fields."""
     if isinstance(family, LinearLowering):
         return linear_fields()
     if isinstance(family, FlowLowering):

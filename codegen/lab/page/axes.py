@@ -78,7 +78,8 @@ def label_axes(axes: Axes, x: str, y: str) -> None:
 
 
 def few_decades(axes: Axes) -> None:
-    """Write more numbers beside a logarithmic vertical axis of less than two decades: 1, 2, 5, 10, ...."""
+    """If a logarithmic vertical axis covers less than two decades, label not only the powers of ten, but also
+    2 and 5 times each power of ten."""
     from matplotlib.ticker import FuncFormatter, LogLocator
 
     low, high = axes.get_ylim()
@@ -97,14 +98,16 @@ def log_ticks(axis: Axis, text: Callable[[float], str]) -> None:
 
 
 def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
-    """Write a small text near a point; ``shift`` is in printer's points."""
+    """Write a small text near the point ``at``. ``shift`` is the offset of the text in printer's points, and
+    ``side`` is its horizontal alignment, such as ``left``."""
     axes.annotate(text, at, xytext=shift, textcoords="offset points", ha=side, color=MUTED, fontsize=8)
 
 
 def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | None = None) -> None:
     """Put the legend above the axes, so that it does not overlap curves. Equal labels are listed once.
 
-    ``numbers`` contains the number of the series for each label; by default the entries are numbered from 0.
+    ``numbers`` maps each label to the number of its series in the SVG element. By default the entries are
+    numbered from 0.
     """
     entries: dict[str, object] = {}
     for axes in panels:

@@ -103,7 +103,7 @@ def _formatted(paragraph: str) -> Markup:
 
 
 def _html(section: Section, styles: Styles) -> Markup:
-    """Return the HTML of a section; text is escaped by the template environment."""
+    """Return the HTML of a section. The template escapes all text that is not ``Markup``."""
     return Markup(_environment().from_string(section.template).render(section.data, styles=styles))
 
 

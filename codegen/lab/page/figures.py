@@ -50,7 +50,8 @@ class _Drawing:
     values: dict[int, list[str]] = field(default_factory=dict)
 
     def draw(self, curve: Curve, value: Callable[[float, float], str], marks: Sequence[int]) -> None:
-        """Draw a curve; ``marks`` contains the indices of the points with markers."""
+        """Draw a curve; ``marks`` contains the indices of the points with markers, and ``value(x, y)`` is the
+        text of the marker at (x, y)."""
         number, style = len(self.values), curve.style
         x, y = zip(*curve.points, strict=True)
         (line,) = self.axes.plot(
@@ -138,7 +139,8 @@ parts.
 
 GRID = 120
 """The number of grid points in each direction. The number is even, so that no grid point is on an axis. Many
-stable regions are bounded by the imaginary axis, and on a boundary, rounding errors decide whether |R| <= 1.
+stable regions are bounded by the imaginary axis. At a point on a boundary, rounding errors would decide
+whether |R| <= 1, where R is the stability function.
 """
 
 MARGIN = 0.7
@@ -216,8 +218,8 @@ class _Plane:
         return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
-        """Return |R| at every point of the grid whose indices are multiples of ``step``. Values above 1000
-        are replaced by 1000.
+        """Return the absolute values of ``function`` at the points of the grid, row by row. Only points are
+        used whose indices are multiples of ``step``. Values above 1000 are replaced by 1000.
         """
         return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]
 
@@ -288,9 +290,9 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a line with the slope of each order of :data:`SLOPES`, in a corner of the figure.
 
-    The corner is the lower left or the upper right corner of the figure, whichever contains fewer points.
-    Work-precision curves seldom reach these corners. In this corner lies an invisible box: all lines begin at
-    the upper left corner of the box and end at its lower side or its right side.
+    Work-precision curves seldom reach the lower left and the upper right corner, and the one with fewer
+    ``points`` is used. All lines begin at the upper left corner of an invisible box in this corner, and end
+    near the lower side or the right side of the box.
     """
     if not points:
         return

@@ -1,10 +1,10 @@
 """The colour, marker and dash of each method in the pictures and tables of all pages.
 
 A method has the same colour and marker in every section, on every page and in the pictures of the README. The
-line is solid for equal steps, dash-dotted for step-size control, and dotted for a target that is not the
-default target. Peers (other integrators, measured for comparison) have open markers, and dashed lines in the
-two colours in which the page shows text. Colour-blind readers can distinguish the colours. In grey print,
-markers and dashes distinguish the methods.
+line is solid for equal steps and dash-dotted for step-size control. It is dotted if the code was emitted for
+another target (such as Python) than the default target. Peers (other integrators, measured for comparison)
+have open markers, and dashed lines in the two colours in which the page shows text. Colour-blind readers can
+distinguish the colours. In grey print, markers and dashes distinguish the methods.
 """
 
 from __future__ import annotations
@@ -58,9 +58,9 @@ class Style:
 class Styles:
     """The styles of all methods and peers of a report or picture, by label.
 
-    Each default method of the commands has a fixed colour and marker. The colour and the marker of any other
-    method depend on the label of the method. If another method of the same report already has this colour or
-    marker, the next free colour or marker is used.
+    Methods that the commands use by default have a fixed colour and marker. For any other method, the search
+    for a colour and a marker begins at a place that depends on its label. From there on, the first colour and
+    the first marker are used that are rarest among the methods of the report.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -121,10 +121,11 @@ def _fixed() -> Mapping[str, Place]:
 
 
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
-    """Return the indices of a colour and a marker, both of which occur least often in ``used``.
+    """Return the indices of a colour and of a marker. Both are among those that occur least often in
+    ``used``.
 
-    Pairs in ``taken`` are avoided if possible. The search begins at the index ``first``. If several colours
-    or markers occur equally often, the first of them is chosen.
+    If several colours or markers occur equally often, the first one is chosen, counted cyclically from an
+    index that depends on ``first``. Pairs in ``taken`` are avoided if possible.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

@@ -3,9 +3,9 @@
 Matplotlib draws with placeholder colours, which are then replaced by CSS variables of the page. Text is
 written as SVG text, not as outlines. The identifiers in the SVG are hashes that depend on the data and on the
 name of the figure. Therefore equal data gives equal bytes, and two figures of a page have different
-identifiers. The elements of a series and of its entry in the legend have the attributes ``data-series`` and
-``data-key``, by which the script of the page shows and hides the series. Each marker has a title, which
-browsers show without a script.
+identifiers. The elements of a series have the attribute ``data-series``, and its entry in the legend has the
+attribute ``data-key``. By these attributes the script of the page shows and hides the series. Each marker has
+a title, which browsers show without a script.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ PLACEHOLDERS = {"var(--ink)": INK, "var(--muted)": MUTED, "var(--rule)": RULE, "
 
 SERIES_LIGHT = ("#4963de", "#e55900", "#589457", "#85176f", "#662836", "#009fa9", "#3644a0", "#684a00")
 SERIES_DARK = ("#20a5ee", "#d2790e", "#98e57d", "#b341a8", "#cf3452", "#6bcaca", "#6a6dee", "#dfb127")
-"""The colours of the series. Colour-blind readers can distinguish any two of them."""
+"""The colours of the series in light and in dark mode. Colour-blind readers can distinguish any two colours
+of the same mode."""
 
 LIGHT = {
     "var(--ink)": "#1d1c1a",
@@ -44,7 +45,7 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The colour for each CSS variable. These colours are used in figures that are not part of a page; such
+"""The value of each CSS variable (a colour or a list of fonts) in figures that are not part of a page. Such
 figures have a white background.
 """
 
@@ -96,7 +97,7 @@ def svg_element(figure: Figure, text: Text) -> Markup:
     drawn = drawn[drawn.index("<svg") :]
     drawn = re.sub(r"<metadata>.*?</metadata>", "", drawn, flags=re.DOTALL)
     drawn = re.sub(r'\s+(width|height)="[\d.]+pt"', "", drawn, count=2)
-    # A style element in the figure would apply to the whole page.
+    # The style element is removed, because in a page it would apply to the whole page.
     drawn = re.sub(r"<style.*?</style>", "", drawn, flags=re.DOTALL)
     drawn = re.sub(r'\s+id="[^"]*_\d+"', "", drawn)
     drawn = re.sub(r"""'DejaVu Sans'(?:, [^;"]*)?""", "var(--sans)", drawn)

@@ -37,19 +37,19 @@ class Outcome:
 
 
 class Run(Protocol):
-    """A run of a peer."""
+    """A function that runs a peer."""
 
     def __call__(self, spans: int = 1, /) -> Outcome:
-        """Integrate over a number of time spans."""
+        """Integrate from the start of the span of the scene over ``spans`` times its length."""
 
 
 @dataclass(frozen=True)
 class Prepared:
     """A peer that is prepared for one scene and for one tolerance or one number of steps.
 
-    ``run(n)`` integrates over n time spans, by default over one; it raises :class:`PeerFailed` if the run
-    does not reach the end. ``idle`` integrates over an empty interval, to measure the overhead of a call; it
-    is None if the overhead is negligible.
+    ``run(n)`` integrates over n times the length of the span of the scene, by default over the span. It
+    raises :class:`PeerFailed` if the run does not reach the end. ``idle`` integrates over an empty interval,
+    to measure the overhead of a call; it is None if the overhead is negligible.
     """
 
     run: Run
@@ -60,9 +60,10 @@ class Prepared:
 class Peer:
     """A peer: an integrator of other software, or a classical integrator in C.
 
-    ``controlled`` is ``"tolerance"`` or ``"steps"``. ``prepare(scene, control)`` returns a run over the span
-    of the scene with this tolerance or number of steps. ``version`` is the name and version of the software.
-    If ``projects`` is True, the peer projects states and needs the manifold of the scene.
+    ``controlled`` is ``"tolerance"`` if the user chooses the tolerance of the peer, or ``"steps"`` if the
+    user chooses the number of steps. ``prepare(scene, control)`` prepares the peer for this tolerance or
+    number of steps. ``version`` is the name and version of the software. If ``projects`` is True, the peer
+    projects the state onto the manifold of the scene after each step.
     """
 
     name: str
@@ -90,8 +91,8 @@ PEERS = {
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
 }
-"""For each peer: the module of this package that runs the peer, and the name of the package to install ('' if
-none).
+"""For each peer: the module in ``codegen.lab.peers`` that runs the peer, and the Python package that the peer
+needs ('' if it needs none).
 """
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
@@ -102,7 +103,7 @@ GROUPS = {
     "c": ("c-dop853", "c-rk4-projected"),
     "all": tuple(PEERS),
 }
-"""Names of groups of peers."""
+"""For each name of a group of peers: the names of its members."""
 
 
 def installed(name: str) -> bool:

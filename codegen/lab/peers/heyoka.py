@@ -18,7 +18,7 @@ LONG = 1000
 
 
 def peer(name: str) -> Peer:
-    """Return heyoka."""
+    """Return the peer heyoka, the only peer of this module."""
     import heyoka
 
     return Peer(name, "tolerance", _prepare, f"heyoka {heyoka.__version__}")
@@ -47,7 +47,7 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    # The overhead of a call is measured as the time of an empty run. For heyoka this time is too long by
-    # about the time of one step. The error is small, because a short run is timed over several time spans, as
-    # for all other integrators.
+    # The time of an empty run is used as the overhead of a call. For heyoka it is longer than the overhead,
+    # by about the time of one step. This matters little, because a run that is short is timed over several
+    # time spans.
     return Prepared(run, lambda: run(0))

@@ -1,4 +1,4 @@
-"""diffrax: explicit Runge-Kutta of order 8 (Dopri8) in JAX, compiled, in double precision."""
+"""diffrax: its explicit Runge-Kutta method of order 8 (Dopri8), compiled by JAX, in double precision."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MOST_STEPS = 1_000_000
 
 
 def peer(name: str) -> Peer:
-    """Return diffrax."""
+    """Return the peer diffrax, the only peer of this module."""
     import diffrax
 
     return Peer(name, "tolerance", _prepare, f"diffrax {diffrax.__version__}")

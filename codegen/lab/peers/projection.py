@@ -51,13 +51,13 @@ def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
 
 
 def projection_lines(scene: Problem) -> StraightLine:
-    """Return the projection of a scene as straight-line code."""
+    """Return the projection onto the manifold of a scene as straight-line code (a list of assignments)."""
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
     return straight_line(scene.name, scene.symbols, project(scene, domain, state))
 
 
 def projection(scene: Problem) -> Callable[[Sequence[float]], tuple[float, ...]]:
-    """Return the projection as a function of a list of floats."""
+    """Return the function that maps the coordinates of a state to the coordinates of the projected state."""
     field = projection_lines(scene).python(float, {"sqrt": math.sqrt})
     return lambda y: field(y, 0.0)

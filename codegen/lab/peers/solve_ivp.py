@@ -18,7 +18,8 @@ FUNCTIONS = of_scalars(math)
 
 
 def peer(name: str) -> Peer:
-    """Return scipy-dop853, scipy-radau or scipy-lsoda, with or without ``-projected``."""
+    """Return a peer of SciPy by its name, such as ``scipy-radau``. If the name ends in ``-projected``, the
+    peer projects the state onto the manifold after each step."""
     import scipy
 
     method = {"dop853": "DOP853", "radau": "Radau", "lsoda": "LSODA"}[name.split("-")[1]]

@@ -140,7 +140,7 @@ class Canvas:
         return self.names.index(label)
 
     def finish(self, figure: Figure, scene: Problem, description: str) -> Markup:
-        """Return the SVG element."""
+        """Add the legend and return the SVG element."""
         name = f"{scene.name} {figure.name}"
         numbers = {name: k for k, name in enumerate(self.names)}
         if any(name not in self.titled for name in self.names):
@@ -150,7 +150,8 @@ class Canvas:
 
 
 def styles(figure: Figure) -> dict[str, Style]:
-    """Return the style of each run of a figure by its name. A method has the same colour in all figures."""
+    """Return the style of each run of a figure, by the name of the run. The style depends on the method of
+    the run. If several runs use the same method, it depends on the name of the run instead."""
     runs = figure.runs
     chosen = Styles([run.method for run in runs])
     if len({run.method for run in runs}) == len(runs):

@@ -1,4 +1,5 @@
-"""Draws the largest deviation of a quantity up to each time, or in windows of time."""
+"""Draws the largest deviation of a quantity up to each time, or in windows of time. A deviation is the
+difference from the initial value, or from the value along a reference run."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ LEAST = 1e-17
 """The smallest deviation on the logarithmic axis. Smaller deviations are drawn at this value."""
 
 GROWS = 1.02
-"""The curve of a running maximum has one point each time the maximum has grown by this factor."""
+"""The curve of the largest deviation so far has a new point when this deviation has grown by about this
+factor since the last point."""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:

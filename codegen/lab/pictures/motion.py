@@ -38,9 +38,11 @@ FRAMES = 150
 
 @dataclass(frozen=True)
 class _Sheet:
-    """The map from points in space to points of the picture. ``frame`` is the projection. The upper left
-    corner of the drawing has the projected coordinates (``left``, ``high``). ``unit`` is the length of a unit
-    vector in the picture, and ``axis`` is the length of the coordinate axes in space."""
+    """The map from points in space to points of the picture. ``frame`` is the matrix of the projection. The
+    upper left corner of the drawing has the projected coordinates (``left``, ``high``), and ``low`` is the
+    lowest projected coordinate. ``unit`` is the length in the picture of a vector of length one that is
+    parallel to the picture. ``top`` is the height of the space above the drawing, which contains the legend.
+    ``axis`` is the length of the coordinate axes in space."""
 
     frame: numpy.ndarray
     left: float
@@ -74,7 +76,8 @@ class _Sheet:
 
 
 def draw(figure: Motion, source: Source) -> Drawn:
-    """Return the picture. Raises :class:`codegen.errors.SceneError` if there are several runs."""
+    """Return the picture. Raises :class:`codegen.errors.SceneError` if there is not exactly one run, or if a
+    coordinate of a point is not finite."""
     if len(figure.runs) != 1:
         raise SceneError(
             f"{len(figure.runs)} runs of a moving body", where=source.problem.name, expected="one run"
@@ -85,7 +88,7 @@ def draw(figure: Motion, source: Source) -> Drawn:
     rows = source.values(run, [x for place in places for x in place])
     if not numpy.isfinite(rows).all():
         raise SceneError(
-            "a point that is not finite", where=source.problem.name, expected="finite coordinates"
+            "a point of the body is not finite", where=source.problem.name, expected="finite coordinates"
         )
     points = rows.reshape(len(places), 3, -1)
     frame = projection(*figure.direction)
@@ -163,7 +166,7 @@ def _stills(bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]], times: Sequence
 
 
 def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> Iterator[str]:
-    """Yield a dot with its number for each time at which the bars are drawn."""
+    """Yield a dot on the curve, and its number, for each time at which the bars are drawn."""
     for number, k in enumerate(shown):
         x, y = trail[:, k]
         yield f'<circle cx="{_number(x)}" cy="{_number(y)}" r="2" style="fill:var(--ink)">'
@@ -181,7 +184,8 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
     """Return the SVG transform that moves a horizontal line to the position of a bar at one time.
 
     ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The line begins at the
-    origin. Its length is the greatest projected length of the bar at any time.
+    origin. Its length is the greatest projected length of the bar at any time. With the unit ``px`` the text
+    has the form of CSS, otherwise that of the attribute ``transform``.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"

@@ -21,8 +21,8 @@ from codegen.scene.figure import Orders, Run
 
 
 def draw(figure: Orders, source: Source) -> Drawn:
-    """Return the picture. Each order has a dashed line below the curve whose slope is closest to this order:
-    at the largest step size, the line shows half the error of the curve.
+    """Return the picture. For each order p of the figure, a dashed line of slope p is drawn below the curve
+    whose slope is closest to p. At the largest step size, the line is at half the error of the curve.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
@@ -34,7 +34,7 @@ def draw(figure: Orders, source: Source) -> Drawn:
     for name, points in curves.items():
         if not points:
             raise SceneError(
-                f"{name} fails with all step sizes", where=source.problem.name, expected="a result"
+                f"{name} fails with all step sizes", where=source.problem.name, expected="smaller step sizes"
             )
         texts = [f"{name}: h = {h:.3g}, error {scientific(e, 4)}" for h, e in points]
         sizes, values = zip(*points, strict=True)
@@ -67,7 +67,8 @@ def _failures(figure: Orders, curves: Mapping[str, Sequence[tuple[float, float]]
 
 
 def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]]:
-    """Return the step sizes of a run, from the largest, with the errors at the end of the span."""
+    """Return pairs (step size, error at the end of the span), from the largest step size. Step sizes with
+    which the run fails are omitted."""
     problem = source.problem_of(run)
     exact = cached_reference(problem).state
     integrator = source.integrator(run)
@@ -87,7 +88,7 @@ def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]
 
 
 def slope(points: Sequence[tuple[float, float]]) -> float:
-    """Return the median of the observed orders between neighbouring step sizes.
+    """Return the median of the observed orders between neighbouring step sizes; 0 if there is none.
 
     >>> slope([(0.4, 16.0), (0.2, 4.0), (0.1, 1.0), (0.05, 1.0)])
     2.0

@@ -1,4 +1,4 @@
-"""A drawn picture: the SVG element, a sentence with the numbers that were found, and these numbers."""
+"""A drawn picture: the SVG element, a note for its caption, and numbers that describe what it shows."""
 
 from __future__ import annotations
 
@@ -16,9 +16,11 @@ POINTS = 72.0
 
 @dataclass(frozen=True)
 class Drawn:
-    """A picture: the SVG element, a sentence that is added to the caption, and the numbers that were found.
+    """A picture: the SVG element, a note that is added to its caption, and numbers that describe what it
+    shows.
 
-    A ``wide`` picture has the width of a page.
+    ``numbers`` contains, for example, the largest deviation or the final point of each run. A ``wide``
+    picture has the width of a page.
     """
 
     svg: Markup

@@ -1,4 +1,4 @@
-"""The function that draws each kind of figure, and the figures of all scenes."""
+"""The functions that draw figures, one for each kind of figure, and the list of the figures of all scenes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from codegen.scene.figure import Figure
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
-# The argument is Any, because each function accepts one kind of figure.
+# The first argument is the figure. Its type is Any, because each function accepts another kind of figure.
 Draw: TypeAlias = Callable[[Any, Source], Drawn]
 
 BUILT_IN: dict[type[Figure], str] = {
@@ -38,7 +38,8 @@ _registered: dict[type[Figure], Draw] = {}
 
 
 def register(kind: type[Figure], draw: Draw) -> None:
-    """Add a kind of figure and the function that draws it; a registered kind replaces a built-in kind."""
+    """Make ``draw`` the function that draws figures of a kind. For a built-in kind, it replaces the built-in
+    function."""
     _registered[kind] = draw
 
 
@@ -48,7 +49,8 @@ def unregister(kind: type[Figure]) -> None:
 
 
 def draw(figure: Figure, source: Source) -> Drawn:
-    """Return the picture of a figure. Raises SceneError for an unknown kind or an impossible run."""
+    """Return the picture of a figure. Raises SceneError if the kind of the figure is unknown, or if a run
+    does not have the properties that this kind of figure requires."""
     for kind in type(figure).__mro__:
         if kind in _registered:
             return _registered[kind](figure, source)
@@ -57,7 +59,7 @@ def draw(figure: Figure, source: Source) -> Drawn:
             return function(figure, source)
     known = ", ".join(k.__name__ for k in (*BUILT_IN, *_registered))
     raise SceneError(
-        f"a figure of the kind {type(figure).__name__}", where=source.problem.name, expected=f"one of {known}"
+        f"unknown figure kind {type(figure).__name__}", where=source.problem.name, expected=f"one of {known}"
     )
 
 

@@ -6,6 +6,7 @@ import math
 
 import numpy
 
+from codegen.errors import SceneError
 from codegen.integrator import StepFailed
 from codegen.lab.distance import distance
 from codegen.lab.page.axes import annotate, few_decades, label_axes
@@ -17,11 +18,13 @@ from codegen.lab.pictures.source import Source, sweep_values
 from codegen.scene.figure import Run, Scan, Sweep
 
 DIGITS = 1e-8
-"""The tolerance of the best value, as a fraction of the range of the sweep."""
+"""The error with which the best value of the parameter is computed, as a fraction of the range of the sweep.
+"""
 
 
 def draw(figure: Scan, source: Source) -> Drawn:
-    """Return the picture: one line for each run; marks are at the best values."""
+    """Return the picture: one line for each run. A cross marks the value of the parameter with the least
+    error."""
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
     canvas = Canvas.of(1, height=3.4)
@@ -54,7 +57,15 @@ def error(source: Source, figure: Scan, run: Run, value: float) -> float:
     if figure.reference is None:
         raise ValueError("a scan needs a reference run")
     try:
-        return distance(source.problem_of(run), source.end(run, value), source.end(figure.reference))
+        exact = source.end(figure.reference)
+    except StepFailed as failed:
+        raise SceneError(
+            f"the reference run fails: {failed}",
+            where=source.problem.name,
+            expected="a reference run whose steps all succeed",
+        ) from None
+    try:
+        return distance(source.problem_of(run), source.end(run, value), exact)
     except StepFailed:
         return math.inf
 
@@ -62,8 +73,10 @@ def error(source: Source, figure: Scan, run: Run, value: float) -> float:
 def minimum(
     source: Source, figure: Scan, run: Run, values: list[float], sizes: list[float]
 ) -> tuple[float, float]:
-    """Return the best value and its error. Between the neighbours of the best value of the sweep, the search
-    continues by Brent's method.
+    """Return the value of the parameter with the least error, and this error.
+
+    ``values`` are the values of the sweep, and ``sizes`` are their errors. The search continues by Brent's
+    method between the two neighbours of the best of these values.
     """
     from scipy.optimize import minimize_scalar
 

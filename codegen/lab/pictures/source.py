@@ -52,7 +52,7 @@ class Source:
         self._paths: dict[Run, Path] = {}
 
     def problem_of(self, run: Run) -> Problem:
-        """Return the scene of a run."""
+        """Return the scene of a run: the scene of the figure, or another scene that the run names."""
         if run.scene not in self._problems:
             own = run.scene == scenes.EXTENDED
             self._problems[run.scene] = extended(self.problem) if own else scenes.load(run.scene)
@@ -92,10 +92,10 @@ class Source:
         return self._paths[run]
 
     def end(self, run: Run, value: float | None = None) -> list[float]:
-        """Return the final state of a run; ``value`` is the value of the parameter that the sweep of the run
-        varies.
+        """Return the final state of a run.
 
-        Raises :class:`codegen.integrator.StepFailed`.
+        If the run has a sweep, ``value`` is the value of the parameter that the sweep varies. Raises
+        :class:`codegen.integrator.StepFailed` if a step fails.
         """
         integrator = self.integrator(run)
         swept = "" if run.sweep is None or value is None else run.sweep.name
@@ -116,13 +116,14 @@ class Source:
         return column
 
     def values(self, run: Run, quantities: Sequence[Quantity]) -> numpy.ndarray:
-        """Return quantities along the path of a run: one quantity in each row."""
+        """Return the values of quantities at the states that the figure shows: one quantity in each row."""
         path = self.path(run)
         times = path.times if run.sweep is None else numpy.zeros(len(path.times))
         return formulas(self.problem_of(run), quantities)(path.states.T, times)
 
     def beside(self, run: Run, reference: Run, quantity: Quantity) -> numpy.ndarray:
-        """Return a quantity along the reference run at the times of another run.
+        """Return the values of a quantity along the run ``reference``, at the times that the figure shows for
+        ``run``.
 
         Raises :class:`codegen.errors.SceneError` if the reference run has no states at these times.
         """
@@ -176,12 +177,12 @@ def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:
 
 
 def _key(run: Run) -> tuple[object, ...]:
-    """Return the part of a run that determines its emitted module."""
+    """Return the properties of a run that determine its emitted module, as a key of a dictionary."""
     return run.scene, run.method, run.sweep and run.sweep.name, run.tolerance > 0
 
 
 def sweep_values(run: Run) -> list[float]:
-    """Return the values of the sweep of a run."""
+    """Return the values of the parameter in the sweep of a run; [] if the run has no sweep."""
     sweep = run.sweep
     if sweep is None:
         return []

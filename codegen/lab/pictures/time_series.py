@@ -1,4 +1,5 @@
-"""Draws quantities against time, together with the same quantities of a reference run."""
+"""Draws quantities against time. If there is a reference run, its first quantity is drawn as well, or is
+subtracted from all quantities."""
 
 from __future__ import annotations
 
@@ -69,7 +70,7 @@ def _draw_rows(
 def _window(
     figure: TimeSeries, times: numpy.ndarray, row: numpy.ndarray
 ) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the times and the values that the figure shows."""
+    """Return the times and the values in the interval of time that the figure shows."""
     first, last = figure.window or (-numpy.inf, numpy.inf)
     shown = (times >= first) & (times <= last)
     return times[shown], row[shown]

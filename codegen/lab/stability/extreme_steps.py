@@ -10,8 +10,9 @@ exact result shows the number of digits that the input *determines*.
   rotation by 1e20 radians has no correct digit. The emitted code should return a status for this step.
 - A result is *wrong* if it is finite and rounding does not explain its error.
 
-Correct digits are counted relative to the size of a block of the state, before or after the step; the larger
-of these two sizes is used. Numbers below the smallest normal double count as zero.
+Correct digits are counted separately for each block of the state, such as a group element or a momentum. They
+are relative to the size of the block before or after the step, whichever is larger. Numbers below the
+smallest normal double count as zero.
 
 The equations of a long implicit step have several solutions. If fixed-point iteration converges in the
 interpreter, the exact result is computed from its solution. Otherwise Newton's method in 60 digits starts
@@ -177,7 +178,8 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
-    """Return |f(y0)|, the angle of rotation per unit of time."""
+    """Return |f(y)| for the given state y: if the group consists of rotations, this is the angle of rotation
+    per unit of time."""
     field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
     (value,) = field.apply(domain, "field", None, (tuple(state), t))
@@ -236,7 +238,8 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the state after the step in 60 digits, and the states after the steps of the probes.
+    """Return the state after the step in 60 digits, and the states after the probes, which are steps with
+    simulated rounding errors.
 
     The equations of a long step contain differences of numbers of the size of h^2. These differences have
     fewer correct digits than the numbers, so Newton's method solves these equations in more than 60 digits.
@@ -265,9 +268,10 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
 
 
 def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
-    """Return the solution of each implicit block of one emitted step, in the order of the blocks.
+    """Make one step with emitted code. Return the solutions of its implicit equations: one list of numbers
+    for each block of equations, in the order in which the blocks are solved.
 
-    The result is None if the step fails or has no implicit block.
+    The result is None if the step fails or has no implicit equations.
     """
     widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
     if not widths:
@@ -287,7 +291,7 @@ class Rounding(BallDomain):
 
     Two rounding errors are added to the right-hand side of every equation: the first is relative to this
     right-hand side, the second is relative to the right-hand side of the next equation. The signs of all
-    errors are random, but they do not change during a probe, so that the equations remain smooth.
+    errors are random, but they do not change during a step, so that the equations remain smooth.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -336,10 +340,11 @@ def precise_step(
 ) -> list[Scalar]:
     """Return the state after one step of the program as mpmath numbers with many digits.
 
-    ``near``, if given, contains a start value of Newton's method for each implicit block. The call replaces
-    the start values by the solutions, as mpmath numbers. ``probe`` is the seed of the random rounding errors
-    that are added to each operation; if ``probe`` is None, none are added. ArithmeticError or ValueError is
-    raised if a number of the step is not a finite real number.
+    ``limit`` is the largest number of iterations for implicit equations. If ``newton`` is False, only
+    fixed-point iteration is used. ``near``, if given, contains the start values of Newton's method for each
+    block of implicit equations, and the call replaces them by the solutions, as mpmath numbers. ``probe`` is
+    the seed of the random rounding errors that are added to each operation; if ``probe`` is None, none are
+    added. ArithmeticError or ValueError is raised if a number of the step is not a finite real number.
     """
     domain = BallDomain(h, digits) if probe is None else Rounding(h, digits, probe)
     context = mpmath_context(digits)
@@ -376,9 +381,9 @@ def solved_step(
 ) -> list[Scalar]:
     """Return the state after one step in many digits.
 
-    Implicit blocks are solved by fixed-point iteration. If the iteration does not converge, Newton's method
-    starts from the solution that the emitted code computes in floating point. Raises ArithmeticError if no
-    solution is found.
+    Implicit equations are solved by fixed-point iteration. If the iteration does not converge, Newton's
+    method starts from the solution that the emitted code computes in floating point. Raises ArithmeticError
+    or ValueError if no solution is found.
     """
     try:
         return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)

@@ -27,9 +27,11 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """The smallest usable number of steps, the step size, and the reason why one step less is not enough.
+    """The smallest usable number of steps over the span, the step size, and the reason why one step less is
+    not enough.
 
-    ``h`` and ``steps`` are None if no number of steps up to :data:`MOST` is usable.
+    If no number of steps up to :data:`MOST` is usable, ``h`` and ``steps`` are None, and ``reason`` is the
+    reason why the last number is not usable.
     """
 
     h: float | None

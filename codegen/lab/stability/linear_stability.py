@@ -82,8 +82,8 @@ def _horner(row: Sequence[float], z: complex) -> complex:
 
 
 def reach(value: Callable[[complex], complex], direction: complex) -> float:
-    """Return the distance from zero up to which |R| <= 1 holds along a ray. A distance above :data:`FARTHEST`
-    is returned as infinity.
+    """Return the largest x such that |value(z)| <= 1 for all z between 0 and x times ``direction``. If x
+    exceeds :data:`FARTHEST`, return infinity.
 
     >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
     (2.0, inf)

@@ -24,7 +24,8 @@ from codegen.method import Method
 from codegen.scene.stiff_variant import StiffVariant
 
 DOUBLINGS = 15
-"""The number of runs. The number of steps doubles from each run to the next."""
+"""The largest number of runs. The number of steps doubles from each run to the next. The runs end early when
+the error is close to the rounding errors."""
 
 StiffRun: TypeAlias = tuple[float, float | None, str]
 """One run: the step size, the error (None if the run failed), and the reason for the failure."""
@@ -35,8 +36,10 @@ CLOSE = 0.1
 
 @dataclass(frozen=True)
 class OrderReduction:
-    """The runs on a stiff variant, as triples (h, error or None, reason for a failure), and the observed
-    order.
+    """The runs on a stiff variant, as triples (h, error or None, reason for a failure).
+
+    ``rate`` is the rate of the fast motion. ``stated`` is the order that the order conditions give, and
+    ``observed`` is the order for steps longer than 1/``rate``; it is None if there is no slope.
     """
 
     variant: str
@@ -101,7 +104,7 @@ def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> 
 def _verdict(
     stated: int, observed: float | None, runs: Sequence[StiffRun], size: float, variant: StiffVariant
 ) -> str:
-    """Return the result in words."""
+    """Return one sentence: no step size is usable, the largest usable step size, or the observed order."""
     close = [h for h, e, _ in runs if e is not None and e < CLOSE * size]
     if not close:
         failed = [why for _, e, why in runs if e is None]

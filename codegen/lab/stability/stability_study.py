@@ -24,8 +24,10 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Findings:
-    """The results of all tests that run the method. Linear stability is computed from the tableau and is not
-    included.
+    """The results of all tests that run the method: the largest usable step (``limit``), the verdicts on
+    steps with extreme input (``answers``), the runs on stiff variants, and the endurance runs. Linear
+    stability is not included, because it is computed from the tableau. ``notes`` are the reasons why stiff
+    variants were not tested.
     """
 
     limit: Limit
@@ -106,8 +108,8 @@ def stability(
     """Yield the stability of each method on a scene; if ``endurance`` is True, runs of many steps are
     included.
 
-    If a method cannot be emitted, the reason is yielded. On a scene without a reference solution, the largest
-    usable step is not measured.
+    For a method that cannot be tested, :class:`NotTested` with the reason is yielded. If the scene has no
+    reference solution, the largest usable step is not measured.
     """
     progress(f"{scene.name}: reference solution")
     exact = reference_or_reason(scene)
@@ -131,7 +133,8 @@ def reference_or_reason(scene: Problem) -> Reference | str:
 
 
 def stiff_scenes(scene: Problem, progress: Progress) -> StiffScenes:
-    """Return the stiff variants of a scene with their references."""
+    """Return the stiff variants of a scene with their reference solutions, and the reasons why other variants
+    have none."""
     variants: list[tuple[StiffVariant, Reference]] = []
     notes: list[str] = []
     for variant in stiff_variants(scene):

@@ -76,7 +76,7 @@ class FunctionPrinter:
         return without_branches(name) if near else complete(name)
 
     def type_of(self, kind: Kind) -> str:
-        """Return the type of a scalar."""
+        """Return the C type of scalars of a kind."""
         # Counts have the type size_t, so that indices and sizes need no conversions, about which -Wconversion
         # warns.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
@@ -192,8 +192,8 @@ class _Body:
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         callbacks = (Kind.SIGNAL, Kind.EVENTS)
         parameters = [p for p in self.function.parameters if p.kind not in callbacks]
-        # The interface determines the parameters, so a kernel may not use all of them. An unused parameter is
-        # cast to void, because compilers would warn about it.
+        # The interface determines the parameters, and the kernel possibly does not read all of them. An
+        # unused parameter is cast to void, because compilers would otherwise warn about it.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
@@ -259,18 +259,27 @@ class _Body:
                 yield "}"
 
     def hints(self, loop: For) -> Iterator[str]:
-        """Yield the lines before a loop that permit a compiler to execute it in another order."""
+        """Yield the lines before a loop that permit a compiler to reorder the passes through the loop."""
         if loop.independent:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
         if loop.parallel:
-            yield from ("#ifdef _OPENMP", "#pragma omp parallel for schedule(static)", "#endif")
+            clauses = []
+            for operation in dict.fromkeys(name for name, _ in loop.reductions):
+                reduced = [self.identifiers.of(x) for name, x in loop.reductions if name == operation]
+                clauses.append(f"reduction({operation}:{', '.join(reduced)})")
+            if loop.when is not None:
+                clauses.append(f"if({self.terms.line(loop.when)})")
+            # A backslash continues a long directive on the next line.
+            separator = " " if len(clauses) < 2 else " \\\n        "
+            pragma = ["#pragma omp parallel for schedule(static)", *([" ".join(clauses)] if clauses else [])]
+            yield from ("#ifdef _OPENMP", *separator.join(pragma).split("\n"), "#endif")
 
     def inner(self, body: Body) -> list[str]:
-        """Return the lines of a body inside a statement."""
+        """Return the indented lines of the body of a loop or branch."""
         return [f"    {line}" for line in self.block(body)]
 
     def branch(self, statement: If) -> Iterator[str]:
-        """Yield the lines of a branch; an else that is a single branch becomes ``else if``."""
+        """Yield the lines of a branch; an else part that consists of one branch is printed as ``else if``."""
         test = statement.test
         # A test whether numbers are finite may be negated; the comment below is printed in both cases.
         finite = test.args[0] if test.op == "not" else test
@@ -293,7 +302,7 @@ class _Body:
     def loop(self, statement: While) -> Iterator[str]:
         """Yield the lines of a loop."""
         test = self.terms.text(statement.test).segments
-        # The loop is printed as a do-while loop of C, without a flag or a break.
+        # C has a do-while loop, so a loop with its test at the end needs neither a flag nor a break.
         if statement.at_least_once:
             yield "do {"
             yield from self.inner(statement.body)
@@ -316,7 +325,7 @@ class _Body:
         return f"{'const ' if constant else ''}{self.printer.type_of(target.kind)} "
 
     def assign(self, statement: Assign) -> Iterator[str]:
-        """Yield the lines of an assignment, of a copy, or of clearing a record."""
+        """Yield the lines that assign a scalar, copy an array or clear a record."""
         target, value = statement.target, statement.value
         if value.op == "fresh":
             name = self.terms.line(target)

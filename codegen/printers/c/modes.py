@@ -61,7 +61,7 @@ OWN = RESERVED | frozenset(
 """Names that the module defines, and the names of its arguments and local variables."""
 
 POINTS = 128
-"""The number of points in the usage example."""
+"""The number of grid points in the usage example."""
 
 
 def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -109,8 +109,8 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         ],
         "result": _terms(write, step.result),
         "time": interface.time,
-        # The spectra are the old and the new state, the point at which N is evaluated, a scratch spectrum,
-        # and the values of N.
+        # Four spectra are the old and the new state, the point at which the nonlinear part N is evaluated,
+        # and a scratch spectrum. The others are the values of N.
         "spectra": 4 + len(step.evaluations),
         "arrays": len(inner) + len(outer),
     }
@@ -123,7 +123,8 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return the names of the formulas that contain the wave number or x."""
+    """Return the names of the formulas that contain their variable. For the symbol of the linear part it is
+    the wave number; for the initial state and the nonlinear part it is the space coordinate."""
     kernels = {
         "symbol": (step.symbol, step.wave),
         "initial": (step.initial, step.space),

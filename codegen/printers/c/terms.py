@@ -144,13 +144,13 @@ class Terms(Infix):
         return self.identifiers.of(term)
 
     def number(self, term: Term) -> str:
-        """Return a constant."""
+        """Return the C literal of a constant."""
         if term.kind is Kind.REAL:
             return literal(self.precision, term.number)
         return str(int(term.number))
 
     def access(self, term: Term) -> Text:
-        """Return an entry, a part or a field."""
+        """Return the text of an entry or part of an array, or of a field of a record."""
         base = term.args[0]
         if term.op == "field":
             arrow = "->" if base.op == "name" and self.identifiers.of(base) in self.pointers else "."
@@ -169,8 +169,8 @@ class Terms(Infix):
             return Text((f"{self.line(base)} + {base.shape[1]} * {self.line(term.args[1])}",), SUM)
         if base.op == "item" and base.args[0].shape[0] == 0:
             row, width = base.args[1], base.args[0].shape[1]
-            # The caller passes all rows in one array, one after the other, so row and column become one
-            # index.
+            # The first dimension 0 means any number of rows. The caller passes them in one array, one after
+            # the other, so row and column become one index.
             place = (
                 self.line(width * row + term.args[1])
                 if not _is_zero(term.args[1])
@@ -201,21 +201,22 @@ class Terms(Infix):
         return Text((*finite, *closed("|| ", exact, "")), OR)
 
     def called(self, term: Term) -> Text:
-        """Return a call of the library."""
+        """Return the text of a call of a library function."""
         if term.text == "greatest":
             return Text(greatest([self.line(x) for x in term.args], f"{self.prefix}greater"))
         if term.text == "largest":
             (array,) = term.args
             return Text((f"{self.prefix}largest({self.line(array)}, {array.shape[0]})",))
         name = FUNCTIONS.get(term.text, term.text)
-        # Without the suffix, a function would convert its argument to double and the result back.
+        # In single precision ``sqrtf`` is called and not ``sqrt``, which would convert its argument to double
+        # and the result back.
         name += "" if name == "isfinite" else self.precision.suffix
         if len(term.args) == 1:
             return Text(closed(f"{name}(", self.text(term.args[0]).segments, ")"))
         return Text(closed_call(name, [self.line(x) for x in term.args]))
 
     def converted(self, term: Term) -> Text:
-        """Return a term as a double, or a double rounded to the format."""
+        """Return the text of a conversion: ``wide`` converts to double, ``narrow`` rounds to the format."""
         (x,) = term.args
         inner = self.text(x)
         # In double precision only counts need a conversion.

@@ -44,7 +44,8 @@ def comment(text: str) -> str:
 
 
 def block_comment(text: str) -> list[str]:
-    """Return a comment on one line or, with stars, on several lines; no lines for an empty text."""
+    """Return the lines of a C comment with a text, broken into several lines if it is long. For an empty text
+    there are no lines."""
     safe = comment(text)
     # Words are never broken: names and commands must stay intact for searching and copying.
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)

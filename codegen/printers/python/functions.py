@@ -84,7 +84,8 @@ class FunctionPrinter:
         return [*lines, ")"]
 
     def zeros(self, shape: Sequence[int], kind: Kind, record: str = "") -> str:
-        """Return a list of zeros, or a record."""
+        """Return the text of a list of zeros or new records, nested if ``shape`` has several dimensions. For
+        an empty ``shape`` it is the text of a single zero or record."""
         if not shape:
             if kind is Kind.RECORD:
                 return f"{class_of(self.unit.record(record))}()"
@@ -173,8 +174,8 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Return True if a statement reads (or writes) the next entry after the entries of ``group`` and may
-        join the group."""
+        """Return True if a statement may join a group, because it continues the consecutive entries of the
+        group: entries that are read if ``reading`` is true, otherwise entries that are written."""
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target
@@ -242,7 +243,7 @@ class _Body:
             yield from self.block(orelse, depth + 1)
 
     def condition(self, word: str, test: Term, depth: int) -> list[str]:
-        """Return the lines of a test."""
+        """Return the lines of ``if``, ``elif`` or ``while`` with its test, up to the colon."""
         lines = indented(f"{word} ", self.terms.text(test).segments, depth)
         return [*lines[:-1], f"{lines[-1]}:"]
 
@@ -256,12 +257,12 @@ class _Body:
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
-        # The run representation has no ``break``. This ``break`` is the last line of a Python loop that is
-        # tested at its end.
+        # This ``break`` ends the loop after its last statement. No loop of the run representation is left
+        # from its middle, so no other ``break`` is printed here.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:
-        """Yield the lines of an assignment, of a copy, or of clearing a record."""
+        """Yield the lines that assign a scalar, copy an array or clear a record."""
         target, value = statement.target, statement.value
         name = self.terms.line(target)
         if value.op == "fresh":

@@ -78,7 +78,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 CALLS = {"exp": "np.exp", PHI: "_phi1", BERNOULLI: "_bernoulli"}
-"""The names in Python of the functions of z, which is h times an eigenvalue of L."""
+"""The Python names of functions of z, where z is h times an eigenvalue of the linear part L."""
 
 
 def _functions(step: ModeStep) -> set[str]:

@@ -1,4 +1,5 @@
-"""One step as a Python module: step and run, an exception with the reason, the recipe as docstring."""
+"""One step as a Python module. The module has the functions ``step`` and ``run``, an exception with the
+reason of a failure, and the recipe as its docstring."""
 
 from __future__ import annotations
 
@@ -235,7 +236,7 @@ class _Module:
 
 
 def keywords(arguments: list[str]) -> list[str]:
-    """Return the text that declares arguments as keyword-only."""
+    """Return the arguments after a ``*``, which makes them keyword-only; an empty list without arguments."""
     return ["*", *arguments] if arguments else []
 
 

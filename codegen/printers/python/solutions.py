@@ -1,4 +1,4 @@
-"""The solved unknowns of implicit steps of an emitted Python module."""
+"""Observe the solved unknowns of an implicit step while an emitted Python module makes this step."""
 
 from __future__ import annotations
 

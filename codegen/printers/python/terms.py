@@ -112,11 +112,11 @@ class Terms(Infix):
                 return Text(("inf",))
 
     def tuple_of(self, terms: tuple[Term, ...]) -> str:
-        """Return a tuple of terms."""
+        """Return the text of a tuple of terms."""
         return f"({', '.join(map(self.line, terms))}{',' if len(terms) == 1 else ''})"
 
     def number(self, term: Term) -> str:
-        """Return a constant."""
+        """Return the Python text of a constant."""
         if term.kind is Kind.REAL:
             return self.constants.text(term.number)
         return str(bool(term.number)) if term.kind is Kind.FLAG else str(int(term.number))
@@ -128,7 +128,7 @@ class Terms(Infix):
         return Text((*first, *closed("if ", joined(condition), ""), *closed("else ", last, "")), CHOICE)
 
     def called(self, term: Term) -> tuple[str, ...]:
-        """Return a call of the library."""
+        """Return the text, in segments, of a call of a library function."""
         given = [self.line(x) for x in term.args]
         if term.text == "largest":
             return (f"max(map(abs, {given[0]}))",)
@@ -139,7 +139,7 @@ class Terms(Infix):
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:
-        """Return a term as a double, or a double rounded to the format."""
+        """Return the text of a conversion: ``wide`` converts to double, ``narrow`` rounds to the format."""
         (x,) = term.args
         inner = self.text(x)
         # Python floats are doubles, and integers are converted exactly, so only float32 needs a conversion.

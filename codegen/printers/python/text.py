@@ -15,7 +15,8 @@ def quoted(text: str) -> str:
 
 
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
-    """Return start, terms with commas, and end: on one line, or on as few lines as possible.
+    """Return start, terms with commas, and end: on one line if they fit. Otherwise start and end have their
+    own lines, and the terms between them fill as few lines as possible.
 
     >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
     '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'

@@ -7,9 +7,10 @@ import pytest
 from codegen.errors import SceneError
 from codegen.groups import GL, S3, SE2, SE3, SE23, SO2, SO3, SU2, Affine, Rn, Semidirect
 from codegen.groups.capabilities import ClosedFormSeries, LeftTranslation, MatrixRepresentation, Projection
+from codegen.groups.dual_numbers import DualDomain
 from codegen.groups.linear_algebra import matvec
 from codegen.groups.representations import AlgebraVectors, MatrixColumns, PlaneVectors
-from codegen.ir.domain import ExprDomain, PreciseDomain
+from codegen.ir.domain import ExprDomain, FloatDomain, PreciseDomain
 from codegen.scene.classical_forms import classical_forms, operations
 from tests.codegen.groups.test_rigid_motions import body_on_a_spring
 from tests.strategies import sampler
@@ -147,3 +148,10 @@ def test_the_cover_has_the_motions_of_the_group():
     d, x = s.domain, s.vector()
     q = s.group.cover.exp(d, s.group.lifted_velocity(d, x))
     assert s.equal(s.group.covering(d, q), s.group.exp(d, x))
+
+
+@pytest.mark.parametrize(("function", "args"), [("sqrt", 1), ("atan2", 2), ("", 1)])
+def test_dual_numbers_have_no_rule_for_other_functions(function, args):
+    dual = DualDomain(FloatDomain(0.0))
+    with pytest.raises(ArithmeticError, match="no rule for dual numbers"):
+        dual.call(function, *(dual.rational(2),) * args)

@@ -10,6 +10,7 @@ from sympy import Integer, Matrix, sqrt, symbols
 from codegen import passes, scenes
 from codegen.emitter import compile_method
 from codegen.errors import SceneError
+from codegen.ir.domain import FloatDomain, NotConverged
 from codegen.ir.number import Number
 from codegen.ir.operations import Adjoint, DualDexp, InverseDexp, Linear, Multiply
 from codegen.ir.program import Solve
@@ -184,8 +185,26 @@ def test_passes_leave_nothing_for_a_second_round(tableau):
 
 
 @pytest.mark.slow
-def test_a_slow_iteration_that_only_seems_to_converge_is_not_compared():
+def test_a_slow_iteration_that_only_seems_to_converge_is_replaced_by_newtons_method():
     """In doubles the reference converges at the moved point; with 60 digits, 400 sweeps are too few."""
     scene = scenes.load("heavy_top")
     compiled = compile_method(scene, method_for(scene, "discrete_gradient:gill4"))
     assert compiled.method.label == "discrete_gradient:gill4"
+
+
+@pytest.mark.parametrize(("break_it", "found"), [(slightly_off, True), (lambda assign: assign, False)])
+def test_newtons_method_decides_where_the_iteration_converges_only_by_rounding(monkeypatch, break_it, found):
+    view, program = lowered("vcg", "midpoint", hamiltonian_scene("SO(3)"))
+    reference = Reference(program, view)
+    # The compared program fails in doubles, and the reference counts as unsolved in many digits.
+    run = Reference._run
+
+    def fails_in_doubles(self, given, domain, *rest):
+        if given is not program and isinstance(domain, FloatDomain):
+            raise NotConverged
+        return run(self, given, domain, *rest)
+
+    monkeypatch.setattr(Reference, "_run", fails_in_doubles)
+    monkeypatch.setattr(Reference, "_is_solved", lambda self, step: False)
+    compared = replace(mapped(program, break_it))
+    assert ("differs by" in reference.differs(compared)) is found

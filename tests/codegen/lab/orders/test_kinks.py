@@ -8,12 +8,13 @@ import sympy
 
 from codegen.certify import CertifiedOrder
 from codegen.commands.recommend import searched
-from codegen.emitter import emit
+from codegen.emitter import compile_method, emit
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
 from codegen.lab.efficiency.recommend import Recommendation, Request
 from codegen.lab.orders.convergence import Convergence
 from codegen.lab.orders.exact_order import exact_local_error
+from codegen.lab.orders.order_study import order_study
 from codegen.lab.orders.scene_convergence import converge
 from codegen.lab.orders.step_sizes import Refinement, Run
 from codegen.lab.reference import reference
@@ -139,3 +140,10 @@ def test_a_recommendation_states_the_number_of_kinks(kinks: int, said: bool) -> 
     request = Request("scene", 1e-4, (), None, None, 5, ())
     text = searched(Recommendation(request, (), None, 1, 1, 0.0, kinks=kinks))
     assert ("crosses 2 points where the field is not smooth" in text) == said
+
+
+def test_a_report_does_not_decide_an_order_across_a_kink() -> None:
+    spring = sympy.Piecewise((x, x > 0), (4 * x, True))
+    scene = oscillator(spring)
+    study = order_study(compile_method(scene, "ambient:rk4"), reference(scene), str)
+    assert study.verdict == "undecided"

@@ -104,6 +104,8 @@ def test_many_steps_keep_the_manifold_and_a_status_ends_those_that_do_not(monkey
 def test_a_run_off_the_manifold_does_not_hold():
     assert not Endurance("forward", 1000, 1e-6, None).held
     assert Endurance("forward", 1000, 1e-14, None).held
+    assert Endurance("forward and back", 1000, None, 1e-3).held
+    assert not Endurance("forward and back", 1000, None, math.inf).held
     assert Endurance("forward", 3, None, None, "step 4: the new state is not finite").held
 
 

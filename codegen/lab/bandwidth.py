@@ -1,0 +1,351 @@
+"""The time of a step on a large lattice, and the fraction of the memory bandwidth that the step uses.
+
+The module is run on a lattice whose arrays are larger than the last-level cache, so that each sweep reads and
+writes main memory. The bytes that a step moves are counted from its sweeps
+(:meth:`codegen.ir.site_step.SiteStep.bytes_moved`). The memory bandwidth is that of the triad
+a[i] = b[i] + s c[i] of the STREAM benchmark (McCalpin 1995), compiled with the same flags and run in the same
+process on arrays of the same total size. In both cases each number that a loop reads or stores is counted
+once. The processor also reads a cache line before it writes to the line. This traffic is not counted, so a
+loop with few stores may exceed the bandwidth of the triad, which reads two numbers and stores one.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import prod
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from codegen.arrival import Status
+from codegen.build import build
+from codegen.ir.domain import FloatDomain
+from codegen.ir.precision import precision
+from codegen.lattice import Lattice
+from codegen.loader import LOOP_FLAGS, load_lattice
+from codegen.printers import target as known_target
+from codegen.run.execute import Machine
+from codegen.run.plan import Plan
+from codegen.run.trial import PARTS
+from codegen.run.unit import unit_of
+from codegen.scene.momentum_frame import start_of
+from orderconds.errors import InputError
+
+if TYPE_CHECKING:
+    from codegen.artifact import Artifact
+    from codegen.emitter import Compiled
+    from codegen.ir.site_step import SiteStep
+
+COMPILE_SECONDS = 8.0
+"""A module that takes longer to compile is not measured. The module of the rod with cf4 takes 2 seconds."""
+
+STEP_SECONDS = 0.5
+"""The lattice has so few sites that a step takes about this number of seconds, if its arrays are then smaller
+than the arrays that are chosen from the size of the cache."""
+
+RESOLVED = 0.01
+"""A timed run has as many steps as are necessary for this number of seconds, which is far above the
+resolution of the clock."""
+
+REPEATED = 5
+"""The number of timed runs; the least time is used, because other processes can only increase a time."""
+
+CACHES = 8
+"""The arrays are this number of times as large as the last-level cache, if the memory suffices."""
+
+FREE_SHARE = 8
+"""The arrays take at most this fraction of the free memory: one part in FREE_SHARE."""
+
+USUAL_CACHE, USUAL_MEMORY = 32 << 20, 1 << 30
+"""The sizes of the last-level cache and of the free memory in bytes, if the system does not state them."""
+
+FEW_SITES = 4096
+"""The number of sites of the first run, from which the time of a step is estimated."""
+
+SHORTER, ATTEMPTS = 64, 4
+"""If a step from the initial state fails, the step size is divided by SHORTER. Equal states at all sites may
+be far from equilibrium. At most ATTEMPTS step sizes are tried."""
+
+COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
+"""The sweeps of implicit equations are counted in this number of steps, on a small lattice with these numbers
+of sites in each dimension, by the dimension of the lattice; in higher dimensions there are 4."""
+
+TRIAD = """\
+#include <stddef.h>
+void triad(size_t n, double *restrict a, const double *b, const double *c, double s);
+void triad(size_t n, double *restrict a, const double *b, const double *c, double s)
+{
+    for (size_t i = 0; i < n; i++) {
+        a[i] = b[i] + s * c[i];
+    }
+}
+"""
+
+
+@dataclass(frozen=True)
+class Bandwidth:
+    """The measured step of a lattice.
+
+    ``shape`` is the number of sites in each dimension, ``array_bytes`` the size of the states and the
+    workspace of all sites, ``cache_bytes`` the size of the last-level cache. ``ns`` is the CPU time for each
+    site and step in nanoseconds. ``moved`` is the number of bytes that are read and written for each site and
+    step. ``triad`` is the bandwidth of the triad in GB/s, where 1 GB is
+    10^9 bytes. ``sweeps`` are the mean numbers of sweeps over the implicit equations in a step.
+    """
+
+    shape: tuple[int, ...]
+    array_bytes: int
+    cache_bytes: int
+    ns: float
+    moved: float
+    triad: float
+    sweeps: tuple[float, ...] = ()
+
+    @property
+    def rate(self) -> float:
+        """The bandwidth of the step in GB/s."""
+        return self.moved / self.ns
+
+    @property
+    def fraction(self) -> float:
+        """The bandwidth of the step divided by that of the triad."""
+        return self.rate / self.triad
+
+    def lines(self) -> list[str]:
+        """Return the measurement as lines of text."""
+        sites = " x ".join(map(str, self.shape))
+        arrays, cache = self.array_bytes / 1e6, self.cache_bytes / 1e6
+        first = f"{self.ns:.1f} ns for each site and step, by one thread on {sites} sites"
+        lines = [first, f"the arrays have {arrays:.1f} MB, the last-level cache {cache:.1f} MB"]
+        if self.sweeps:
+            lines.append("sweeps in each step: " + ", ".join(f"{n:.1f}" for n in self.sweeps))
+        of = f"{self.fraction:.2f} of the bandwidth of a triad loop ({self.triad:.1f} GB/s)"
+        return [*lines, f"{self.rate:.1f} GB/s, which is {of}"]
+
+    def as_json(self) -> dict[str, object]:
+        """Return the measurement as the entry ``bandwidth`` of a JSON record."""
+        return {
+            "shape": list(self.shape),
+            "array_bytes": self.array_bytes,
+            "cache_bytes": self.cache_bytes,
+            "ns_per_site_step": self.ns,
+            "bytes_per_site_step": self.moved,
+            "sweeps": list(self.sweeps),
+            "gigabytes_per_second": self.rate,
+            "triad_gigabytes_per_second": self.triad,
+            "fraction": self.fraction,
+        }
+
+
+@dataclass(frozen=True)
+class Unmeasured:
+    """The reason why the bandwidth of a module was not measured."""
+
+    reason: str
+
+    def lines(self) -> list[str]:
+        """Return the reason as a line of text."""
+        return [f"bandwidth not measured: {self.reason}"]
+
+    def as_json(self) -> dict[str, object]:
+        """Return the reason as the entry ``bandwidth`` of a JSON record."""
+        return {"reason": self.reason}
+
+
+def measure(
+    compiled: Compiled, artifact: Artifact, most_bytes: int | None = None, seconds: float = COMPILE_SECONDS
+) -> Bandwidth | Unmeasured:
+    """Return the bandwidth of an emitted module for a lattice, or the reason why it was not measured.
+
+    All sites start from the initial state of the scene. ``most_bytes`` limits the size of the arrays, by
+    default to a part of the free memory (:data:`FREE_SHARE`). ``seconds`` limits the time of the compiler.
+    Modules for single systems raise ValueError.
+    """
+    step = compiled.kernel.sites
+    if step is None:
+        raise ValueError("expected a module for a chain or lattice")
+    target = known_target(artifact.manifest["target"])
+    if target.compile_seconds is None:
+        return Unmeasured(f"modules in {target.title} are not compiled")
+    try:
+        build(artifact.files, LOOP_FLAGS, seconds=seconds)
+        triad = _triad()
+        lattice = load_lattice(artifact)
+    except InputError as error:
+        return Unmeasured(error.found.partition("\n")[0])
+    most = free_bytes() // FREE_SHARE if most_bytes is None else most_bytes
+    runs = _Runs(lattice, start_of(compiled.scene), _step_size(compiled, step))
+    array_bytes = min(CACHES * cache_bytes(), most)
+    side = runs.side(FEW_SITES)
+    status = runs.shortened(side)
+    if status != Status.OK:
+        return Unmeasured(f"a step from the initial state fails with the status {status.name}")
+    _, pace = runs.timed(side, 1)
+    sites = array_bytes // (runs.itemsize * runs.numbers)
+    side = runs.side(min(sites, int(STEP_SECONDS / max(pace, 1e-10))))
+    used = runs.itemsize * runs.numbers * side**runs.dimension
+    before = triad(used)
+    ns = 1e9 * runs.best(side)
+    sweeps = _sweeps(compiled, artifact, step, runs)
+    rate = max(before, triad(used))
+    moved = runs.itemsize * step.numbers_moved(sweeps)
+    return Bandwidth((side,) * runs.dimension, used, cache_bytes(), ns, moved, rate, sweeps)
+
+
+def _step_size(compiled: Compiled, step: SiteStep) -> float:
+    """Return the step size of the example in the emitted file; an explicit method has a shorter step."""
+    first, last = compiled.scene.span
+    h = float((last - first) / PARTS)
+    # If a rotation has more than about one radian, the loops are repeated without vector instructions. The
+    # time of an explicit step does not depend on h otherwise.
+    return h if step.blocks else h / SHORTER
+
+
+@dataclass
+class _Runs:
+    """Runs of a module from equal states at all sites."""
+
+    lattice: Lattice
+    start: Sequence[float]
+    h: float
+
+    @property
+    def dimension(self) -> int:
+        return self.lattice.interface.dimension
+
+    @property
+    def numbers(self) -> int:
+        """The numbers that are stored for each site: its state and its workspace."""
+        return self.lattice.interface.size + self.lattice.interface.workspace
+
+    @property
+    def itemsize(self) -> int:
+        """The bytes of a number."""
+        return precision(self.lattice.interface.precision).bits // 24 * 4
+
+    def side(self, sites: int) -> int:
+        """Return the number of sites in each dimension for about this number of sites. It is even, because
+        pairs of neighbours need an even number of sites."""
+        return max(4, int(sites ** (1 / self.dimension)) // 2 * 2)
+
+    def shortened(self, side: int) -> Status:
+        """Divide the step size by :data:`SHORTER` as long as a step fails, and return the status of the last
+        attempt."""
+        for _ in range(ATTEMPTS):
+            status, _ = self.timed(side, 1)
+            if status == Status.OK:
+                break
+            self.h /= SHORTER
+        return status
+
+    def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
+        """Return the status of a run, and the least CPU time for each site and step in seconds."""
+        import numpy as np
+
+        kind = np.dtype(f"f{self.itemsize}")
+        shape, interface = (side,) * self.dimension, self.lattice.interface
+        sites, least = prod(shape), float("inf")
+        work, table = np.zeros(interface.workspace * sites, kind), np.empty((interface.size, sites), kind)
+        values = [self.lattice.defaults[name] for name in interface.parameters]
+        for _ in range(repeated):
+            table[:] = np.array(self.start, kind)[:, None]
+            began = time.process_time()
+            status, _ = self.lattice.advance(shape, table, (0.0, self.h, steps), values, work)
+            least = min(least, time.process_time() - began)
+            if status != Status.OK:
+                return status, least
+        return Status.OK, least / (sites * steps)
+
+    def best(self, side: int) -> float:
+        """Return the least CPU time for each site and step in seconds. The number of steps is doubled until a
+        run takes :data:`RESOLVED` seconds."""
+        steps, sites = 1, side**self.dimension
+        status, pace = self.timed(side, steps, 2)
+        while status == Status.OK and pace * sites * steps < RESOLVED:
+            steps *= 2
+            status, pace = self.timed(side, steps)
+        # A run that is too long for the method may fail; the shorter run was successful.
+        steps = steps if status == Status.OK else max(steps // 2, 1)
+        return self.timed(side, steps, REPEATED)[1]
+
+
+class _Counting(Machine):
+    """An executor that counts the calls of each function."""
+
+    def call(self, name: str, *arguments: object) -> object:
+        self.counts[name] = self.counts.get(name, 0) + 1
+        return super().call(name, *arguments)
+
+    counts: dict[str, int]
+
+
+def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs) -> tuple[float, ...]:
+    """Return the mean number of sweeps over each implicit block in the first steps. The emitted functions are
+    executed in Python on a small lattice, because emitted modules for lattices do not report their sweeps."""
+    if not step.blocks:
+        return ()
+    interface = runs.lattice.interface
+    plan = Plan(compiled.kernel, precision(interface.precision))
+    machine, side = _Counting(unit_of(plan), FloatDomain(0.0)), SIDES.get(step.dimension, 4)
+    machine.counts = {}
+    sites = side**step.dimension
+    state = [float(x) for x in runs.start for _ in range(sites)]
+    work = [0.0] * (interface.workspace * sites)
+    time_at_start = [0.0] if interface.time else []
+    values = [runs.lattice.defaults[name] for name in interface.parameters]
+    shape, done = [side] * step.dimension, [0]
+    machine.call("run", shape, state, *time_at_start, runs.h, COUNTED_STEPS, *values, work, done)
+    steps = max(done[0], 1)
+    return tuple(machine.counts.get(f"pass_{block.first + 1}", 0) / steps for block in step.blocks)
+
+
+def _triad() -> Callable[[int], float]:
+    """Compile the triad; return a function that maps the total size of its three arrays in bytes to its
+    bandwidth in GB/s."""
+    import numpy as np
+    from cffi import FFI
+
+    ffi = FFI()
+    ffi.cdef("void triad(size_t n, double *a, const double *b, const double *c, double s);")
+    library = ffi.dlopen(str(build({"triad.c": TRIAD}, LOOP_FLAGS)))
+
+    def bandwidth(total: int) -> float:
+        n = max(total // 24, 1)
+        arrays = [np.full(n, x) for x in (0.0, 1.0, 2.0)]
+        a, b, c = (ffi.cast("double *", ffi.from_buffer(x)) for x in arrays)
+
+        def run(times: int) -> float:
+            began = time.process_time()
+            for _ in range(times):
+                library.triad(n, a, b, c, 0.5)
+            return (time.process_time() - began) / times
+
+        times = 1
+        while (one := run(times)) * times < RESOLVED:
+            times *= 2
+        return 24e-9 * n / min(one, *(run(times) for _ in range(REPEATED)))
+
+    return bandwidth
+
+
+def cache_bytes() -> int:
+    """Return the size of the last-level cache in bytes, or :data:`USUAL_CACHE` if the system does not state
+    it."""
+    sizes = {}
+    for folder in Path("/sys/devices/system/cpu/cpu0/cache").glob("index*"):
+        try:
+            level, size = ((folder / name).read_text().strip() for name in ("level", "size"))
+            sizes[int(level)] = int(size.rstrip("KMG")) << {"K": 10, "M": 20, "G": 30}.get(size[-1:], 0)
+        except (OSError, ValueError):
+            continue
+    return sizes[max(sizes)] if sizes else USUAL_CACHE
+
+
+def free_bytes() -> int:
+    """Return the free memory in bytes, or :data:`USUAL_MEMORY` if the system does not state it."""
+    try:
+        return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (ValueError, OSError, AttributeError):
+        return USUAL_MEMORY
