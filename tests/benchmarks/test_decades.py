@@ -7,7 +7,9 @@ from pathlib import Path
 from benchmarks import decades
 
 
-def row(scene: str, error: float, ours: float | None, heyoka: float | None) -> dict[str, object]:
+def row(
+    scene: str, error: float, ours: float | None, heyoka: float | None, *, complete: bool = True
+) -> dict[str, object]:
     ratio = None if ours is None or heyoka is None else heyoka / ours
     return {
         "scene": scene,
@@ -18,6 +20,7 @@ def row(scene: str, error: float, ours: float | None, heyoka: float | None) -> d
         "heyoka ratio": ratio,
         "c-dop853": "",
         "c-dop853 ratio": None,
+        "complete": complete,
     }
 
 
@@ -25,15 +28,17 @@ ROWS = [
     row("won", 1e-4, 1.0, 2.0),
     row("alone", 1e-5, 1.0, None),
     row("lost", 1e-8, 1.0, 0.5),
+    row("stopped", 1e-8, 1.0, 0.5, complete=False),
     row("missed", 1e-12, None, None),
 ]
 
 
 def test_the_verdict_names_the_rows_that_are_not_won() -> None:
     assert decades.verdict(ROWS).split("\n") == [
-        "The emitted method is at least as fast as the peers in 2 of 4 cases.",
-        "A peer is faster: lost at 1e-08.",
-        "No emitted method reaches the error: missed at 1e-12.",
+        "The emitted method is at least as fast as the peers in 2 of 5 cases.",
+        "A peer is faster: lost at 1e-08 (all methods of the library were compared); "
+        "stopped at 1e-08 (the search ended at its time limit).",
+        "No emitted method reaches the error: missed at 1e-12 (all methods of the library were compared).",
     ]
     assert decades.verdict(ROWS[:1]).endswith("in 1 of 1 cases.")
 
