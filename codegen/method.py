@@ -30,21 +30,21 @@ STEP = "step"
 """The word before the colon in the label of a step that the scene states."""
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
-"""The form of a method's label without a tableau: the name of a family, and a number in parentheses if the
-family needs one."""
+"""The form of a method's label without a tableau: a family, with a number in parentheses if the family needs
+one."""
 
 PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
 
 @dataclass(frozen=True)
 class Method:
-    """A family, its ``cutoff`` if it has one (the number of brackets after which dexp^{-1} is truncated), and
-    a tableau.
+    """A family with a tableau, and with a cut-off if the family has one.
 
-    ``coefficients`` is None for a family without tableau; ``cutoff`` is then the number in the label, such as
-    12 in ``taylor(12)``. If ``adaptive`` is True, each step also computes the result of the embedded method,
-    for an error estimate. ``step`` is the name of a step that the scene states as a function of matrices;
-    such a method has no tableau.
+    ``cutoff`` is the number of brackets after which dexp^{-1} is truncated. ``coefficients`` is None for a
+    family without tableau; ``cutoff`` is then the number in the label, such as 12 in ``taylor(12)``. If
+    ``adaptive`` is True, each step also computes the result of the embedded method, for an error estimate.
+    ``step`` is the name of a step that the scene states as a function of matrices. Such a method has no
+    tableau.
     """
 
     family: str
@@ -86,8 +86,7 @@ class Method:
 
     @property
     def source(self) -> str:
-        """The publication that describes the tableau. For a family without tableau, the publication that
-        describes the family."""
+        """The publication that describes the tableau, or the family if there is no tableau."""
         return self.kind.source if self.coefficients is None else self.coefficients.source
 
     @property
@@ -121,8 +120,10 @@ class Method:
         return method
 
     def can_reduce_brackets(self) -> bool:
-        """Return True if the tableau is explicit and its coefficients are exact. The search for the fewest
-        brackets requires such a tableau."""
+        """Return True if the tableau is explicit and its coefficients are exact.
+
+        The search for the fewest brackets requires such a tableau.
+        """
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
             return False
@@ -140,8 +141,10 @@ class Method:
         return self.runge_kutta().as_crouch_grossman(self.ring)
 
     def embedded(self) -> Method | None:
-        """Return the embedded method; raise :class:`MethodError` if there is none. The result is None if
-        ``adaptive`` is False, or if the family estimates the error without an embedded method.
+        """Return the embedded method; raise :class:`MethodError` if the tableau has no suitable one.
+
+        The result is None if ``adaptive`` is False, or if the family estimates the error without an embedded
+        method.
 
         The embedded method uses the same stages with other weights, so the stages must not depend on the
         weights. The fewest brackets depend on the weights, so a family that searches for the fewest brackets
@@ -174,8 +177,12 @@ class Method:
         return replace(self, coefficients=lower, adaptive=False)
 
     def abscissae(self) -> tuple[Element, ...]:
-        """Return the abscissae c_i of the stages. If the method is written with products of exponentials, c_i
-        is the sum of all coefficients in the exponents of stage i."""
+        """Return the abscissae c_i of the stages.
+
+        If the method consists of products of exponentials, c_i is the sum of all coefficients in the
+        exponents
+        of stage i.
+        """
         return self.commutator_free().as_runge_kutta(self.ring).c
 
 
@@ -186,8 +193,9 @@ def _file(name: str) -> Path:
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return the tableau with the coefficients that its proof certifies, in place of the decimals of its
-    file. A tableau without a valid proof is returned unchanged.
+    """Return the tableau with the decimals of its file replaced by the coefficients that its proof certifies.
+
+    A tableau without a valid proof is returned unchanged.
 
     The proof encloses one exact solution of the order conditions near the decimals. The certificate is valid
     for this solution only, so emitted code must use the solution and not the decimals.
@@ -252,8 +260,7 @@ def _claimed(tableau: Tableau) -> tuple[str, ...]:
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau that claims no order in any of the families that can read the
-    tableau."""
+    """Return the error for a tableau that claims no order in any of the families that can read it."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
     # If the family has a cut-off, the label in the hint contains a cut-off. A user who follows a hint without
@@ -295,9 +302,12 @@ def _divides_by_zero(family: str, tableau: Tableau) -> bool:
 
 
 def _example(families: Sequence[str]) -> str:
-    """Return the label of a method, as an example for an error message. The family is the first of
-    ``families`` for which the library contains a tableau. The tableau is the first one that claims an order
-    in the family. Without such a claim, it is the first one that defines a method of the family."""
+    """Return the label of a method, as an example for an error message.
+
+    The family is the first of ``families`` for which the library contains a tableau. The tableau is the first
+    one that claims an order in the family. If no tableau claims an order, the first tableau that defines a
+    method of the family is used.
+    """
     for name in (f for f in families if family_class(f).has_tableau):
         for tableau in _library():
             claims = [c for c in tableau.claims.orders if c.family == name]
@@ -342,9 +352,11 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Yield one order claim for each family and cut-off in which a file of this tableau should claim an
-    order. The orders are computed from the order conditions. If ``family`` is given, only this family and its
-    cut-offs are considered."""
+    """Yield one order claim for each family and cut-off in which the tableau has an order.
+
+    The orders are computed from the order conditions. If ``family`` is given, only this family and its
+    cut-offs are considered.
+    """
     from orderconds.checking import check, claimable_families
 
     for member in claimable_families(tableau):
@@ -373,11 +385,13 @@ def family_in(given: object) -> str:
 def parse(text: str, families: Sequence[str]) -> Method:
     """Return the method that a text names; ``families`` are the families that accept the scene.
 
-    If the text names no family, the family with the highest claimed order is chosen; among families of equal
-    order, the first in ``families``. ``rkmk`` without a cut-off is compiled with the fewest brackets if the
-    tableau is explicit, exact, and not of too high an order. Otherwise, and for ``vrkmk``, the cut-off is the
-    smallest one for which the tableau claims its highest order. :class:`MethodError` is raised for a text
-    that cannot be read, and for a tableau without a claim that determines the family or the cut-off.
+    If the text names no family, the family with the highest claimed order is chosen. Among families of equal
+    order, the first in ``families`` is chosen. ``rkmk`` without a cut-off is compiled with the fewest
+    brackets
+    if the tableau is explicit and exact and its order is not too high. Otherwise, and for ``vrkmk``, the
+    cut-off is the smallest one for which the tableau claims its highest order. :class:`MethodError` is raised
+    for a text that cannot be read. It is also raised for a tableau without a claim that determines the family
+    or the cut-off.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -393,8 +407,10 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
 
 def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
-    """Return the method of a tableau in the family that a text names. If the text names no family, the orders
-    that the tableau claims determine the family."""
+    """Return the method of a tableau in the family that a text names.
+
+    If the text names no family, the orders that the tableau claims determine the family.
+    """
     assert match is not None
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:

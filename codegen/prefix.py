@@ -15,8 +15,9 @@ such a name."""
 
 
 def default_prefix(scene: Problem, method: Method) -> str:
-    """Return the prefix SCENE_FAMILY_TABLEAU_, or SCENE_TABLEAU_ if the name of the tableau starts with the
-    name of the family.
+    """Return the prefix SCENE_FAMILY_TABLEAU_ of the names in an emitted module.
+
+    If the name of the tableau starts with the name of the family, the prefix is SCENE_TABLEAU_.
 
     If the method has a cut-off, the value of the cut-off is appended to the name of the family. For example,
     the prefix ``free_rigid_body_rkmk2_rk4_`` contains the cut-off 2 of the family rkmk.
@@ -32,8 +33,7 @@ def default_prefix(scene: Problem, method: Method) -> str:
 
 
 def prefix_of(name: str, hint: str = "") -> str:
-    """Return ``name`` with exactly one underscore at its end; raise an InputError if the name cannot be a
-    prefix.
+    """Return ``name`` with exactly one underscore at its end; raise an InputError if it cannot be a prefix.
 
     The prefix must be an identifier, because names in C and Python begin with it. Without the underscore it
     is the name of the Python module. Therefore it must not be a keyword of Python, nor the name of a header

@@ -1,16 +1,18 @@
 """Symplectic Lie group integrators on T*G, section 2.5 of Marthinsen's thesis.
 
-With one stage, the integrator is the theta-method.
+With one stage, the integrator is the theta-method. With several stages, let the scene give the velocity and
+the force (xi_i, n_i) = f(Q_i, M_i) of stage i, where
 
-With X_i = h sum_j a_ij xi_j, Y = h sum_j b_j xi_j, Q_i = exp(X_i) q0, (xi_i, n_i) = f(Q_i, M_i) and nu_j =
-Ad*_{exp X_j} n_j,
+    X_i = h sum_j a_ij xi_j,   Y = h sum_j b_j xi_j,   Q_i = exp(X_i) q0,   nu_j = Ad*_{exp X_j} n_j.
+
+The stage momenta M_i and the result of the step are
 
     M_i = dexp*_{-Y}(mu0 + h sum_j b_j nu_j) - h sum_j (b_j a_ji/b_i) dexp*_{X_j} n_j,
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
 The method has no brackets, equals VRKMK(0) and has order two at most. (In section 2.5 the factor h is part of
-f.) With one stage, a_11 = theta and b_1 = 1, all factors are exponentials of multiples of xi, and the terms
-in n merge:
+f.) With one stage, a_11 = theta and b_1 = 1, all factors are exponentials of multiples of xi. The terms in n
+then merge:
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
     mu1 = Ad*_{exp(-h xi)} mu0 + h Ad*_{exp(-(1 - theta) h xi)} n.
@@ -33,18 +35,23 @@ class SymplecticIntegrator(VariationalLowering):
     family = "slgi"
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of an SLGI method; raise :class:`orderconds.errors.ZeroWeight` if some b_i =
-        0."""
+        """Return the program of an SLGI method.
+
+        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
+        """
         return _program(problem, method)
 
 
 # Since dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)}, the equations need no separate operation Ad*_{exp(-Y)}. The term
 # in dexp*_{-Y} and the vectors dexp*_{X_j} n_j are common to all stages. Stages differ only in the factors
-# b_j a_ji/b_i, so one evaluation of all equations needs s + 1 evaluations of dexp*. In a method with one
-# stage all exponents are multiples of x = h xi and commute. For such a method the identity b dexp*_{-b x}
-# Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x} replaces the two terms that contain n by one
-# term. The initial values of the unknowns are the derivatives at the beginning of the step, which are
-# accurate to O(h) in each stage.
+# b_j a_ji/b_i, so one evaluation of all equations needs s + 1 evaluations of dexp*.
+#
+# With one stage, all exponents are multiples of x = h xi and commute. Then the two terms that contain n
+# are replaced by one term, because
+#     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x},   a = a_11, b = b_1.
+#
+# The initial guesses of the unknowns are the derivatives at the beginning of the step. Their error is O(h) in
+# each stage.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -77,8 +84,8 @@ def _program(scene: Problem, method: Method) -> Program:
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # ``after`` is stored for the update. With a = a_11, b = b_1, x = h xi, Ad*_{exp(after)} n is equal to
-        # Ad*_{exp(-b x)} Ad*_{exp(a x)} n, but needs only one operation.
+        # ``after`` is stored for the update. With a = a_11, b = b_1 and x = h xi, Ad*_{exp(after)} n equals
+        # Ad*_{exp(-b x)} Ad*_{exp(a x)} n. The first form needs one operation, the second form two.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

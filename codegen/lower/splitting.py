@@ -1,10 +1,10 @@
 """Splittings: a step on T*G is a sequence of exact flows of the parts of a Hamiltonian.
 
 If a tableau has as many parts as the scene, its coefficients, multiplied by h, are the durations of the flows
-of these parts. A tableau for two parts A, B also applies to a scene with more parts: it is written as a
-composition with coefficients beta_1, alpha_1, ... of Phi and its adjoint Phi*. Phi is the product of the
-flows of all summands, and Phi* has the same flows in the opposite order. The composition keeps the order of
-the splitting for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
+of these parts. A tableau for two parts A, B also applies to a scene with more parts. Its coefficients then
+define a composition of a basic method Phi and the adjoint Phi*. Phi is the product of the flows of all
+summands of the Hamiltonian, and Phi* has the same flows in the opposite order. The composition has the order
+of the splitting for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
 from __future__ import annotations
@@ -36,7 +36,8 @@ class SplittingLowering(FlowLowering):
     family = "splitting"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the word, and the label of the family whose order conditions apply."""
+        """Return the sequence of flows with their durations, and the label of the family whose order
+        conditions apply."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
@@ -58,18 +59,19 @@ class SplittingLowering(FlowLowering):
             f"the tableau is for {len(tableau.parts)} parts, but the scene has {len(chosen)}",
             where=parts.where,
             expected=f"a tableau for {len(chosen)} parts, or for two",
-            hint=f"each turn of {', '.join(inexact)} counts as a part" if inexact else "",
+            hint=f"each summand of {', '.join(inexact)} counts as a part" if inexact else "",
         )
 
 
 def _in_order(
     own: Parts, tableau: Splitting, steps: Sequence[tuple[int, Number]], summands: Sequence[Summand]
 ) -> tuple[Word, str]:
-    """Return the word of a tableau that has one part for each summand, and the label of its order conditions.
+    """Return the sequence of flows for a tableau with one part for each summand, and the label of its order
+    conditions.
 
-    If the parts of the tableau and of the scene have the same names, they are matched by name. Otherwise the
-    part V of a Runge-Kutta-Nystroem tableau is matched with the kick (not on lattices), and the parts of any
-    other tableau are matched by their order.
+    If the parts of the tableau and of the scene have the same names, they are matched by name. Otherwise
+    a Runge-Kutta-Nystroem tableau has a part V, which is matched with the kick (not on lattices). The parts
+    of any other tableau are matched in their order.
     """
     chosen = summands
     names = [part.name for part in own.parts]
@@ -77,8 +79,8 @@ def _in_order(
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None and own.scene.sites is None:
-        # The summands are sorted so that the kick has the position of V in the tableau, first or last (False
-        # sorts before True).
+        # Sort the summands so that the kick has the position of V in the tableau, first or last. (False sorts
+        # before True.)
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
@@ -87,15 +89,17 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # Runge-Kutta-Nystroem splittings satisfy fewer order conditions. These suffice only if [V, [V, [V,
-        # T]]] = 0.
+        # The order conditions of Runge-Kutta-Nystroem splittings are fewer than those of splittings. They
+        # suffice only if [V, [V, [V, T]]] = 0.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
 
 def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
-    """Return True if [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings require; V is the part of
-    ``summand``."""
+    """Return True if [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings require.
+
+    V is the part of the Hamiltonian that contains ``summand``, and T is the other part.
+    """
     (V,) = [scene.parts[p.name] for p in parts if p.summands[0] is summand]
     (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]
     qs, mus = (block.symbols for block in scene.state)
@@ -108,12 +112,12 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
-    """Return the pairs (beta_i, alpha_i) of the composition of Phi and Phi* that is equal to a splitting in
-    two parts."""
-    # Let A and B be the flows of the two parts, and A_{x1} B_{x2} A_{x3} ... the word. Each of Phi and Phi*
-    # is a product of A and B, in opposite order. The composition of Phi*_{beta_1}, Phi_{alpha_1},
-    # Phi*_{beta_2}, ... gives the same word if x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and
-    # so on. These equations are solved from the left.
+    """Return the pairs (beta_i, alpha_i) that write a splitting in two parts as a composition of Phi and
+    Phi*."""
+    # Let A and B be the flows of the two parts, and let A_{x1} B_{x2} A_{x3} ... be the splitting. Phi is the
+    # product of A and B in one order, and Phi* is their product in the other order. The composition of
+    # Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... is the same sequence of flows if x1 = beta_1,
+    # x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. These equations are solved from the left.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
@@ -123,7 +127,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
-    # The word may begin with either part, because Phi and Phi* may be exchanged.
+    # The splitting may begin with either part, because Phi and Phi* may be exchanged.
     durations = [x for _, x in joined]
     # The recursion requires that the first flow and the last flow belong to the same part, so the number of
     # flows must be odd. A flow of duration zero is added if necessary.
@@ -136,5 +140,5 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
-    # The last value of ``carried`` is not used: it is zero, because both parts have the same total duration.
+    # The last value of ``carried`` is not used. It is zero, because both parts have the same total duration.
     return composed

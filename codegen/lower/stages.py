@@ -16,8 +16,10 @@ from orderconds.ring.protocol import Element
 
 @dataclass
 class Stages:
-    """Collects a method's stages into a program: the unknowns and their starts (initial guesses), the body
-    of the block, the images (the right-hand sides of the fixed-point equations), and the update.
+    """Collects the stages of a method into a program.
+
+    The program consists of initial guesses of the unknowns ("starts"), one block with the right-hand sides of
+    the fixed-point equations ("images"), and the update.
     """
 
     scene: Problem
@@ -32,8 +34,8 @@ class Stages:
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient of the tableau as a number. A rational coefficient becomes an element of QQ,
-        whatever the ring of the tableau."""
+        """Return a coefficient of the tableau as a number. A rational coefficient becomes an element of QQ in
+        every case, even if the ring of the tableau is larger."""
         return self.method.number(x)
 
     def times_h(self, x: Element | Number) -> Coefficient:
@@ -46,7 +48,7 @@ class Stages:
         return self.builder.lin(target, kind, terms)
 
     def at(self, c: Element | None) -> tuple[Var, ...]:
-        """Return the time argument (t + c h,) for a scene that depends on time, else (); c = None means c =
+        """Return the time argument (t + c h,), or () if the scene does not depend on time; None means c =
         0."""
         if self.time is None:
             return ()
@@ -68,15 +70,17 @@ class Stages:
         starts: Callable[[], Sequence[Var]],
         update: Callable[[], dict[str, Var]],
     ) -> Program:
-        """Return the verified program: the starts, one block with the equations, and the update. The
-        arguments ``images``, ``starts`` and ``update`` are functions that append statements and return
-        variables. ``update`` returns each output under the name of the input that it replaces."""
+        """Return the verified program: the starts, one block with the equations, and the update.
+
+        The arguments ``images``, ``starts`` and ``update`` are functions that append statements and return
+        variables. ``update`` returns each output under the name of the input that the output replaces.
+        """
         # The statements are appended in the order of the program: starts, body of the block, update.
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # All stages are put into one block, even if the tableau is explicit, because a lowering only states
-        # the equations. Later passes find an order in which the stages can be computed.
+        # All stages are put into one block, even if the tableau is explicit. A lowering only states the
+        # equations. Later passes find an order in which the stages can be computed.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
         # The statements of the update follow the block, because they read values that the body of the block
         # computes at the solution.

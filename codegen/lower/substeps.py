@@ -1,12 +1,13 @@
 """Compositions: if a step repeats one shorter step, only the shorter step is compiled, with a table of
 substeps.
 
-Suppose that the stages of a tableau fall into groups with a_ij = b_j for j in an earlier group than i, and
-a_ij = 0 for j in a later group. Then the method is a composition: group k is a method with step size gamma_k
-h, where gamma_k is the sum of the b_j of this group (Lemma 3.5.4 of Bogfjellmo and Marthinsen). For
-Crouch-Grossman methods this follows from the products of exponentials. If all groups have the same
-coefficients after division by gamma_k, all substeps use the same method with different step sizes, and one
-program is enough. Several neighbouring groups together may also form the repeated method.
+Suppose that the stages of a tableau form consecutive groups such that a_ij = b_j if stage j is in an earlier
+group than stage i, and a_ij = 0 if stage j is in a later group. Then the method is a composition: group k is
+a method with step size gamma_k h, where gamma_k is the sum of the b_j of this group (Lemma 3.5.4 of
+Bogfjellmo and Marthinsen). For Crouch-Grossman methods the lemma follows from the products of exponentials.
+If all groups have the same coefficients after division by gamma_k, all substeps use the same method with
+different step sizes. One program is then enough. Several neighbouring groups together may also form the
+repeated method.
 
 Only implicit methods are split. Explicit stages of neighbouring substeps have common subexpressions, which
 would be computed several times in separate substeps.
@@ -26,7 +27,9 @@ from orderconds.tableau import Composition, RungeKutta
 
 
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
-    """Return the shorter method that a step repeats, and the substeps of the step; None if there is none.
+    """Return the shorter method that a step repeats, and the substeps of the step.
+
+    The result is None if the step repeats no shorter method.
 
     The lowering of the family must have ``repeats_substeps`` = True (:class:`codegen.lower.Lowering`).
 
@@ -57,8 +60,9 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     # A single substep is the step itself, so nothing is repeated.
     if repetition is None or len(repetition[1]) < 2:
         return None
-    # The proof, the file and the embedded method of the whole tableau are removed, because they do not apply
-    # to the tableau of one group.
+    # The proof, the file and the embedded method belong to the whole tableau. They do not apply to the
+    # tableau
+    # of one group, and are removed.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )
@@ -75,16 +79,17 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Divide the stages into groups that all have the same tableau, into as many groups as possible. Return
-    this tableau and the step lengths of the groups; None if there is no such division.
+    """Divide the stages into groups that all have the same tableau, into as many groups as possible.
+
+    Return this tableau and the step lengths of the groups; None if there is no such division.
     """
-    # The entries are Numbers and not ring elements. Numbers are compared by keys, and equal keys also show
-    # that two balls enclose the same number.
+    # The entries are Numbers and not ring elements. Two Numbers are compared by keys. Equal keys show that
+    # two
+    # balls enclose the same number, which the balls alone cannot show.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a number k at which the tableau separates into two tableaux: the first consists of the stages
-    # before k, the second of the stages from k on. The stages between two neighbouring cuts form a part, and
-    # neighbouring parts form a group.
+    # A cut is a number k that separates the tableau into two tableaux: the stages before k, and the stages
+    # from k on. The stages between two neighbouring cuts form a part, and neighbouring parts form a group.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # A group consists of at least one part and at most half of the parts. Small groups are tried first,
     # because they give the most substeps.
@@ -95,7 +100,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
         groups = [range(i, j) for i, j in pairwise(ends)]
         # gamma_k, the length of the substep: a method with weights b advances by h sum b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
-        # If the weights of a group add up to zero, the group does not advance the time. It is no substep, and
+        # If the weights of a group add up to zero, the group does not advance the time and is no substep.
+        # Then
         # this division into groups is not used.
         if any(x.is_zero for x in sums):
             continue
@@ -112,8 +118,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
 
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
-    """Return True if the stages from k on form a second step, which starts from the result of the stages
-    before k."""
+    """Return True if the stages from k on form a second step that starts from the result of the first."""
     s = len(b)
     # Lemma 3.5.4: later stages depend on the finished update of earlier stages, and earlier stages do not
     # depend on later stages.

@@ -36,14 +36,18 @@ class Taylor(Lowering):
     in_coordinates = True
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if states stay on the manifold. This is the case if the projection at the end of a step
-        maps states onto the manifold, or if no projection is needed: the manifold is open in R^n, or it has
-        coordinates in a vector space."""
+        """Return True if states stay on the manifold.
+
+        States stay on the manifold if the projection at the end of a step maps them onto the manifold. No
+        projection is needed if the manifold is open in R^n or has coordinates in a vector space.
+        """
         return scene.group.abelian or reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene has run-time inputs, or if its field has no formulas in
-        coordinates. Otherwise the family accepts the scene, and the result is None."""
+        """Return an objection to the scene, or None if the family accepts the scene.
+
+        Scenes with run-time inputs are not accepted, nor scenes whose field has no formulas in coordinates.
+        """
         if not scene.inputs:
             return without_formulas(scene)
         return Objection(
@@ -70,7 +74,7 @@ class Taylor(Lowering):
         return verify(Program(method.label, (y, *time), body, (("y", end),)))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return false: a Taylor polynomial is not a symplectic map."""
+        """Return False: a Taylor polynomial is not a symplectic map."""
         return False
 
     def degree(self, method: Method) -> int:

@@ -24,7 +24,7 @@ HAMILTONIAN = (
 
 
 class VariationalLowering(Lowering):
-    """A family that discretises Hamilton's principle on a group, for scenes with a state (q, mu) and a
+    """A family that discretises Hamilton's principle on a group. Its scenes have a state (q, mu) and a
     Hamiltonian."""
 
     hamiltonian = True
@@ -58,11 +58,14 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
 
 
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
-    """Return the weights b_i, by which the equations of the step are divided. ZeroWeight is raised for the
-    first weight that may be zero."""
+    """Return the weights b_i, or raise ZeroWeight for the first weight that may be zero.
+
+    The equations of the step are divided by the weights.
+    """
     for i, weight in enumerate(weights, start=1):
-        # Small weights are accepted. A ball that contains zero is refused, because division by such a ball is
-        # not defined.
+        # Small weights are accepted. A ball that contains zero is refused, because the quotient by such a
+        # ball
+        # is not defined.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(
@@ -75,11 +78,13 @@ def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
 
 
 def brackets(method: Method) -> int:
-    """Return the cut-off of dexp^{-1}. MethodError is raised for a method without a cut-off, because a
-    program can contain only finitely many brackets."""
+    """Return the cut-off of dexp^{-1}: the number of brackets after which the series is truncated.
+
+    MethodError is raised for a method without a cut-off, because a program contains finitely many brackets.
+    """
     if method.cutoff is None:
-        # The cut-off cannot be replaced by a search for the fewest brackets: the search is implemented for
-        # dexp^{-1} only, and the program also needs the dual and the derivative of dexp^{-1}.
+        # A search for the fewest brackets cannot replace the cut-off. The search is implemented for dexp^{-1}
+        # only, and the program also needs the dual and the derivative of dexp^{-1}.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} needs a cut-off", expected=f"a number of brackets, as in {family}(2):{name}"
@@ -88,9 +93,9 @@ def brackets(method: Method) -> int:
 
 
 class ExpandedStep(ABC):
-    """A step with a truncated series of dexp^{-1} or dexp: Q_i = exp(X_i) q0 and q1 = exp(Y) q0, with X_i = h
-    sum_j a_ij v_j and Y = h sum_j b_j v_j.
+    """A step with a truncated series of dexp^{-1} or dexp.
 
+    The points are Q_i = exp(X_i) q0 and q1 = exp(Y) q0, with X_i = h sum_j a_ij v_j and Y = h sum_j b_j v_j.
     Subclasses define the equations for the v_j and for the momenta. :meth:`exponentiate` sets the attributes
     ``X`` and ``g``, and :meth:`end` sets ``minus``, ``nu`` and ``mubar``.
     """
@@ -114,12 +119,12 @@ class ExpandedStep(ABC):
 
     @abstractmethod
     def images(self) -> list[Var]:
-        """Append the operations of all stages, and return one value for each unknown. The equations of the
-        step state that each unknown equals its value."""
+        """Append the operations of all stages, and return one value for each unknown. At the solution, each
+        unknown equals its value."""
 
     @abstractmethod
     def starts(self) -> list[Var]:
-        """Append and return the values of the unknowns with which the iteration starts."""
+        """Append and return the initial guesses of the unknowns."""
 
     def exponentiate(self, v: Sequence[Var]) -> None:
         """Append X_i and exp(X_i)."""
@@ -141,14 +146,13 @@ class ExpandedStep(ABC):
         self.mubar = build.lin("mubar", Kind.DUAL, terms)
 
     def time(self, i: int) -> tuple[Var, ...]:
-        """Return the time of a stage as arguments of the scene, or () if the scene does not depend on
-        time."""
+        """Return the time of stage i as a tuple of arguments; () if the scene does not depend on time."""
         return self.stages.at(self.tableau.c[i])
 
     def update(self) -> dict[str, Var]:
         """Append q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
         g = self.build.exp("g", self.Y)
-        # The element g = exp(Y) acts on q0 and on mubar: the step is the action of g on T*G.
+        # The element g = exp(Y) acts on q0 and on mubar. Thus the step is the action of g on T*G.
         q = self.build.mul("q1", g, self.q)
         return {"q": q, "mu": self.build.adjoint("mu1", g, self.mubar, inverse=True)}
 

@@ -1,17 +1,22 @@
-"""Variational commutator-free methods on T*G. They generalise variational Crouch-Grossman methods (VCG): an
-exponent may combine several stages.
+"""Variational commutator-free methods on T*G.
 
-The discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), b_i = sum_J beta_J^i, with the products of a
-commutator-free method: X_iJ = h sum_j alpha_iJ^j xi_j, E_i^J = exp(X_iJ) E_i^{J-1}, Q_i = E_i q0; Y_J = h
-sum_j beta_J^j xi_j, e^J = exp(Y_J) e^{J-1}. The empty products E_i^0 and e^0 are 1; E_i and e are the
-products of all factors. Let (xi_j, n_j) = f(Q_j, M_j), nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j
-nu_j. Transported to q0, the Hamilton equations of the discrete Lagrangian are
+They generalise variational Crouch-Grossman methods (VCG): an exponent may combine several stages. A
+commutator-free method has coefficients alpha_iJ^j in exponent J of stage i, and beta_J^j in exponent J of the
+update. Its products of exponentials are
+
+    X_iJ = h sum_j alpha_iJ^j xi_j,   E_i^J = exp(X_iJ) E_i^{J-1},   Q_i = E_i q0,
+    Y_J = h sum_j beta_J^j xi_j,      e^J = exp(Y_J) e^{J-1}.
+
+The empty products E_i^0 and e^0 are 1. E_i and e are the products of all factors. The discrete Lagrangian is
+h sum_i b_i l(Q_i, xi_i) with b_i = sum_J beta_J^i. Let (xi_j, n_j) = f(Q_j, M_j) be the velocity and the
+force of stage j, nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j. Transported to q0, the Hamilton
+equations of the discrete Lagrangian are
 
     b_i M_i = sum_J beta_J^i dexp*_{-Y_J} Ad*_{(e^{J-1})^-1} mubar
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
-As for VCG, the exponential of each factor is merged into dexp* (dexp*_x Ad*_{exp(-x)} = dexp*_{-x}). The
+The exponential of each factor is merged into dexp* by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}, as for VCG. The
 program has a separate term for each coefficient, so that passes can cancel equal terms. If a stage starts
 from another stage, its product begins with the exponentials of that other stage. The passes compute common
 factors of products once.
@@ -36,8 +41,11 @@ Rows = tuple[tuple[Number, ...], ...]
 
 @dataclass(frozen=True)
 class _Product:
-    """A product of exponentials: the exponent of each factor with a minus sign, and the products of the first
-    0, 1, ... factors."""
+    """A product of exponentials.
+
+    ``minus`` contains the exponents with a minus sign. ``partial`` contains the products of the first 0, 1,
+    ... factors.
+    """
 
     rows: Rows
     minus: tuple[Var, ...]
@@ -55,7 +63,7 @@ class _Product:
         # The empty product e^0 = 1 is included, because the term of the first factor contains Ad*_{(e^0)^-1}.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
-            # Both signs of the exponent are formed: the plus sign for exp, the minus sign for dexp*_{-x}.
+            # Both signs of the exponent are needed: the plus sign for exp, the minus sign for dexp*_{-x}.
             g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
             # New factors multiply from the left, because the first exponential acts first.
             partial.append(build.mul(f"{name}{J}", g, partial[-1]))
@@ -64,7 +72,7 @@ class _Product:
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
         """Append dexp*_{-x_J} Ad*_{(e^J)^-1} m, where e^J is the product of the first J factors."""
-        # ``partial[J]`` is the product of the factors before factor J, where factors are counted from zero.
+        # Factors are counted from zero here, so ``partial[J]`` is the product of the factors before factor J.
         # The exponential of factor J itself is part of dexp*_{-x} = dexp*_x Ad*_{exp(-x)}.
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
@@ -104,8 +112,8 @@ def _program(scene: Problem, method: Method) -> Program:
                 # The terms of mubar are appended one by one and not as a sum, because some of these terms may
                 # cancel terms of the stages.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
-        # The discrete Lagrangian depends on xi_i through the points Q_j, too. This gives the terms with a
-        # minus sign.
+        # The discrete Lagrangian also depends on xi_i through the points Q_j. Its derivatives there are the
+        # terms with a minus sign.
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:

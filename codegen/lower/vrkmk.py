@@ -1,8 +1,8 @@
 """Variational Runge-Kutta-Munthe-Kaas methods on T*G, equation (3.16) of Marthinsen's thesis.
 
-Let dexp^{-1}_{(r),x} be the series of dexp^{-1}_x up to the terms with r brackets, and P*_(r)(x, xi) the dual
-of the derivative of dexp^{-1}_{(r),x} xi with respect to x. With Q_i = exp(X_i) q0 and (xi_i, n_i) =
-f(Q_i, M_i), the equations are
+Let dexp^{-1}_{(r),x} be the series of dexp^{-1}_x up to the terms with r brackets. Let P*_(r)(x, xi) be the
+dual of the derivative of dexp^{-1}_{(r),x} xi with respect to x. Let Q_i = exp(X_i) q0, and let
+(xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The equations are
 
     m_i = b_i Lambda + sum_j a_ji lambda_j,   M_i = (dexp^{-1}_{(r),X_i})* m_i / b_i,
     lambda_i = -h b_i dexp*_{X_i} n_i + h P*_(r)(X_i, xi_i) m_i,
@@ -10,10 +10,10 @@ f(Q_i, M_i), the equations are
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-The v_i and m_i are the unknowns: all other values follow from them with one evaluation of the scene for each
-stage. If a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown in
-place of m_i. Passes remove unused values. The sum m_i is written in terms of mu0, n_j and m_j, because on an
-abelian group some of these terms cancel.
+The v_i and m_i are the unknowns. They determine all other values by one evaluation of the scene for each
+stage. If a_ji = 0 for all j <= i, m_i is computed from Lambda and from later stages. Then Lambda is an
+unknown in place of m_i. Passes remove unused values. The sum m_i is written in terms of mu0, n_j and m_j,
+because on an abelian group some of these terms cancel.
 """
 
 from __future__ import annotations
@@ -50,13 +50,13 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # For each stage, the force n_i and the vector P*_(r)(X_i, xi_i) m_i, which is called the slope.
+        # The force n_i and the vector P*_(r)(X_i, xi_i) m_i ("slope") of each stage i.
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 
     def images(self) -> list[Var]:
         """Return new values of v_i, m_i and Lambda, computed from the old values."""
-        # X_i is computed from the old values v_j, the unknowns. Y below is computed from their new values.
+        # X_i is computed from the unknowns, which are the old values v_j. Y is computed from the new values.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)
@@ -64,14 +64,14 @@ class _Step(ExpandedStep):
         return [*velocities, *(self._multiplier(i) for i in range(self.s)), image]
 
     def _evaluated(self) -> list[Var]:
-        """Append the scene's evaluation in each stage, and return the v_i.
+        """Append the evaluation of the scene in each stage, and return the v_i.
 
-        The last stage comes first, because m_i may follow from the lambda_j of later stages.
+        The last stage comes first, because m_i may depend on the lambda_j of later stages.
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
-        # m_i = b_i Lambda + sum_j a_ji lambda_j reads column i of A. If the method is explicit, m_i depends
-        # on later stages only.
+        # m_i = b_i Lambda + sum_j a_ji lambda_j, so m_i uses column i of A. If the method is explicit, m_i
+        # depends on later stages only.
         for i in reversed(range(self.s)):
             own = self.m[i]
             # If m_i depends on later stages only, all values in the formula for m_i are already known, and
@@ -84,11 +84,10 @@ class _Step(ExpandedStep):
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
             Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
-            # v_i has the same cut-off as M_i: the step is symplectic only if both follow from one discrete
+            # v_i has the same cut-off as M_i. The step is symplectic only if both follow from one discrete
             # Lagrangian.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # dexp^{-1}_{(r),X} depends on X unless r = 0, and its derivative with respect to X acts as a
-            # force.
+            # If r > 0, dexp^{-1}_{(r),X} depends on X. Its derivative with respect to X acts as a force.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
             # The variation of exp(X_i) is dexp_{X_i} applied to the variation of X_i. Hence the dual of dexp

@@ -1,16 +1,16 @@
-"""Variational Runge-Kutta-Munthe-Kaas methods with the inverse of a truncated dexp in place of a truncated
-dexp^{-1}: section 3.4.1 of Marthinsen's thesis.
+"""Variational Runge-Kutta-Munthe-Kaas methods with dexp^{-1} replaced by the inverse of a truncated dexp.
 
-The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h
-sum_j a_ij v_j; so no Lagrange multipliers are needed. Let R*_(r)(x, v) be the dual of the derivative of
-dexp_{(r),x} v with respect to x. With (xi_i, n_i) = f(exp(X_i) q0, M_i), Y = h sum_j b_j v_j and Lambda =
-dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j), the other equations are
+Section 3.4.1 of Marthinsen's thesis describes them. The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where
+dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h sum_j a_ij v_j. Therefore no Lagrange multipliers are
+needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with respect to x. Let
+(xi_i, n_i) = f(exp(X_i) q0, M_i) be the velocity and the force of stage i, Y = h sum_j b_j v_j and
+Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j). The other equations are
 
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 These are the Hamilton equations of the discrete Lagrangian h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The
-unknowns are all v_i and M_i. Each equation with dexp_(r) is solved for its term k = 0, the identity; the
+unknowns are all v_i and M_i. Each equation with dexp_(r) is solved for the term k = 0, the identity. All
 other terms use the values of the previous sweep.
 """
 
@@ -52,21 +52,21 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # For each stage, ``forces`` contains n_i, and ``slopes`` contains R*_(r) M_i. ``corrections``
-        # contains all terms of dexp*_(r) M_i except the first term, with the opposite sign.
+        # For each stage i, ``forces`` contains n_i, and ``slopes`` contains R*_(r)(X_i, v_i) M_i.
+        # ``corrections`` contains the terms k >= 1 of dexp*_{(r),X_i} M_i with the opposite sign.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
 
     def images(self) -> list[Var]:
-        """Return new values of v_i and M_i, computed from the old values."""
+        """Return new values of v_i and M_i, computed from their values in the previous sweep."""
         self.exponentiate(self.v)
         velocities = [self._evaluated(i) for i in range(self.s)]
         self.end(velocities, self.forces)
         return [*velocities, *(self._momentum(i) for i in range(self.s))]
 
     def _evaluated(self, i: int) -> Var:
-        """Append the scene's evaluation in a stage, and return v_i."""
+        """Append the evaluation of the scene in stage i, and return v_i."""
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
@@ -91,15 +91,19 @@ class _Step(ExpandedStep):
         return powers
 
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
-        """Append R*_(r) M, the sum over i < r of ad*_z (ad*_x)^i M, z = -sum_k ad_x^{k-1-i} v/(k+1)!."""
+        """Append R*_(r)(x, v) M, where ``brackets`` are ad_x^k v and ``momenta`` are (ad*_x)^k M.
+
+        The result is the sum over i < r of ad*_z (ad*_x)^i M, with z = -sum_{k>i} ad_x^{k-1-i} v/(k+1)!.
+        """
         terms: Terms = []
         # By the product rule, the derivative of ad_x^k v with respect to x in a direction d is the sum over
         # i < k of ad_x^i [d, w] = -ad_x^i ad_w d, with w = ad_x^{k-1-i} v. The dual map sends M to
         # ad*_{-w} (ad*_x)^i M. Terms with the same i are summed first: z is the sum of -w/(k+1)! over k.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
-            # The sum over k is formed in the algebra, before the bracket. Therefore r brackets are needed;
-            # one bracket for each term would give r (r + 1)/2 brackets.
+            # The sum over k is formed in the algebra, before the bracket. Therefore only r brackets are
+            # needed.
+            # One bracket for each term would give r (r + 1)/2 brackets.
             subscript = self.build.lin("z", Kind.ALG, inner)
             terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
         return self.build.lin(name, Kind.DUAL, terms)
@@ -111,8 +115,8 @@ class _Step(ExpandedStep):
         # other terms of dexp*_(r) M_i, with the opposite sign, are in ``corrections``.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The force and the slope of stage j have the same factor. It contains a_ji, because X_j depends
-            # on v_i through the term h a_ji v_i.
+            # The force and the slope of stage j have the same factor. The factor contains a_ji, because X_j
+            # depends on v_i through the term h a_ji v_i.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))
@@ -127,11 +131,11 @@ class _Step(ExpandedStep):
 
 
 def _rest(powers: list[Var]) -> Terms:
-    """Return the terms -ad_x^k v/(k+1)! for k >= 1, or the same terms with the dual map of ad_x.
+    """Return the terms -ad_x^k v/(k+1)! for k >= 1.
 
-    ``powers`` are v, ad_x v, ad_x^2 v, ...
+    ``powers`` are v, ad_x v, ad_x^2 v, ... If v is a covector, ad*_x replaces ad_x.
     """
-    # The term k = 0 is omitted, because it is v itself, for which the equation is solved.
+    # The term k = 0 is omitted. It is v itself, for which the equation is solved.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

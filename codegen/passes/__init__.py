@@ -1,9 +1,9 @@
 """The passes: pure functions that take a program and return a simpler one. They run in a fixed order. A pass
 is called exact if the new program has the same results as the old program in exact arithmetic.
 
-``optimise`` runs the passes on a scene. After every pass it checks types and single assignment. It also
-interprets the new program at sample points, where the results must agree with the results of the lowered
-program up to rounding.
+``optimise`` runs the passes on a program. After every pass it checks types and single assignment. It also
+interprets the new program at sample points of the scene. The results must agree with the results of the
+lowered program up to rounding.
 """
 
 from __future__ import annotations
@@ -60,8 +60,8 @@ class Optimiser:
 
     ``composed``, if given, is the same step, written as a composition of shorter steps
     (:mod:`codegen.lower.substeps`). The whole composition is compared with ``program`` and then replaces
-    ``program``. The passes rewrite and compare only one of its substeps. A pass that changes the meaning of
-    the program raises :class:`codegen.ir.verify.IllFormed`, which is a fault of this compiler.
+    ``program``. The passes rewrite and compare only one of its substeps. If a pass changes the results of the
+    program, :class:`codegen.ir.verify.IllFormed` is raised. This error is a fault of this compiler.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:
@@ -71,8 +71,8 @@ class Optimiser:
         if composed is not None:
             whole: Program = composed
             self._run(Pass("substeps", "the step repeats a shorter step", lambda _: whole))
-            # From now on the passes rewrite one substep only, so the results of this substep, executed as a
-            # step of its own, are the reference.
+            # From now on the passes rewrite one substep only. The reference is the result of this substep,
+            # executed as a step of its own.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -104,8 +104,8 @@ class Optimiser:
         # A program that the pass has not changed needs no comparison with the reference.
         if new == old:
             return
-        # The results of the new program are compared with those of the lowered program and not with those of
-        # the previous program, because small deviations could accumulate from pass to pass.
+        # The new program is compared with the lowered program and not with the previous program. Otherwise
+        # small deviations could accumulate from pass to pass.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
             raise IllFormed(f"the pass {each.name} changed the results of {old.name}: {account}")
@@ -162,7 +162,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
 
 
 def body_frame_passes(scene: Problem) -> list[Pass]:
-    """Return, in order, the passes that follow if the scene has a body frame."""
+    """Return the passes for a scene with a body frame, in order."""
     inverse = "an adjoint map and its inverse cancel"
     one_ad = "functions of the same ad_x are combined"
     return [
@@ -175,9 +175,9 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # The Legendre transform introduces inverses of maps. If a map is directly followed by its inverse,
         # both are removed.
         Pass("inverse maps", inverse, opposites.run),
-        # This pass must follow the Legendre transform. Before the Legendre transform, the force of a stage
-        # depends on the unknown momentum of the stage, and because of this cycle the pass cannot remove the
-        # force from the unknowns.
+        # This pass must follow the Legendre transform. Before the transform, the force of a stage depends on
+        # the unknown momentum of the stage. Because of this cycle, the pass could not remove the force from
+        # the unknowns.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
         # After tearing has removed an unknown, a map may directly follow its inverse. Such pairs are removed.
         Pass("inverse maps", inverse, opposites.run),

@@ -1,8 +1,8 @@
 """Remove operations without effect: brackets on an abelian group, and dexp^{-1} truncated at order 0.
 
 The pass is exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity,
-and ad and the derivative P of dexp^{-1} are zero. On any group dexp^{-1} truncated at order 0 is the
-identity, and P truncated at order 0 is zero.
+and ad and the derivative P of dexp^{-1} are zero. If dexp^{-1} is truncated at order 0, it is the identity on
+every group, and its derivative P is zero.
 """
 
 from __future__ import annotations
@@ -20,19 +20,21 @@ ZEROS = (Bracket, InverseDexpSlope)
 
 
 def run(program: Program, abelian: bool) -> Program:
-    """Return the program without operations that are the identity or zero. ``abelian`` is True if the group
-    is abelian, so that every bracket vanishes."""
+    """Return the program without operations that are the identity or zero.
+
+    ``abelian`` is True if the group is abelian. Then every bracket vanishes.
+    """
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         operation = assign.operation
         # The series dexp^{-1} = 1 - ad/2 + ..., truncated at order 0, is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
-            # The linear map acts on the last argument; the other arguments determine the map.
+            # The linear map acts on the last argument. The other arguments determine the map.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # The pass for zeros recognises only the operation Zero, so the result is a Zero and not an empty
-            # sum.
+            # The result is a Zero and not an empty sum, because the pass for zeros recognises only the
+            # operation Zero.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

@@ -1,9 +1,10 @@
 """Split each block into the strongly connected components of its dependency graph, which are solved in order.
 
-The pass is exact. An edge leads from each assignment to every assignment that reads one of its values. An
-unknown is represented by its image, the right-hand side of the unknown's fixed-point equation. A component
-without a cycle becomes assignments outside blocks; a component with a cycle becomes a block with its own
-unknowns. Explicit methods therefore need no solver, and a composition tableau is solved stage by stage.
+The pass is exact. An edge of the graph leads from each assignment to every assignment that reads one of its
+values. An unknown is represented by its image, the right-hand side of the unknown's fixed-point equation. A
+component without a cycle becomes assignments outside blocks. A component with a cycle becomes a block with
+its own unknowns. Explicit methods therefore need no solver, and a composition tableau is solved stage by
+stage.
 """
 
 from __future__ import annotations
@@ -28,8 +29,10 @@ def run(program: Program) -> Program:
 
 
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
-    """Return the statements that replace a block, in order. Record in ``names``, for each unknown of the
-    block, the variable that replaces it in later statements."""
+    """Return the statements that replace a block, in order.
+
+    ``names`` receives, for each unknown of the block, the variable that replaces it in later statements.
+    """
     # networkx is imported here and not at the top of the file, because only programs with blocks need it.
     import networkx
 
@@ -62,21 +65,21 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     for component in order:
         inside = set(members[component])
         assigns = [block.body[k] for k in members[component]]
-        # An unknown belongs to the component that computes the image of the unknown, if the component also
-        # reads the unknown.
+        # An unknown belongs to the component that computes its image. The component must also read the
+        # unknown.
         own = [
             u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)
         ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
-        # If the component reads no unknown whose image it computes, it has no cycle: its assignments are
+        # If the component reads no unknown whose image it computes, it has no cycle. Its assignments are then
         # explicit and need no block.
         if not own:
             result += renamed
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
-        # Residuals need not be copied to the new blocks, because the old block has none:
+        # Residuals need not be copied to the new blocks, because the old block has none.
         # :mod:`codegen.passes.legendre` adds residuals after the last split.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
     # Later statements read the image in place of the unknown, because both are equal at the solution. An
@@ -86,8 +89,11 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
-    """Return a value for each unknown: its image, or, if the image is itself an unknown, the image of that
-    unknown, and so on. If this chain of unknowns is closed, the value is the start value of the unknown."""
+    """Return a value for each unknown that is not itself an unknown of the block.
+
+    The value is the image of the unknown. If the image is itself an unknown, the image of that unknown is
+    used, and so on. If this chain of unknowns is closed, the value is the start value of the unknown.
+    """
     result = {}
     for unknown in image:
         var, seen = image[unknown], [unknown]

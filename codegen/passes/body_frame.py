@@ -3,14 +3,16 @@ in the body frame of each stage.
 
 The pass is exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the
 algebra to Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a
-program commute with this transformation, so they do not change. Only the field (xi, n) is replaced, by the
-velocity W and the force N of :mod:`codegen.scene.body_frame`: xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P),
-P = Ad*_E~ M. Then the equations of a block read only those coordinates of q that W and N read. The program
-reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`), so consecutive steps need
-no transformation between them.
+program commute with this transformation, so they do not change.
 
-A program is not changed if the scene has no body frame, or if an operation other than the field does not
-commute with the transformation.
+Only the field (xi, n) is replaced. The module :mod:`codegen.scene.body_frame` defines the velocity W and the
+force N in the body frame, and xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), where P = Ad*_E~ M is the momentum
+M in the body frame of the stage. Then the equations of a block read only those coordinates of q that W and N
+read. The program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`), so
+consecutive steps need no transformation between them.
+
+A program is not changed if the scene has no body frame. It is not changed either if an operation other than
+the field does not commute with the transformation.
 """
 
 from __future__ import annotations
@@ -48,12 +50,12 @@ EQUIVARIANT = (
     Multiply,
     Identity,
 )
-"""Operations that commute with the adjoint action of q. Group elements among their arguments are products of
-exponentials, not positions Q."""
+"""Operations that commute with the adjoint action of q. Their arguments that are group elements are products
+of exponentials and not positions Q."""
 
 
 class NotFramed(Exception):
-    """Raised for an operation that this pass cannot rewrite; the program is then not changed."""
+    """Raised for an operation that this pass cannot rewrite. The program is then not changed."""
 
 
 def run(program: Program, scene: Problem) -> Program:
@@ -135,22 +137,22 @@ class _Framing:
             self._field(assign)
         elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
-            # A product of two positions, (E q)(E' q), does not have the form E'' q. Such programs are not
-            # rewritten.
+            # The program is not rewritten if both factors are positions, because the product (E q)(E' q) does
+            # not have the form E'' q.
             if left in self.relative:
                 raise NotFramed
             # Let L be the group element ``left``. The product of L and the position E q is (L E) q, so the
             # new position has the factor L E. Conjugation by q maps L E to the product of the conjugates of
-            # L and E, so the operation remains a multiplication.
+            # L and E. The operation therefore remains a multiplication.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # In the body frame E q is written as q E~, with the factor on the right side.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
-            # An equivariant operation maps transformed arguments to the transformed result, so the operation
-            # stays the same, and only its arguments are renamed.
+            # An equivariant operation maps transformed arguments to the transformed result. Therefore only
+            # its arguments are renamed.
             self._emit(replace(assign, args=self._now(args)))
-        # A stage time is a number, which has the same value in every frame.
+        # A stage time is a number and has the same value in every frame.
         elif isinstance(operation, Advance):
             self._emit(assign)
         else:
@@ -160,12 +162,12 @@ class _Framing:
         self.build.body.append(assign)
 
     def _field(self, assign: Assign) -> None:
-        """Append xi = Ad_E W(Q, P) and n = Ad*_{E^-1} N(Q, P) with P = Ad*_E M."""
+        """Append xi = Ad_E W(Q, P) and n = Ad*_{E^-1} N(Q, P) with P = Ad*_E M, where Q = q E."""
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])
-        # For Q = q E~ the field needs Ad*_Q mu = Ad*_E~ (Ad*_q mu), and the momenta of the program are
-        # already Ad*_q mu.
+        # For Q = q E~ the field needs Ad*_Q mu = Ad*_E~ (Ad*_q mu). The momenta M of the program are already
+        # Ad*_q mu.
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)

@@ -1,4 +1,4 @@
-"""Remove dead code: values that are needed neither for the new state nor for the equations of a block.
+"""Remove dead code: values that neither the new state nor the equations of a block need.
 
 The pass is exact. An unknown that nothing reads is removed from its block together with its equation. If
 nothing reads any unknown of a block, the block is replaced by those of its assignments that are still needed.
@@ -20,8 +20,8 @@ def run(program: Program) -> Program:
     # its definition.
     for statement in reversed(program.body):
         if isinstance(statement, Assign):
-            # If one result of an operation is live, all its results are kept, because an operation such as
-            # the field computes all of them together.
+            # If one result of an operation is live, all its results are kept, because the operation computes
+            # them together. The field is an example.
             if live.intersection(statement.targets):
                 live.update(statement.args)
                 kept.append(statement)
@@ -35,8 +35,7 @@ def run(program: Program) -> Program:
 def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     """Return a block with its live assignments only, and add the values that they read to ``live``.
 
-    If no live assignment depends on an unknown, there is nothing to solve, and the assignments replace the
-    block.
+    If no unknown is live, there is nothing to solve, and the live assignments replace the block.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))
     # zip is not strict, because a block has one residual for each unknown, or no residuals.

@@ -2,7 +2,7 @@
 
 The pass is exact. At a solution, unknowns with the same image are equal. The block is solved only for the
 first of these unknowns, and the iteration begins with the start value of this unknown. Stages with equal rows
-of coefficients have the same image after :mod:`codegen.passes.value_numbering`, and so become one stage.
+of coefficients have the same image after :mod:`codegen.passes.value_numbering`. They become one stage.
 """
 
 from __future__ import annotations
@@ -42,15 +42,18 @@ def run(program: Program) -> Program:
 
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
-    """Return (unknown, start, image) for the first unknown of each image, and a dictionary from every other
-    unknown to the first unknown with the same image."""
+    """Return the distinct unknowns of a block, and a dictionary from each other unknown to its replacement.
+
+    The first result contains (unknown, start, image) for the first unknown of each image. Unknowns with the
+    same image are replaced by this first unknown.
+    """
     # Only the start value of the first unknown is used. The start values of the other unknowns are not
     # needed, because all these unknowns are equal at the solution.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}
     for unknown, start, image in zip(block.unknowns, block.starts, block.images, strict=True):
-        # If the image is itself an unknown, nothing is merged here, because :mod:`codegen.passes.blocks`
+        # If the image is itself an unknown, nothing is merged here. The pass :mod:`codegen.passes.blocks`
         # replaces such an image by the image of that unknown.
         if image in block.unknowns or first.setdefault(image, unknown) == unknown:
             pairs.append((unknown, start, image))

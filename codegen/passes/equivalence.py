@@ -1,4 +1,4 @@
-"""Equivalence of two programs: interpretation at points of the scene, in double precision."""
+"""Numerical test that two programs are equivalent: both are interpreted at points of the scene."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from codegen.scene.problem import Problem
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 """Step sizes to try, the largest first, because a wrong rewriting has the largest effect in a long step.
 
-Other decreasing powers of two would be suitable, too. If the first step would move the state too far, all
+Other decreasing powers of two would also be suitable. If the first step would move the state too far, all
 steps are shortened by the same factor."""
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
-"""If no step in doubles can be compared, steps of size 2^-k, for k in TINY_STEPS, are computed with DIGITS
-decimal digits. If the field is large, they are shortened like the steps in doubles (:data:`STEPS`).
+"""Step sizes 2^-k, for k in TINY_STEPS, with DIGITS decimal digits.
 
-The last of these steps is short enough even for a scene with a coefficient of 1e300."""
+They are used if no step in double precision can be compared. If the field is large, they are shortened like
+:data:`STEPS`. The last of these steps is short enough even for a scene with a coefficient of 1e300."""
 
 REACH = 0.5
 """An upper bound of h times the largest component of the field. Longer steps would amplify rounding errors.
@@ -40,12 +40,13 @@ SWEEPS = 24
 """The largest number of sweeps over a block of the reference program in doubles. A step that needs more
 sweeps is too long for an accurate comparison. Tiny steps and compared programs may take twice as many sweeps.
 
-If each sweep divides the error by four, 24 sweeps divide it by 2^48, so that only rounding errors remain. For
-slower blocks the next, shorter step is tried."""
+If each sweep divides the error by four, 24 sweeps divide the error by 2^48, so that only rounding errors
+remain. For slower blocks the next, shorter step is tried."""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""If the results of two programs in doubles differ, or only one of them converges, the step is repeated with
-FEW_DIGITS digits and at most MORE_SWEEPS sweeps."""
+"""The most sweeps, and the decimal digits, with which a step is repeated if its results in doubles differ.
+
+The step is also repeated if only one of the two programs converges in doubles."""
 
 NOT_A_NUMBER = "differs by nan"
 """The end of the message for a result that is not finite. Such a step is too long for a comparison."""
@@ -54,23 +55,24 @@ APART = 16
 """If the results of one step cannot be compared, the next step to be compared is shorter by at least this
 factor.
 
-The iteration for rewritten equations may converge only in shorter steps. A comparison in one of these steps
-is sufficient, so only few step sizes are tried."""
+Rewritten equations may be solvable by iteration only in shorter steps. A comparison in one of these steps is
+sufficient, so only few step sizes are tried."""
 
 LARGEST = 2.0**512
-"""Results above this number are not compared: a step with such a result is too long."""
+"""Results above this number are not compared. A step with such a result is too long."""
 
 CLOSE = 2.0**-200
-"""Results with DIGITS digits count as equal up to this relative difference, which is larger than the errors
-from rounding the coefficients of ball tableaux.
+"""Results with DIGITS digits count as equal up to this relative difference.
+
+It is larger than the errors from rounding the coefficients of ball tableaux.
 """
 
 AGREE = 2.0**-36
-"""Results count as equal up to this relative difference, which is far above rounding errors and the tolerance
-to which blocks are solved.
+"""Results in doubles count as equal up to this relative difference.
 
-In 170 comparisons of eight methods on scenes of the gallery the passes changed results by at most 2^-51. A
-coefficient that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
+It is far above rounding errors and the tolerance of the solver. In 170 comparisons of eight methods on scenes
+of the gallery the passes changed results by at most 2^-51. A coefficient that is wrong by 2^-28 is found:
+``tests/codegen/passes/test_equivalence.py``."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +80,7 @@ class _Step:
     """One step of the reference: the new state, and the solutions of the blocks.
 
     ``moved`` is True if the step begins at a point near the initial state, and False if it begins at the
-    initial state. ``tiny`` is True if the step size is one of :data:`TINY_STEPS`; the results of such a step
+    initial state. ``tiny`` is True if the step size is one of :data:`TINY_STEPS`. The results of a tiny step
     are compared relative to the change of the state.
     """
 
@@ -91,12 +93,16 @@ class _Step:
 
 
 class _Bounded(PreciseDomain):
-    """Arithmetic with many digits. If an iteration diverges, an error is raised as soon as its numbers are
-    large, and not only at the limit of sweeps."""
+    """Arithmetic with many digits that raises an error as soon as the numbers of an iteration are large.
+
+    Otherwise a diverging iteration would be noticed only at the limit of sweeps.
+    """
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a function; raise OverflowError for an argument so large that few digits of the
-        result would be correct."""
+        """Return the value of a function.
+
+        OverflowError is raised for an argument so large that few digits of the result would be correct.
+        """
         if any(abs(x) > self.rational(10) ** (self.digits // 2) for x in args):
             raise OverflowError(function)
         return super().call(function, *args)
@@ -104,7 +110,7 @@ class _Bounded(PreciseDomain):
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return whether the iteration has converged, and its last change, as :class:`PreciseDomain` does.
 
-        NotConverged is raised if the change is at least 10^digits, because the iteration then diverges.
+        NotConverged is raised if the change is at least 10^digits. Such an iteration diverges.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
@@ -113,8 +119,7 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """The results of steps of decreasing size from one state; each result is computed when it is first
-    needed."""
+    """The results of steps of decreasing size from one state. Each result is computed when first needed."""
 
     def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
@@ -134,8 +139,8 @@ class Reference:
     Two points are used: the initial state, which may be special (an equilibrium, a symmetric position), and a
     nearby point without symmetry. The step is the longest step that moves the state by at most :data:`REACH`
     along the field, and for which the results are finite and the blocks converge. The iterations of the
-    compared program start from the solutions of the reference. If these are no solutions of the equations of
-    the compared program, the iterations move away from them, and the results differ.
+    compared program start from the solutions of the reference. If the equations of the compared program have
+    other solutions, the iterations move away from these starts, and the results differ.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -147,10 +152,10 @@ class Reference:
             raise _no_step(scene)
 
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
-        """Yield the results of the longest step, then of shorter and shorter steps. An iteration that
-        does not converge in a long step may converge in a shorter step.
+        """Yield the results of the longest step from a state, then of shorter and shorter steps.
 
-        The steps begin at the initial state, or at a state near it.
+        An iteration that does not converge in a long step may converge in a shorter step. The steps begin at
+        a state near the initial state if ``moved`` is True, and otherwise at the initial state.
         """
         state = _state(self.scene, FloatDomain(0.0), moved)
         # A step moves the state by about h times the field. Therefore the steps are shorter if the field is
@@ -178,8 +183,7 @@ class Reference:
                 yield result
 
     def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
-        """Return a domain with ``digits`` digits for a step of size h, and the state from which the step
-        starts."""
+        """Return a domain with ``digits`` digits for a step of size h, and the initial state of the step."""
         domain = _Bounded(h, digits)
         state = _state(self.scene, domain, moved)
         return domain, {name: state[name] for name in self.kinds}
@@ -188,8 +192,8 @@ class Reference:
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step, or None if it cannot be computed."""
-        # The interpreter stores the solutions of the blocks in this list; compared programs start from these
-        # solutions.
+        # The interpreter stores the solutions of the blocks in this dictionary. Compared programs start from
+        # these solutions.
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:
@@ -202,8 +206,11 @@ class Reference:
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
     def _is_short(self, step: _Step, power: int) -> bool:
-        """Return True if a step of size 2^-p, p = ``power``, changes every number x of the state by at most
-        2^(-p/2) max(1, |x|). If a change is larger, h times some coefficient of the scene is not small."""
+        """Return True if a step of size 2^-p, where p is ``power``, changes the state only slightly.
+
+        Every number x of the state may change by at most 2^(-p/2) max(1, |x|). If a change is larger, h times
+        some coefficient of the scene is not small.
+        """
         return all(
             abs(x - y) <= max(1, abs(x)) * 2.0 ** -(power // 2)
             for name in self.kinds.keys() & step.after.keys()
@@ -235,11 +242,12 @@ class Reference:
         return next(filter(None, accounts), "")
 
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
-        """Return a description of the difference between the results after the longest step for which both
-        programs have a finite result, or ''.
+        """Return the difference of the two programs in the longest step that can be compared; '' if they
+        agree.
 
-        If there is no such step, return a description of the last failure of ``program``. The result is None
-        if no step from this point is suitable for a comparison.
+        A step can be compared if both programs have a finite result. If there is no such step, return a
+        description of the last failure of ``program``. The result is None if no step from this point is
+        suitable for a comparison.
         """
         failure = None
         for step in point.results():
@@ -275,8 +283,11 @@ class Reference:
         return True
 
     def _by_newton(self, program: Program, step: _Step) -> str | None:
-        """Solve the blocks of both programs by Newton's method in many digits and return the difference of
-        the results, or ''; return None if Newton's method fails for one of the programs."""
+        """Solve the blocks of both programs by Newton's method in many digits and compare the results.
+
+        Return a description of the difference, or ''. The result is None if Newton's method fails for one of
+        the programs.
+        """
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
         solutions: dict[Var, Value] = {}
         try:
@@ -289,11 +300,11 @@ class Reference:
         return self._gap(_Step(domain, inputs, first, {}, step.moved), second)
 
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
-        """Repeat the step in many digits and return the difference found; return ``account`` if this step
-        cannot be computed.
+        """Repeat the step in many digits and return the difference found, or '' if there is none.
 
         If a step is ill-conditioned, results in doubles may differ by more than a few rounding errors
-        although the programs are equivalent.
+        although the programs are equivalent. If the step cannot be repeated, ``account``, the difference in
+        doubles, is returned.
         """
         if NOT_A_NUMBER in account:
             return account
@@ -349,10 +360,10 @@ def _no_step(scene: Problem) -> SceneError:
 
 
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
-    """Return the initial state. If ``moved`` is True, return a nearby state: points are moved by a fixed
-    group element, and a fixed covector is added to momenta.
+    """Return the initial state, or a nearby state if ``moved`` is True.
 
-    The moved state is on the manifold up to rounding errors of the arithmetic of ``domain``.
+    For the nearby state, points are moved by a fixed group element, and a fixed covector is added to momenta.
+    The nearby state is on the manifold up to rounding errors of the arithmetic of ``domain``.
     """
     start = scene.initial(domain)
     # The directions are sines of integers: numbers without symmetries or integer relations, and the same in

@@ -1,6 +1,6 @@
 """Take linear maps out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2).
 
-The pass is exact. L is a coadjoint operation, dexp* or another linear map, which must be the same in all
+The pass is exact. L is a linear map, for example a coadjoint operation or dexp*. It must be the same in all
 terms. A term L(x) is included only if no other operation reads the value L(x). The pass repeats until nothing
 changes, so that nested maps are taken out one after the other.
 """
@@ -35,8 +35,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # If another operation reads L(x), L(x) must be computed in any case. Applying L to the sum would then
         # save nothing.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
-        # Terms with the same operation, and the same arguments except the last, are values of the same linear
-        # map and form a group. Every other term is a group of its own, because its key is its index.
+        # Terms with the same operation and the same arguments, except the last, are values of the same linear
+        # map and form a group. Every other term is a group of its own, with its index as the key.
         key = (source.operation, source.args[:-1]) if source is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):

@@ -25,8 +25,7 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Letter:
-    """One flow of a composition: the name of its part of the splitting, its duration, and its time argument,
-    if any."""
+    """One flow of a composition: its part of the splitting, its duration, and its time argument, if any."""
 
     part: str
     duration: Coefficient
@@ -38,8 +37,9 @@ def run(program: Program, scene: Problem) -> Program:
     letters = word(program)
     if letters is None:
         return program
-    # The test for commuting flows samples the scene, which takes time, so the test is built only for
-    # compositions of flows.
+    # The test for commuting flows evaluates flows at sample points and takes time. Therefore the test is
+    # built
+    # only if the program is a composition of flows.
     commute = commuting(scene)
     kept: list[Letter] = []
     # A flow is joined to the last earlier flow of the same part if it commutes with all flows between the
@@ -50,8 +50,7 @@ def run(program: Program, scene: Problem) -> Program:
             # Flows of one part form a one-parameter group: exp(a X) exp(b X) = exp((a + b) X).
             duration = letter.duration.value + kept.pop(at).duration.value
             letter = replace(letter, duration=Coefficient(duration, letter.duration.power))
-        # A flow of duration zero is the identity and is dropped. A duration counts as zero only if this is
-        # proven.
+        # A flow of duration zero is the identity and is dropped. The duration must be provably zero.
         if not letter.duration.is_zero:
             kept.append(letter)
     # If no flows were joined, the old program is returned, because the optimiser then skips the comparison of
@@ -60,9 +59,10 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the index in ``kept`` of the last flow with the part and the time of ``letter``. The result is
-    None if ``kept`` contains no such flow, or if some flow that follows it in ``kept`` does not commute with
-    ``letter``."""
+    """Return the index in ``kept`` of the flow to which the flow ``letter`` can be joined, or None.
+
+    This is the last flow with the same part and the same time, if all flows after it commute with ``letter``.
+    """
     for at in reversed(range(len(kept))):
         # If a part of the splitting depends on time, its flow uses the vector field at a fixed stage time.
         # Flows with different stage times are therefore flows of different fields.
@@ -79,8 +79,8 @@ def word(program: Program) -> list[Letter] | None:
     letters = []
     state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
-        # A statement that is no assignment is a block of implicit equations, and a composition of flows has
-        # none.
+        # A statement that is no assignment is a block of implicit equations. A composition of flows has no
+        # such block.
         if not isinstance(statement, Assign):
             return None
         operation, args = statement.operation, statement.args
@@ -91,14 +91,16 @@ def word(program: Program) -> list[Letter] | None:
             return None
         letters.append(Letter(operation.part, operation.duration, args[len(state) :]))
         state = statement.targets
-    # The outputs must be the state after the last flow; otherwise the program is not a composition of flows
-    # only.
+    # The outputs must be the state after the last flow. Otherwise the program also contains operations other
+    # than flows.
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
-    """Return the program that applies the flows ``letters`` in order. The assignments of stage times are
-    those of the old program."""
+    """Return the program that applies the flows ``letters`` in order.
+
+    The assignments of stage times are those of the old program.
+    """
     # All stage times come first, which is possible because each stage time depends on t alone. The pass for
     # unused values removes stage times that no flow reads.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
@@ -113,7 +115,7 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
 
 def commuting(scene: Problem) -> Callable[[str, str], bool]:
-    """Return a test: given the names of two parts of the splitting, it returns True if their flows
+    """Return a function that tests whether the flows of two parts of the splitting, given by name,
     commute."""
     orbit = orbit_of(scene)
     d = orbit.domain
@@ -128,8 +130,9 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
-        # The durations differ, because with equal durations a symmetry of the two parts could hide a
-        # difference.
+        # The durations differ. With equal durations, a symmetry of the two parts could make both orders of
+        # the
+        # flows agree by accident.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:
@@ -141,14 +144,16 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
                 return False
         return True
 
-    # The relation is symmetric, so (a, b) and (b, a) share one cached comparison. A flow commutes with
+    # The relation is symmetric, so (a, b) and (b, a) share one cached comparison. Every flow commutes with
     # itself.
     return lambda a, b: a == b or same((a, b) if a < b else (b, a))
 
 
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:
-    """Return the parts whose flows commute with the flows of all other parts of a composition, in the order
-    in which the parts first occur."""
+    """Return the parts whose flows commute with the flows of all other parts of a composition.
+
+    The parts are in the order in which they first occur.
+    """
     parts = tuple(dict.fromkeys(letter.part for letter in letters))
     bound = {p for a, b in combinations(parts, 2) if not commute(a, b) for p in (a, b)}
     return tuple(p for p in parts if p not in bound)

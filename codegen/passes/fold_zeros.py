@@ -42,7 +42,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     operation = assign.operation
     if assign.terms:
         return _sum(rewriter, assign)
-    # t + 0 h is t: the stage at the start of the step needs no stage time.
+    # t + 0 h is t. Thus the stage at the start of the step needs no stage time.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
     # A value counts as zero if the operation Zero defines it, and as the identity if the operation Identity
@@ -57,7 +57,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         return (assign.args[1 - identity.index(True)],)
     if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
         return (assign.args[1],)
-    # A bracket is linear in both arguments; the other operations are linear only in the last argument.
+    # A bracket is linear in both arguments. All other operations are linear at most in the last argument.
     if operation.linear_in_last and (zero[-1] or (isinstance(operation, Bracket) and zero[0])):
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
     return rewriter.emit(assign)
@@ -73,7 +73,7 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             continue
         old = total.get((arg, c.power))
         total[arg, c.power] = c if old is None else Coefficient(old.value + c.value, c.power)
-    # A term is removed only if its coefficient is provably zero; a ball that contains zero is no proof.
+    # A term is removed only if its coefficient is provably zero. A ball that contains zero is no proof.
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))

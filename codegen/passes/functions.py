@@ -1,7 +1,8 @@
-"""Functions of ad_x: several functions of one ad_x (dexp, dexp^{-1}, exp), applied one after the other,
-become one function.
+"""Functions of ad_x: several functions of ad_x (dexp, dexp^{-1}, exp), applied one after the other, become
+one.
 
-The pass is exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations with
+The pass is exact. It uses Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations
+with
 multiples of one x is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a
 closed form for this product: on SO(3) it is 1 + b ad_x + c ad_x^2. If an adjoint operation is the only
 operation that reads exp(x), the element exp(x) need not be computed.
@@ -27,16 +28,16 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Return the program with functions of ad combined, if the group has closed forms for them."""
-    # Without a closed form, a product of functions takes as many brackets as its factors together, so joining
-    # saves nothing.
+    # Without a closed form, a product of functions needs as many brackets as its factors together. Then
+    # nothing is gained.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
 def rows(program: Program, scene: Problem) -> Program:
-    """Return the program with an operation that forms q exp(x) row by row, if the body's field reads a single
-    row of q.
+    """Return the program with an operation that computes a single row of q exp(x).
 
-    Then only this row of the product is computed, and exp(x) is not formed.
+    The program is changed only if the field in the body frame reads a single row of q. Then only this row of
+    the product is computed, and exp(x) is not formed.
     """
     if scene.body is None:
         return program
@@ -74,7 +75,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if source is not None and inner is not None:
         scale = ratio(rewriter.definitions, x, inner[0])
         if scale is not None:
-            # x = scale y turns f(ad_x) into f(scale ad_y): both factors are now functions of the same ad_y.
+            # With x = scale y, f(ad_x) is f(scale ad_y). Both factors are now functions of the same ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
     # If the argument of f(ad_x) is a sum of terms g(ad_x) v, f is applied to each term, which gives
@@ -103,7 +104,7 @@ Part = tuple[Var, Word, Var]
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return (s, (y, W, v)) if var is defined as W(ad_y) v and x = s y; None otherwise."""
+    """Return (s, (y, W, v)) if ``var`` is defined as W(ad_y) v and x = s y; None otherwise."""
     source = rewriter.definitions.get(var)
     # If several operations read the value W(ad_y) v, it is joined with none of them. Otherwise W would be
     # evaluated twice: in the joined function, and for the other operations.
@@ -118,7 +119,7 @@ def _distributed(
 ) -> tuple[Var, ...]:
     """Append the sum ``total`` with the function ``word`` of ad_x applied to each term; return its target.
 
-    ``parts`` has an entry (s, (y, W, v)) for each term: the term is W(ad_y) v, and x = s y."""
+    ``parts`` has an entry (s, (y, W, v)) for each term. The term is W(ad_y) v, and x = s y."""
     terms = []
     for scale, (y, inner, v) in parts:
         joined = simplified((*inner, *(f.scaled(scale) for f in word)))
@@ -130,8 +131,7 @@ def _distributed(
 
 
 def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
-    """Return x and the function of ad_x that an assignment applies to its last argument; None if the
-    assignment applies no such function."""
+    """Return x and the function of ad_x that an assignment applies to its last argument; None without one."""
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
@@ -146,15 +146,16 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 
 
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
-    """Return the rational number s with x = s y, or None if no such s follows from the terms of x and y."""
+    """Return the rational number s with x = s y, or None if the terms of x and y show no such s."""
     a, b = _terms(definitions, x), _terms(definitions, y)
     # Proportional combinations contain the same variables. Both dictionaries are sorted, so their items are
     # compared in pairs.
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
-    # If all quotients of coefficients are equal to s, then x = s y. Callers use s as the scale of a factor.
-    # Such a scale must be rational.
+    # If all quotients of coefficients equal one number s, then x = s y. Callers scale a factor by s, so s
+    # must
+    # be rational.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 
@@ -168,8 +169,8 @@ def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], N
         source = definitions.get(var)
         if source is not None and source.terms:
             for k, arg in source.terms:
-                # Sums are expanded until only variables remain that are not sums. For example, h xi/2 and h
-                # xi are two different variables, but the expanded terms show that both are multiples of xi.
+                # Sums are expanded until only variables remain that are not sums. For example, y = h xi/2 and
+                # z = h xi are different variables, but the expanded terms show that both are multiples of xi.
                 waiting.append((c * k.value, power + k.power, arg))
             continue
         old = total.get((var.name, power))

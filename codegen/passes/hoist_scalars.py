@@ -16,13 +16,15 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that contain one value, as pairs. A pair consists of the index of a sum and a quotient: the
-coefficient of the value in this sum, divided by its coefficient in the first of the sums."""
+"""The sums that contain one value, as pairs of a sum and a quotient.
+
+The sum is given by its index. The quotient is the coefficient of the value in this sum, divided by the
+coefficient of the value in the first of the sums."""
 
 
 def run(program: Program) -> Program:
-    """Return the program in which numbers are moved out of linear maps, nested sums are expanded, and
-    proportional terms are added once."""
+    """Return the program with numbers outside linear maps, without nested sums, and with proportional terms
+    added once."""
     while True:
         # Unused values are removed in each round, because a sum that was expanded must not count as a reader.
         new = dead.run(rewrite(program, _rule))
@@ -47,17 +49,16 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Append a sum in which some terms are expanded, and return its target. If the expanded sum is a single
-    value with coefficient one, nothing is appended, and this value is returned.
+    """Append a sum in which some terms are expanded, and return its target.
 
-    A term is expanded if it is a multiple c x of another value x, or a sum that no other assignment reads.
+    A term is expanded if it is a multiple c x of another value x, or a sum that no other assignment reads. If
+    the expanded sum is a single value with coefficient one, nothing is appended, and this value is returned.
     """
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
         # If the term is a single multiple, its number is multiplied into the coefficient at no cost. A sum
-        # with several readers is not expanded, because each reader would repeat the multiplications of the
-        # sum.
+        # with several readers is not expanded, because each reader would repeat its multiplications.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]

@@ -3,11 +3,13 @@
 The pass is exact. W(Q, P) is the velocity of a stage, as a function of its position Q and momentum P. Suppose
 that invertible linear maps transform W(Q, P) into an unknown v of a block of equations. The inverse maps then
 give w = W(Q, P) from v, and at the solution P = W^{-1}(Q, w). The equations of the block define a momentum M,
-and further maps compute P from M. The pass changes all other operations that read W, P, or an intermediate
-value of these maps: they now read values that are computed from v. A force thus no longer depends on an
-unknown momentum, and the pass :mod:`codegen.passes.tearing` removes the force from the unknowns. One
-equation remains for each v: the momentum computed from v equals M. :func:`residuals` adds this equation to
-the block. Statements after the block read the velocity from the unknown.
+and further maps compute P from M.
+
+All other operations that read W, P, or an intermediate value of these maps are changed. They now read values
+that are computed from v. A force thus no longer depends on an unknown momentum, and the pass
+:mod:`codegen.passes.tearing` removes the force from the unknowns. One equation remains for each v: the
+momentum computed from v equals M. :func:`residuals` adds this equation to the block. Statements after the
+block read the velocity from the unknown.
 """
 
 from __future__ import annotations
@@ -25,13 +27,13 @@ from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
 INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
-"""Operations that are invertible linear maps of their last argument. Those that are functions of ad_x are
-invertible if x is small."""
+"""Operations that are invertible linear maps of their last argument. Functions of ad_x are invertible if x is
+small."""
 
 
 @dataclass(frozen=True)
 class Path:
-    """The connection of an unknown with the momentum that determines it, by two chains of invertible maps.
+    """Two chains of invertible maps that connect an unknown with the momentum that determines the unknown.
 
     The assignment ``velocity`` computes the velocity W(Q, P) of a stage from its position Q and momentum P.
     The maps ``inward`` lead from another momentum, the base, to P. The maps ``outward`` lead from W(Q, P) to
@@ -50,8 +52,10 @@ class Path:
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program with momenta and forces computed from velocities; the same program if no inverse of
-    the map from momentum to velocity is known."""
+    """Return the program with momenta and forces computed from velocities.
+
+    If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
+    """
     # Without W^{-1} a momentum cannot be computed from a velocity.
     if scene.body is None or scene.body.inverse is None:
         return program
@@ -77,8 +81,10 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def residuals(program: Program, scene: Problem) -> Program:
-    """Return the program with residuals in each block in which every unknown has a path from a velocity
-    (:func:`path`); the same program if no inverse of the map from momentum to velocity is known."""
+    """Return the program with residuals in each block in which every unknown has a path (:func:`path`).
+
+    If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
+    """
     if scene.body is None or scene.body.inverse is None:
         return program
     build = Builder({v.name for v in defined(program)})
@@ -86,8 +92,8 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # Either all unknowns of a block have residuals, or none of them has: Newton's matrix must be
-            # square, so there must be as many residuals as unknowns.
+            # Either all unknowns of a block have residuals or none. Newton's matrix must be square, so there
+            # must be as many residuals as unknowns.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -104,16 +110,19 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The equations define a momentum, from which invertible maps compute P. The second search starts at P and
+    # Invertible maps compute P from a momentum that the equations define. The second search starts at P and
     # returns these maps.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the chain of invertible linear maps whose result is ``var``, in order of application, and the
-    assignment that computes the argument of the first map. Without maps it is the assignment of ``var``. It
-    is None for a value that no assignment in ``maker`` computes."""
+    """Return the chain of invertible linear maps whose result is ``var``, and the assignment before the
+    chain.
+
+    The maps are in order of application. The assignment computes the argument of the first map, or ``var`` if
+    there are no maps. It is None if no assignment in ``maker`` computes this value.
+    """
     maps: list[Assign] = []
     while True:
         source = maker.get(var)
@@ -138,15 +147,17 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
         # The reciprocal of a function of ad is a function of ad, too, and the group has a closed form for it.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
-    # The coefficient is not zero and can be inverted, because an earlier pass has removed all terms with
+    # The coefficient can be inverted. It is not zero, because an earlier pass has removed all terms with
     # coefficient zero.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append assignments that compute every value on a path, starting with the unknown of the path. Return a
-    dictionary from the old to the new variables of these values, and the new variable of the base."""
+    """Append assignments that compute every value on a path, starting with the unknown of the path.
+
+    Return a dictionary from the old to the new variables of these values, and the new variable of the base.
+    """
     replaced: dict[Var, Var] = {}
     value = route.unknown
     replaced[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
@@ -163,16 +174,19 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append and return the residual: a momentum from the equations of the block, minus the same momentum
-    computed from the velocity. This momentum is the base, or P, or a value between the two. It is chosen so
-    that the residual needs few operations.
+    """Append and return the residual of a path: the difference between two formulas for a momentum.
+
+    One formula follows from the equations of the block, the other from the velocity. The momentum is the
+    base,
+    or P, or a value between the two. It is chosen so that the residual needs few operations.
     """
     replaced, computed = _values(build, route)
-    # The two momenta may be compared at any place of the path: the maps of the path are invertible, so the
+    # The two momenta may be compared at any place of the path. The maps of the path are invertible, so the
     # residuals have the same zeros.
     given = route.base
-    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is such a sum. Computing P costs no
-    # more than computing the base, which is then not needed.
+    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is such a sum. P then costs no more
+    # than
+    # the base, and the base is not needed.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -181,8 +195,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if P is Ad*_{exp x} of a sum in which each term is a function of a multiple of ad*_x,
-    applied to a value."""
+    """Return True if P is Ad*_{exp x} of a sum, and each term is a function of a multiple of ad*_x."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
         return False
@@ -198,16 +211,18 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block with the values of a path computed from the unknown of the path. All statements
-    outside the path read these new values."""
+    """Return the block with the values of a path computed from the unknown of the path.
+
+    All statements outside the path read these new values.
+    """
     # Every value on the path is computed from the unknown; a later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The equation that remains reads the base, a sum of terms of other stages. The base is therefore computed
-    # from the equations in any case, and the other statements read this value, too.
+    # The remaining equation reads the base, a sum of terms of other stages. The base is therefore computed
+    # from the equations in any case, and the other statements read this value.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # Statements of the path itself are not changed: they are the equation that remains to be solved.
+    # Statements of the path itself are not changed. They form the equation that remains to be solved.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))

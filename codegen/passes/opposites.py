@@ -1,8 +1,7 @@
-"""Remove pairs of an adjoint operation and its inverse, and exponentials that act on multiples of their
-exponents.
+"""Remove pairs of an adjoint operation and its inverse, and exponentials without effect.
 
-The pass is exact. For example, Ad*_g Ad*_{g^-1} mu = mu, and Ad_{exp x} y = y if x and y are multiples of one
-value.
+The pass is exact. For example, Ad*_g Ad*_{g^-1} mu = mu. An exponential has no effect on multiples of its
+exponent: Ad_{exp x} y = y if x and y are multiples of one value.
 """
 
 from __future__ import annotations
@@ -23,11 +22,11 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if isinstance(operation, Adjoint):
         g, x = assign.args
         source, element = rewriter.definitions.get(x), rewriter.definitions.get(g)
-        # Two group elements are equal if they are the same variable, because value numbering has merged equal
-        # elements into one variable.
+        # Two group elements are equal if they are the same variable, because value numbering has already
+        # merged equal elements into one variable.
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
-        # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0. This is false on the
+        # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0. The same is false on the
         # dual: exp(x) leaves its exponent x fixed, but changes most momenta.
         own = element is not None and isinstance(element.operation, Exp) and not operation.dual
         if own and element is not None and _line(rewriter, element.args[0]) == _line(rewriter, x):

@@ -41,8 +41,11 @@ class PassReport:
 
     @property
     def removed(self) -> dict[str, int]:
-        """The number of removed operations, by operation; a negative number counts operations that the pass
-        added. Operations whose number did not change are omitted."""
+        """The number of removed operations, by operation.
+
+        A negative number counts operations that the pass added. Operations whose number did not change are
+        omitted.
+        """
         before, after = self.before, self.after
         # The names are sorted, so that reports do not depend on the order of the statements.
         change = {n: before.get(n, 0) - after.get(n, 0) for n in sorted({*before, *after})}
@@ -51,7 +54,7 @@ class PassReport:
     @property
     def savings(self) -> Counter[str]:
         """Return the number of operations that the pass removed, by the name of the operation in reports."""
-        # Counter subtraction drops negative differences: an operation that a pass adds is no saving.
+        # Counter subtraction drops negative differences. An operation that a pass adds is no saving.
         return _nouns(self.earlier) - _nouns(self.program)
 
 
@@ -76,6 +79,5 @@ def _counted(noun: str, n: int) -> str:
 
 
 def _nouns(program: Program) -> Counter[str]:
-    """Return the number of occurrences of each operation, by its name in reports; operations without cost are
-    omitted."""
+    """Return how often each operation occurs, by its name in reports. Operations without cost are omitted."""
     return Counter(a.operation.noun for a in program.assigns() if a.operation.noun)

@@ -1,5 +1,7 @@
-"""The traversal that several passes share: a rule is applied to each assignment of a program in order, and
-may keep, replace or remove the assignment."""
+"""The traversal that several passes share: a rule is applied to each assignment of a program, in order.
+
+The rule may keep, replace or remove the assignment.
+"""
 
 from __future__ import annotations
 
@@ -12,12 +14,11 @@ from codegen.ir.values import Var
 
 @dataclass
 class Rewriter:
-    """Applies a rule to every assignment; the rule may read earlier definitions and the number of uses of
-    each value.
+    """Applies a rule to every assignment of a program.
 
     ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. If the rule
     returns earlier variables, the assignment is removed. Otherwise it returns targets of assignments that it
-    has appended by ``emit``.
+    has appended by ``emit``. The rule may read earlier definitions and the number of uses of each value.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]
@@ -80,8 +81,7 @@ def rewrite(program: Program, rule: Callable[[Rewriter, Assign], tuple[Var, ...]
 
 
 def defined(program: Program) -> Iterable[Var]:
-    """Yield every variable that a program defines: its inputs, the unknowns of its blocks, and the targets of
-    its assignments."""
+    """Yield the inputs of a program, the unknowns of its blocks, and the targets of its assignments."""
     yield from program.inputs
     for statement in program.body:
         if isinstance(statement, Solve):
@@ -102,8 +102,7 @@ def uses(program: Program) -> dict[Var, int]:
         add(assign.args)
     for statement in program.body:
         if isinstance(statement, Solve):
-            # Starts, images and residuals of a block also count as readers, because their values must be
-            # kept.
+            # Starts, images and residuals of a block also count as uses, because their values must be kept.
             add(statement.starts)
             add(statement.images)
             add(statement.residuals)

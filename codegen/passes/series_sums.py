@@ -1,10 +1,11 @@
 """Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
 
-The pass is exact. The sum equals A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum
-f_k c_k v_k, for any number of terms. Without nesting, each term needs two brackets. For example, the momentum
-in equation (3.19) of Marthinsen's thesis is such a sum: functions of one ad_x are applied to the old momentum
-and to the force. A group with closed forms computes the sum by ``series_sum``. If the v_k are sums
-themselves, A, B and C are expanded into the terms of the v_k. Then A, B and C can be computed before the v_k.
+The pass is exact. Each function of ad_x is written as f_k (1 + b_k ad_x + c_k ad_x^2). The sum equals
+A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, for any number of
+terms. Without nesting, each term needs two brackets. For example, the momentum in equation (3.19) of
+Marthinsen's thesis is such a sum: functions of one ad_x are applied to the old momentum and to the force.
+A group with closed forms computes the sum by ``series_sum``. If the v_k are sums themselves, A, B and C are
+expanded into the terms of the v_k. Then A, B and C can be computed before the v_k.
 """
 
 from __future__ import annotations
@@ -73,18 +74,20 @@ class SeriesSums:
         return result
 
     def _groups(self, assign: Assign) -> list[list[Term]]:
-        """Return the groups of terms for nested sums, each with at least two terms. The terms of a group are
-        functions of ad_y for multiples y of one value x."""
+        """Return the groups of terms for nested sums, each with at least two terms.
+
+        The terms of a group are functions of ad_y, where the exponents y are multiples of one value x.
+        """
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # A function of ad with a second reader must be computed in any case, so nesting it in this sum
-            # saves nothing.
+            # If another operation also reads the function of ad, the function must be computed in any case.
+            # Nesting it in this sum then saves nothing.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
             for group in groups:
-                # If x = s y, then ad_x = s ad_y: the factors of the word are scaled by s.
+                # If x = s y, then ad_x = s ad_y, and the factors of the function are scaled by s.
                 if ratio(self.definitions, term.x, group[0].x) is not None:
                     group.append(term)
                     break
@@ -97,8 +100,8 @@ class SeriesSums:
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of one sum; all functions are written as functions of ad_x, where x belongs to the
-        last term."""
+        """Return the value of one sum. All functions are written as functions of ad_x, with x of the last
+        term."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:
@@ -114,11 +117,11 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return a sum with its terms expanded, unless the expanded sum is longer."""
+        """Return a sum with its terms expanded; return ``terms`` if the expanded sum is longer."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # A sum among the terms is replaced by its own terms. The result then need not wait for this sum,
-            # so the chain of dependent operations is shorter.
+            # A sum among the terms is replaced by its own terms. The result then need not wait for this sum.
+            # This shortens the critical path.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -132,10 +135,10 @@ class SeriesSums:
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return the value of a coefficient. For a negative rational number it is minus the value of a positive
-    number, so that products with the coefficient and with its negative are shared."""
+    """Return the value of a coefficient; a negative rational number is minus the value of a positive
+    number."""
     # A negative number is written as minus a positive number, so c x and (-c) x share one product. The minus
-    # sign only changes an addition into a subtraction, which costs nothing.
+    # sign only changes an addition into a subtraction and costs nothing.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)

@@ -1,6 +1,6 @@
 """Compute a sum as the negative of an earlier sum, if possible. A change of sign costs nothing.
 
-The pass is exact. Commutator-free and Crouch-Grossman methods use both exp(x) and dexp*_{-x}; with this pass
+The pass is exact. Commutator-free and Crouch-Grossman methods use both exp(x) and dexp*_{-x}. With this pass
 the sum x is computed once. The pass is the last of all, because other passes would multiply the factor -1
 into the coefficients of a sum.
 """
@@ -16,8 +16,10 @@ Terms = frozenset[tuple[Coefficient, Var]]
 
 
 def run(program: Program) -> Program:
-    """Return the program in which the negative of an earlier sum is computed from that sum; both sums are in
-    the same block, or outside all blocks."""
+    """Return the program in which the negative of an earlier sum is computed from that sum.
+
+    Both sums must be in the same block, or outside all blocks.
+    """
     outside: dict[Terms, Var] = {}
     body = [
         # Each block begins with an empty table, because a sum in one block must not refer to a sum in another

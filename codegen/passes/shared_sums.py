@@ -1,5 +1,5 @@
-"""Linear maps of shared sums: if several sums contain L(x1), L(x2), ... in fixed proportions, L is applied
-once.
+"""Linear maps of shared sums: L is applied once if several sums contain L(x1), L(x2), ... in fixed
+proportions.
 
 The pass is exact. Suppose that several sums contain multiples of sum_k a_k L(x_k) with fixed a_k. This
 combination is formed once, and L is applied once: sum_k c a_k L(x_k) = c L(sum_k a_k x_k). This pass is for
@@ -16,27 +16,25 @@ from codegen.passes import dead
 from codegen.passes.rewrite import Rewriter, rewrite
 
 Key = tuple[Operation, tuple[Var, ...]]
-"""A linear map: the operation and all its arguments except the last."""
+"""A linear map, given by an operation and all its arguments except the last."""
 
 Share = tuple[tuple[Var, Coefficient], ...]
-"""A linear combination of values of one map. It is scaled so that, among the terms with the lowest power of
-h, the first has coefficient one."""
+"""A linear combination of values of one map. It is scaled so that a certain coefficient is one: that of the
+first term among the terms with the lowest power of h."""
 
 
 def run(program: Program) -> Program:
-    """Return the program in which a linear map is applied only once to a combination of values that several
-    sums contain."""
+    """Return the program in which a linear map is applied once to a combination that several sums contain."""
     while True:
-        # The search is repeated, because values formed in one round may be terms of a combination in the next
-        # round.
+        # The search is repeated, because a value formed in one round may be a term of a combination in the
+        # next round.
         wanted = _worthwhile(program)
         if not wanted:
             return program
         values: dict[Share, Var] = {}
 
         def rule(
-            # Default arguments are bound now, in this round. A closure would read the variables of a later
-            # round.
+            # Default arguments are bound in this round. A closure would read the variables of a later round.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -73,11 +71,11 @@ def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations of two or more values that are to be factored.
 
     The combinations of a linear map are factored only if there are fewer different combinations than values
-    in them: otherwise factoring would not reduce how often the map is applied.
+    in them. Otherwise factoring would not reduce how often the map is applied.
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
-        # Only blocks are searched: a map in a block is evaluated in every sweep, but a map outside blocks is
+        # Only blocks are searched. A map in a block is evaluated in every sweep, but a map outside blocks is
         # evaluated only once in a step.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
@@ -88,16 +86,18 @@ def _worthwhile(program: Program) -> set[Share]:
                 shares.setdefault((first.operation, first.args[:-1]), {})[share] = None
         for combinations in shares.values():
             values = {v for share in combinations for v, _ in share}
-            # L is then applied once for each combination and not once for each value. This saves work if
-            # there are fewer combinations than values.
+            # L is then applied once for each combination and not once for each value. Fewer combinations than
+            # values mean less work.
             if len(combinations) < len(values):
                 worthwhile |= {share for share in combinations if len(share) > 1}
     return worthwhile
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return a dictionary from combinations to factors, with one entry for each linear map in a sum. The
-    factor times the combination is the part of the sum that consists of values of this map."""
+    """Return, for each linear map in a sum, the combination of its values and a factor.
+
+    The factor times the combination is the part of the sum that consists of values of this map.
+    """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
         source = definitions.get(arg)

@@ -1,9 +1,9 @@
-"""Tearing: if an unknown can be computed directly from the other unknowns, it is computed from them, and its
-equation is removed.
+"""Tearing: unknowns that can be computed directly from the other unknowns are removed with their equations.
 
 The pass is exact. An unknown is replaced by its image (the right-hand side of its fixed-point equation) if
-the body then has no cycle. The solutions do not change, because the equation still holds at the solution, and
-the block has fewer unknowns. Momenta and forces are replaced first, so that velocities remain unknowns.
+the body then has no cycle. The solutions do not change, because the removed equation still holds at the
+solution. The block has fewer unknowns. Momenta and forces are replaced first, so that velocities remain
+unknowns.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program in which unknowns have been replaced by their images, one by one, until no
-    replacement is possible."""
+    """Return the program with unknowns replaced by their images, one by one, until no replacement is
+    possible."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 
@@ -32,8 +32,8 @@ def run(program: Program) -> Program:
         # Momenta and forces are tried first. The remaining unknowns are then velocities, whose extrapolation
         # from earlier steps is the most accurate.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
-            # The search is greedy and has a fixed order. It does not look for the smallest set of unknowns, a
-            # minimum feedback vertex set, because this problem is NP-hard.
+            # The search is greedy and has a fixed order. The smallest set of unknowns would be a minimum
+            # feedback vertex set, and finding it is NP-hard.
             smaller = _without(block, unknown)
             if smaller is not None:
                 names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]
@@ -55,25 +55,27 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         return tuple(image if v == unknown else v for v in variables)
 
     body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
-    # A cycle means that the image depends on the unknown within one sweep: the unknown must be solved for.
+    # A cycle means that the image depends on the unknown within one sweep. The unknown must then be solved
+    # for.
     if body is None:
         return None
     kept = [
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # If the image of another unknown is the removed unknown, that image is replaced by the image of the
-    # removed unknown.
+    # The image of another unknown may be the removed unknown. The image of the removed unknown replaces it.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 
 def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
-    """Return the assignments sorted so that each definition precedes its uses; apart from this they keep
-    their order. The result is None if there is a cycle."""
+    """Return the assignments sorted so that each definition precedes its uses; None if there is a cycle.
+
+    Apart from this condition, the assignments stay in their order.
+    """
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # An assignment has the state False while its arguments are visited. If it is reached again in this state,
-    # there is a cycle.
+    # ``state`` is False for an assignment whose arguments are being visited. If the search reaches such an
+    # assignment again, there is a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:

@@ -1,8 +1,9 @@
-"""Value numbering: if an operation is applied to the same values several times, it is computed once, for
-example an exponential that several stages use.
+"""Value numbering: if an operation is applied to the same values several times, it is computed once.
 
-The pass is exact. Products of exponentials with a common prefix share this prefix. The terms of a sum are
-sorted by the first appearance of their values, so that equal sums are recognised.
+An example is an exponential that several stages use. The pass is exact. Products of exponentials with a
+common prefix share this prefix. The terms of a sum are sorted by the first appearance of their values, so
+that
+equal sums are recognised.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Prints functions of the run representation as C: types, declarations, statements.
 
-A scalar that is assigned once is ``const``, and so is an array parameter that the function does not change.
-Arrays are copied by ``memcpy``, and records are cleared by ``memset``.
+A scalar that is assigned once is ``const``. An array parameter that the function does not change is also
+``const``. Arrays are copied by ``memcpy``, and records are cleared by ``memset``.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ class FunctionPrinter:
     ) -> None:
         self.unit, self.identifiers, self.precision, self.prefix = unit, identifiers, precision, prefix
         self.real = precision.c_type
-        # The changed parameters are found once for each function, because the search follows calls through
-        # the whole unit.
+        # The parameters that functions change are found once, because the search follows calls through the
+        # whole unit.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
         self.batch = BATCH in unit.parts or any(f.near for f in unit.functions)
 
@@ -66,10 +66,10 @@ class FunctionPrinter:
         return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def forms(self, name: str, near: bool = False) -> str:
-        """Return the name of the variant to call for the function ``name``; ``near`` is true if the caller
-        has no branches."""
+        """Return the variant of the function ``name`` to call; ``near`` is True if the caller has no
+        branches."""
         # In a module with loops over lanes or sites, the loops evaluate sines and cosines by polynomials.
-        # Scalar functions use the same polynomials where these are valid, so that loops and scalar functions
+        # Scalar functions use the same polynomials where these are valid. Then loops and scalar functions
         # have the same roundings.
         if not self.batch:
             return name
@@ -77,8 +77,8 @@ class FunctionPrinter:
 
     def type_of(self, kind: Kind) -> str:
         """Return the C type of scalars of a kind."""
-        # Counts have the type size_t, so that indices and sizes need no conversions, about which -Wconversion
-        # warns.
+        # Counts have the type size_t, so that indices and sizes need no conversions. -Wconversion would warn
+        # about conversions.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
 
     def record_type(self, name: str) -> str:
@@ -86,11 +86,12 @@ class FunctionPrinter:
         return f"{'' if self.unit.record(name).public else 'struct '}{self.prefix}{name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
-        """Return the declaration of a parameter. In a ``header`` array sizes have no ``static``, which C++
-        does not allow.
+        """Return the declaration of a parameter.
+
+        In a ``header``, array sizes have no ``static``, which C++ does not allow.
         """
         name = self.identifiers[function.name].of(parameter)
-        # ``const`` shows callers which arrays a function does not change, and the compiler checks it.
+        # ``const`` shows callers which arrays a function does not change. The compiler checks it.
         const = "" if parameter.text in self.writes[function.name] else "const "
         if parameter.kind is Kind.SIGNAL:
             return f"{self.prefix}input input, void *context"
@@ -117,8 +118,9 @@ class FunctionPrinter:
 
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of a function's head, or of its prototype in a ``header``."""
-        # Private functions are static, so that the compiler may inline them. Their names have the prefix as
-        # well, because two modules may be included in one file, where equal names would conflict.
+        # Private functions are static, so that the compiler may inline them. Their names also have the
+        # prefix.
+        # Otherwise names of two modules could conflict if one file includes both modules.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         listed = [self.parameter(function, p, header) for p in function.parameters]
@@ -178,7 +180,7 @@ class _Body:
         self.printer, self.function = printer, function
         self.identifiers = printer.identifiers[function.name]
         self.declared = declarations(function, self.identifiers)
-        # Records among the parameters are pointers, so their fields are accessed by ``->``; fields of local
+        # Records among the parameters are pointers, so their fields are accessed by ``->``. Fields of local
         # records are accessed by a dot.
         pointers = {p.text for p in function.parameters if p.kind is Kind.RECORD}
         tables = [table.name.text for table in printer.unit.tables]
@@ -192,8 +194,8 @@ class _Body:
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         callbacks = (Kind.SIGNAL, Kind.EVENTS)
         parameters = [p for p in self.function.parameters if p.kind not in callbacks]
-        # The interface determines the parameters, and the kernel possibly does not read all of them. An
-        # unused parameter is cast to void, because compilers would otherwise warn about it.
+        # The interface determines the parameters, and the kernel need not read all of them. An unused
+        # parameter is cast to void to avoid a compiler warning.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
@@ -247,8 +249,9 @@ class _Body:
                 yield from self.loop(statement)
             case For(index, count, body, reverse):
                 yield from self.hints(statement)
-                # size_t is unsigned: a reversed loop decrements in its test, because `i >= 0` is
-                # always true.
+                # size_t is unsigned, so the test `i >= 0` is always true. A reversed loop therefore
+                # decrements
+                # in its test.
                 i, n = self.identifiers.of(index), self.terms.line(count)
                 yield (
                     f"for (size_t {i} = {n}; {i}-- > 0;) {{"
@@ -259,7 +262,7 @@ class _Body:
                 yield "}"
 
     def hints(self, loop: For) -> Iterator[str]:
-        """Yield the lines before a loop that permit a compiler to reorder the passes through the loop."""
+        """Yield the lines before a loop that let a compiler reorder the iterations of the loop."""
         if loop.independent:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
         if loop.parallel:
@@ -279,9 +282,9 @@ class _Body:
         return [f"    {line}" for line in self.block(body)]
 
     def branch(self, statement: If) -> Iterator[str]:
-        """Yield the lines of a branch; an else part that consists of one branch is printed as ``else if``."""
+        """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # A test whether numbers are finite may be negated; the comment below is printed in both cases.
+        # A test for finite numbers may be negated. The comment below is printed in both cases.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
@@ -313,12 +316,14 @@ class _Body:
         yield "}"
 
     def kind(self, statement: Statement, target: Term) -> str:
-        """Return the type of the target if the statement declares the target, otherwise an empty text. The
-        type is ``const`` for a variable that is assigned once."""
+        """Return the type of the target if the statement declares the target, otherwise an empty text.
+
+        The type is ``const`` for a variable that is assigned once.
+        """
         name = self.identifiers.of(target) if target.op == "name" else ""
-        # Variables that are assigned once are ``const``, so that readers and the compiler know that the value
-        # does not change. Statements are identified by id, because equal statements at different places
-        # declare different variables.
+        # Variables that are assigned once are ``const``. The compiler then checks that their values do not
+        # change. Statements are identified by id, because equal statements at different places declare
+        # different variables.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -336,14 +341,13 @@ class _Body:
             yield f"memset({record});"
             return
         if target.shape:
-            # C does not assign arrays. Compilers replace a memcpy of constant size by plain moves;
-            # source and target are different arrays and never overlap.
+            # C does not assign arrays. Compilers replace a memcpy of constant size by plain moves. Source and
+            # target are different arrays and never overlap.
             copied = (self.terms.line(target), self.terms.line(value), self.extent(target, value))
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # x += y is printed only for x = x + y and not for x = y + x, so that the order of the operands is
-        # kept.
+        # x += y is printed only for x = x + y and not for x = y + x. This keeps the order of the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed and not kind:
             more = self.terms.text(value.args[1])
@@ -373,7 +377,7 @@ class _Body:
         name = statement.name
         identifier = self.identifiers.of(name)
         size = "".join(f"[{n}]" for n in name.shape)
-        # Records always begin with zeros: a count or age of zero means that nothing is stored yet.
+        # Records begin with zeros. A count or age of zero means that nothing is stored yet.
         if name.kind is Kind.RECORD:
             yield f"{self.printer.record_type(name.record)} {identifier}{size} = {{0}};"
             return
@@ -414,7 +418,7 @@ class _Body:
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
             return
         if len(results) > 1:
-            # A C function returns one value; further results are written through pointers.
+            # A C function returns one value. Several results are written through pointers.
             names = [self.identifiers.of(r) for r in results]
             given += [f"&{n}" for n in names]
             results = ()

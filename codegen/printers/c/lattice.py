@@ -8,11 +8,12 @@ from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 
 SIDES = {1: 1000, 2: 64, 3: 16}
-"""The number of sites in each dimension in the example, by the dimension of the lattice."""
+"""The number of sites along each axis in the usage example, by the dimension of the lattice."""
 
 
 def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of a program that runs the lattice, with the same state at all sites."""
+    """Return the lines of a usage example: a program that runs the lattice from the same state at all
+    sites."""
     real, prefix, n = interface.format, interface.prefix, interface.dimension
     wide = "" if real is DOUBLE else "(double)"
 

@@ -109,8 +109,8 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         ],
         "result": _terms(write, step.result),
         "time": interface.time,
-        # Four spectra are the old and the new state, the point at which the nonlinear part N is evaluated,
-        # and a scratch spectrum. The others are the values of N.
+        # Four spectra are the old and the new state, the argument of the nonlinear part N, and a scratch
+        # spectrum. All other spectra are values of N.
         "spectra": 4 + len(step.evaluations),
         "arrays": len(inner) + len(outer),
     }
@@ -123,8 +123,12 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return the names of the formulas that contain their variable. For the symbol of the linear part it is
-    the wave number; for the initial state and the nonlinear part it is the space coordinate."""
+    """Return the names of the formulas in which the variable occurs.
+
+    For the symbol of the linear part, the variable is the wave number. For the initial state and the
+    nonlinear
+    part, it is the space coordinate.
+    """
     kernels = {
         "symbol": (step.symbol, step.wave),
         "initial": (step.initial, step.space),

@@ -33,36 +33,36 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import LIBRARY, needed, snippets
 from codegen.templates import environment
 
-# -ffp-contract=off forbids fused multiply-adds. A fused multiply-add rounds once, but a product and a sum
-# round twice. With both permitted, results would depend on the machine.
+# -ffp-contract=off forbids fused multiply-adds. A fused multiply-add rounds once, but a product followed by a
+# sum rounds twice. If compilers could choose, results would depend on the machine.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
 # gcc assumes by default that a program observes floating-point exceptions. On processors without masked
 # instructions (x86-64 without AVX-512), gcc 12 then leaves all loops with a selection scalar.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
-"""Further flags for modules with a batch and for modules of lattices. The results depend on none of these
-flags."""
+"""Further flags for modules with a batch and for modules of lattices. These flags do not change results."""
 
 FRAMES = 640
 """The number of bytes that the bound on the stack of a call reserves for return addresses, saved registers
 and the frames of helpers."""
 
 EACH, EACH_SOLVING = 8, 10
-"""The bytes that the bound on the stack of a call reserves for each floating-point number that a step stores:
-first for steps without equations, then for steps with equations.
+"""The bytes that the bound on the stack of a call reserves for each floating-point number of a step.
 
-A double has 8 bytes and a float has 4. The bound is the same for both precisions, because an optimiser also
-stores pairs of floats in vector registers of 16 bytes, that is 8 bytes for each float. If a step solves
-equations, an optimiser moves common subexpressions out of the loop, and these values need more space. The
-largest measured values with equations were 8.8 bytes in double precision and 8.0 bytes in single precision.
+The first value is for steps without equations, the second for steps with equations. A double has 8 bytes and
+a float has 4. The bound is the same for both precisions, because an optimiser also stores pairs of floats in
+vector registers of 16 bytes, that is 8 bytes for each float. If a step solves equations, an optimiser moves
+common subexpressions out of the loop. These values need more space. The largest measured values with
+equations
+were 8.8 bytes in double precision and 8.0 bytes in single precision.
 """
 
 LARGEST_STACK = 6 * 2**20
 """The largest permitted bound on the stack of a call. Most systems limit the stack to 8 MiB."""
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
-"""The compilers for which tests compare the bound with the stack that calls use."""
+"""The compilers for which tests compare the bound with the stack that calls really use."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -92,7 +92,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     # characters.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
-        # Titles and names come from users: an end of a comment in them must not end the header.
+        # Titles and names come from users. If they contain the end of a comment, it must not end the header.
         "recipe": [comment(line) for line in comments],
         "usage": example(interface, recipe),
         "module": interface.module,
@@ -143,7 +143,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
-        # C has no closures: constant inputs are passed to a step as a function with a context pointer.
+        # C has no closures. Constant inputs are passed to a step as a function with a context pointer.
         if function.name == "step" and n:
             definitions.append(
                 [
@@ -160,8 +160,10 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
 
 
 def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
-    """Return the C definitions of those ``functions`` that are not in the mathematical library, and of the
-    functions that these definitions call."""
+    """Return the C definitions of ``functions`` and of the functions that they call.
+
+    Functions of the mathematical library are omitted.
+    """
     return needed("c", [name for name in functions if name not in LIBRARY]).texts
 
 
@@ -181,8 +183,7 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the functions that a unit with loops over lanes or sites calls, each in the variant that the
-    caller uses."""
+    """Return the functions that a unit with loops over lanes or sites calls, in the variants that it uses."""
     names: set[str] = set()
     for function in unit.functions:
         form = near if function.near else complete
@@ -201,8 +202,10 @@ def inverted_sizes(kernel: Kernel) -> set[int]:
 
 
 def inverted(kernel: Kernel) -> int:
-    """Return the size of the inverted matrices; 0 if there are none, if they have several sizes, or if they
-    are large."""
+    """Return the size of the matrices that a step inverts.
+
+    The size is 0 if there are no such matrices, if they have several sizes, or if they are large.
+    """
     sizes = inverted_sizes(kernel)
     # If all matrices have one small size, ``invert`` is written for this size, with unrolled rows.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
@@ -211,15 +214,16 @@ def inverted(kernel: Kernel) -> int:
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
 
-    At -O0 a call uses about as much stack as the bound without the margin, because each name has its own
-    slot. Tests compare the bound with the numbers that ``-fstack-usage`` prints. They also fill a stack with
-    a known value, and compare the bound with the number of bytes that a call then changes.
+    At -O0 a call uses about as much stack as the bound without the margin, because each variable has its own
+    place on the stack. Tests compare the bound with the numbers that ``-fstack-usage`` prints. Tests also
+    fill
+    a stack with a known value, run a call, and compare the bound with the number of bytes that have changed.
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # The function ``invert`` has local variables (scalars, a row, a permutation), so the bound of a step that
-    # inverts a matrix is larger by FRAMES / 2. If the kernel is inlined in the run, there is one call and one
-    # stack frame less, so the bound is smaller by FRAMES / 2.
+    # inverts a matrix is larger by FRAMES / 2. If the kernel is inlined in the run, there is one stack frame
+    # less, so the bound is smaller by FRAMES / 2.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
@@ -257,8 +261,9 @@ def prototypes(interface: Interface) -> str:
     prefix, blocks = interface.prefix, len(interface.blocks)
     real = interface.format.c_type
     time = f"{real} t, " if interface.time else ""
-    # Parameters are called p0, p1, ..., because names have no effect in a prototype, and names of a scene
-    # might be keywords of C.
+    # Parameters are called p0, p1, ..., because names of a scene might be keywords of C. The names of
+    # parameters
+    # have no effect in a prototype.
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
     matrices = "size_t matrices; " if interface.newton else ""
@@ -294,8 +299,10 @@ def prototypes(interface: Interface) -> str:
 
 
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
-    """Return the declaration of the run to a given end time; '' if the module has no such run. ``passed`` is
-    the declaration of parameters and inputs."""
+    """Return the declaration of the run to a given end time; '' if the module has no such run.
+
+    ``passed`` is the declaration of parameters and inputs.
+    """
     if not interface.integrated:
         return ""
     prefix, real = interface.prefix, interface.format.c_type
@@ -317,7 +324,7 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
 
 
 def example_input(interface: Interface) -> list[str]:
-    """Return a function of time for the example, with inputs that are constant in time."""
+    """Return the lines of an input function for the example. Its inputs are constant in time."""
     real, several = interface.format, len(interface.inputs)
     return [
         f"static void constant({real.c_type} t, {real.c_type} inputs[{several}], void *context)",
@@ -338,7 +345,7 @@ def example(interface: Interface, recipe: Recipe) -> list[str]:
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
     """Return the lines of a program that runs the step from the scene's initial state."""
     real = interface.format
-    # printf converts float to double silently, about which -Wdouble-promotion warns.
+    # printf converts float to double implicitly. -Wdouble-promotion would warn about this conversion.
     wide = "" if real is DOUBLE else "(double)"
 
     def number(x: float) -> str:
