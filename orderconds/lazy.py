@@ -1,5 +1,5 @@
-"""Packages with fast import: each module of such a package is imported when a name that the module defines is
-first used (PEP 562)."""
+"""Packages with fast import. A module of the package is imported when a name that the module defines is first
+used (PEP 562)."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ class _LazyPackage(ModuleType):
 
 
 def lazy(package: str, **names: tuple[str, ...]) -> None:
-    """Change an imported package: from now on, a module of the package is imported when one of the names of
-    the module is first used. A call of ``dir`` imports no module.
+    """Make the modules of a package lazy: import a module when one of the names of the module is first used.
+    A call of ``dir`` imports no module.
 
     ``names`` maps each module of the package to names that the module defines. If the package contains an
     object and a module of the same name, the attribute with this name is the object.

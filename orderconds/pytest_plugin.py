@@ -1,13 +1,13 @@
 """A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each file a test of its claims.
 
-The plugin does nothing unless one of its flags is given. The following flags correspond to options of
+The plugin is active only if one of its flags is given. The following flags correspond to options of
 ``orderconds check``: ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
 ``--orderconds-execute`` and ``--orderconds-tolerance``. Files of every supported format are examined. A
 tableau that claims no order is skipped, and its computed order is reported. With
 ``--orderconds-require-claims`` such a tableau fails. A file that contains no tableau, such as
 ``pyproject.toml``, is skipped. The names of skipped files and the reasons are printed at the end. A file
-whose own path is on the command line is not skipped, unless the file is a Python module. Python modules are
-parsed and not imported.
+whose own path is on the command line is not skipped, except if the file is a Python module. Python modules
+are parsed and not imported.
 """
 
 from __future__ import annotations
@@ -85,8 +85,8 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
 
 
 def _asked(path: Path, config: pytest.Config) -> bool:
-    """Return True if the command line of pytest contains the path of this file or of a folder that contains
-    the file. The test is necessary because pytest also visits other files."""
+    """Return True if the command line of pytest names this file or a folder that contains the file. This
+    function is necessary because pytest also visits other files."""
     places = (config.invocation_params.dir / argument.partition("::")[0] for argument in config.args)
     return any(path.is_relative_to(place) or path.is_relative_to(place.resolve()) for place in places)
 

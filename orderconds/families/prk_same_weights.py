@@ -1,5 +1,5 @@
-"""Partitioned Runge-Kutta methods with b = bhat. The condition of a tree does not depend on the colour of the
-root (HLW III.2.2)."""
+"""Partitioned Runge-Kutta methods with equal weights, b = bhat. The condition of a tree does not depend on
+the colour of the root (HLW III.2.2)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ from orderconds.trees.directed import DirectedTree
 
 @register
 class SameWeightsFamily(PartitionedFamily):
-    """Partitioned Runge-Kutta methods with b = bhat.
+    """Partitioned Runge-Kutta methods with equal weights, b = bhat.
+
+    The example counts the conditions of orders 1 to 5.
 
     >>> [len(SameWeightsFamily().conditions(n)) for n in range(1, 6)]
     [1, 2, 7, 26, 107]
@@ -41,7 +43,7 @@ class SameWeightsFamily(PartitionedFamily):
         return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[DirectedTree, Callable[[], OrderCondition]]]:
-        """Yield the trees of this order, each with a function that returns its condition."""
+        """Yield the trees of this order, each with a function that returns the condition of the tree."""
         for tree in directed.directed_rooted_trees_in_turn(order):
             yield tree, partial(weight_condition, self.name, tree, directed.text)
 

@@ -1,5 +1,4 @@
-"""Reductions: theorems that reduce the number of conditions that a check evaluates at one order, sometimes to
-zero.
+"""Reductions: theorems that reduce the number of conditions to evaluate at one order, sometimes to zero.
 
 ``check`` evaluates orders 1, 2, .... When it evaluates order n, all conditions of lower order hold. Then
 
@@ -7,12 +6,13 @@ zero.
 - *substitution*: the conditions of another family may imply all conditions of order n and cost less. For a
   symplectic pair with b = bhat, the conditions of free trees with directed edges imply the conditions of all
   rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
-- *truncation of dexpinv*: the truncation changes the value of a tree only if a long word of trees contributes
-  to this value (:mod:`orderconds.families.dexpinv_cut`).
+- *truncation of dexpinv*: some methods truncate the series of dexpinv, the inverse of the differential of
+  exp. The truncation changes the value of a tree only if a long word of trees contributes to this value
+  (:mod:`orderconds.families.dexpinv_cut`).
 
-The assumptions of a reduction are verified exactly for each tableau. If the coefficients are balls, only the
-last reduction is used, and only if the balls are proved to contain a solution. A reduction never makes the
-certificate of an order, such as ``ball``, stronger.
+The assumptions of a reduction are verified exactly for each tableau. If the coefficients are balls
+(intervals), only the truncation of dexpinv is used, and only if the balls are proved to contain a solution. A
+reduction never makes the certificate of an order, such as ``ball``, stronger.
 """
 
 from __future__ import annotations
@@ -30,8 +30,7 @@ if TYPE_CHECKING:
 
 
 class Substitute(Struct, frozen=True):
-    """A family whose conditions imply the conditions that a check requires, and the method in a format of
-    this family."""
+    """A family whose conditions imply the required conditions, and the method in a format of this family."""
 
     family: Family
     method: Method
@@ -40,8 +39,8 @@ class Substitute(Struct, frozen=True):
 class UnseenCut(Struct, frozen=True):
     """The conditions that the truncation of dexpinv does not change.
 
-    ``order`` is the order of the method without truncation. The truncation does not change the values on
-    words of length at most ``longest``. The function ``length`` returns the length of the longest word that
+    ``order`` is the order of the method without truncation. The truncation does not change the contributions
+    of words of at most ``longest`` trees. The function ``length`` returns the length of the longest word that
     contributes to the value of a tree or forest.
     """
 
@@ -70,10 +69,8 @@ class Reductions(Struct, frozen=True):
         return self.even and n % 2 == 0
 
     def rest_follows(self, n: int) -> bool:
-        """Return True if the method satisfies the conditions of order n of the family in ``substitute``.
-
-        The function evaluates these conditions. They imply all conditions of order n that the check requires.
-        """
+        """Return True if the family in ``substitute`` implies all required conditions of order n. The
+        function evaluates the conditions of this family."""
         if self.substitute is None:
             return False
         family, method = self.substitute.family, self.substitute.method

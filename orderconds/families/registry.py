@@ -1,5 +1,5 @@
-"""The registry of families. There are three kinds of families: families that are built in, families that a
-program registers, and families of installed packages, which are found by their entry points."""
+"""The registry of families. A family is built in, or a program registers it, or an installed package provides
+it by an entry point."""
 
 from __future__ import annotations
 
@@ -39,7 +39,8 @@ BUILT_IN = {
     "cayley": "orderconds.families.cayley",
     "taylor": "orderconds.families.taylor",
 }
-"""A map from the name of each built-in family to its module, in the order of ``orderconds list families``."""
+"""A map from the name of each built-in family to the module of the family. ``orderconds list families`` uses
+the same order."""
 
 ENTRY_POINT_GROUP = "orderconds.families"
 """The entry-point group in which other packages register families. An entry has the form name =
@@ -53,12 +54,15 @@ FamilyClass = TypeVar("FamilyClass", bound=type[Family])
 
 
 def register(family: FamilyClass) -> FamilyClass:
-    """Make a family available to every command and to claims in tableau files; return the class.
+    """Add a family to the registry and return its class. Commands and tableau files can then name the family.
+    The function may be used as a decorator.
 
-    The function may be used as a decorator. An installed package uses the entry-point group
-    ``orderconds.families`` instead. Raises :class:`~orderconds.errors.InputError` for a class without name,
-    description or formats, for a name with other characters than lower-case letters, digits and ``_``, and if
-    another family already has the same name.
+    An installed package uses the entry-point group ``orderconds.families`` instead. Raises
+    :class:`~orderconds.errors.InputError` if the class has no name, description or formats. The same error is
+    raised if another family has the same name, or if the name contains characters other than lower-case
+    letters, digits and ``_``.
+
+    The example registers a family with one condition for each order, the condition of the bushy tree.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily
@@ -122,8 +126,8 @@ def names() -> tuple[str, ...]:
 
 
 def with_conditions() -> tuple[str, ...]:
-    """Return the names of the families that have order conditions. These are the families in :func:`names`
-    whose methods are given by tableaux.
+    """Return the names of the families that have order conditions. The methods of these families are given by
+    tableaux.
 
     >>> "rk" in with_conditions(), "taylor" in with_conditions()
     (True, False)
@@ -163,8 +167,8 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        # The import of the module registers the family, unless the module contains a mistake. In this case
-        # the message below is clearer than "unknown family".
+        # The import of the module registers the family. If the module contains a mistake, the message below
+        # is clearer than "unknown family".
         import_module(BUILT_IN[name])
         assert name in _registered, (
             f"{BUILT_IN[name]} has no class with this name and the decorator @register"
@@ -184,8 +188,8 @@ def family_class(name: str) -> type[Family]:
 
 
 def _installed(name: str) -> type[Family] | None:
-    """Register the family ``name`` of an installed package and return its class, or None if no package has
-    this family."""
+    """Register the family ``name`` of an installed package and return its class. Return None if no package
+    has this family."""
     from importlib import metadata
 
     for entry in metadata.entry_points(group=ENTRY_POINT_GROUP, name=name):
@@ -205,8 +209,8 @@ def _installed(name: str) -> type[Family] | None:
 
 
 def get(name: str, **options: int | None) -> Family:
-    """Return a family by name and options: ``get("rkmk", cutoff=1)`` or ``get("rkmk(1)")``. In names ``-`` is
-    equivalent to ``_``.
+    """Return a family by name and options: ``get("rkmk", cutoff=1)`` or ``get("rkmk(1)")``. A name may
+    contain ``-`` instead of ``_``.
 
     Raises :class:`~orderconds.errors.UnknownName` if the name is not registered, and
     :class:`~orderconds.errors.InputError` if the family has no such option.

@@ -1,11 +1,11 @@
-"""Relations of dependent conditions: each left-hand side is a polynomial in left-hand sides of independent
+"""Relations that express the left-hand sides of dependent conditions as polynomials in those of independent
 conditions.
 
-Two laws make conditions dependent. First, let phi(t) be the weight of a tree t, and let u o v be the tree u
-with v as an additional branch of the root. For a symplectic method, phi(u o v) = phi(u) phi(v) - phi(v o u).
-The trees u o v and v o u differ only in the position of the root (HLW VI.7.1). Second, the values a(w)
-of a group-like series on words w satisfy the shuffle relations a(u) a(v) = a(u sh v), where u sh v is the
-shuffle product. Therefore the values on Lyndon words determine all other values (Reutenauer, Free Lie
+Two laws make conditions dependent. First, let phi(t) be the elementary weight of a tree t, and let u o v be
+the tree u with v as an additional branch of the root. For a symplectic method, phi(u o v) = phi(u) phi(v) -
+phi(v o u). The trees u o v and v o u differ only in the position of the root (HLW VI.7.1). Second, the values
+a(w) of a group-like series on words w satisfy the shuffle relations a(u) a(v) = a(u sh v), where u sh v is
+the shuffle product. Therefore the values on Lyndon words determine all other values (Reutenauer, Free Lie
 Algebras, Thm 6.1).
 """
 
@@ -29,12 +29,13 @@ the keys of its factors."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
 """A function that yields three trees for each edge at the root of a given tree. The edge divides the given
-tree into u and v, so that the given tree is u o v. The three trees are u, v and v o u."""
+tree into u, which contains the root, and v. The three trees are u, v and v o u: the tree v with u as an
+additional branch of the root."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
-    r"""Return a polynomial as text. ``<tree>`` denotes the left-hand side of the condition of a tree;
-    products come last.
+    r"""Return a polynomial as text. ``<tree>`` denotes the left-hand side of the condition of a tree.
+    Products come last.
 
     >>> spell({(b"\0", b"\0"): Fraction(1, 2), (b"\0\1",): Fraction(-1)}, str)
     "-<b'\\x00\\x01'> + 1/2 <b'\\x00'> <b'\\x00'>"
@@ -76,8 +77,9 @@ def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
 
 
 class RootSwitching:
-    """The weights of rooted trees of a symplectic method, as polynomials in the weights of the trees in
-    ``independent(n)``.
+    """The weights of rooted trees of a symplectic method, as polynomials in the weights of independent trees.
+    ``independent(n)`` returns the independent trees with n vertices. ``moves`` is a function of type
+    :data:`Moves`.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING
     >>> from orderconds.trees.levels import parse, text
@@ -117,8 +119,8 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions, with a relation added to each dependent condition. The function ``polynomial``
-    maps the key of a condition to a polynomial in the left-hand sides of independent conditions.
+    """Return the conditions, with a relation added to each dependent condition. ``polynomial`` maps the key
+    of a condition to its left-hand side as a polynomial in left-hand sides of independent conditions.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
@@ -134,8 +136,8 @@ def with_relations(
 
 
 def letter_key(tree: Tree) -> tuple[int, bytes]:
-    """Return the sort key of a tree that is a letter of a word. Larger trees come first; trees of equal size
-    are in the order of enumeration.
+    """Return the sort key of a tree that is a letter of a word. Larger trees come first. Trees of equal size
+    keep the order in which they are enumerated.
 
     >>> from orderconds.trees.levels import parse, text
     >>> [text(tree) for tree in sorted(map(parse, (".", "[..]", "[[.]]")), key=letter_key)]
@@ -173,7 +175,7 @@ def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomia
     r"""Return the value of a group-like series on a word of trees as a polynomial in its values on Lyndon
     words.
 
-    On both sides of this relation, the value on each word is multiplied by ``scale`` of the word.
+    Each value is multiplied by the factor ``scale`` of its word, as in the printed conditions.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

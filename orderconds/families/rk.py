@@ -111,8 +111,8 @@ def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
 
 
 def has_weights(tableau: Tableau, *, nonzero: bool = False) -> bool:
-    """Return True if a tableau can be interpreted as (A, b). If ``nonzero`` is set, the result is True only
-    if all weights are proved to be non-zero.
+    """Return True if a tableau can be interpreted as (A, b). If ``nonzero`` is true, all weights must also be
+    proved to be non-zero.
 
     >>> from orderconds.tableau import find
     >>> cg4 = Tableau.load(find("cg4"))
@@ -134,8 +134,8 @@ def _conditions(family: str, order: int) -> tuple[OrderCondition, ...]:
 
 
 def tree_conditions(trees: Sequence[Tree], family: str = "rk") -> tuple[OrderCondition, ...]:
-    r"""Return, for each tree, the condition that its elementary weight is 1/gamma, where gamma is its density
-    (HLW III.1, Theorem 1.5). ``family`` is the label of the family of the conditions.
+    r"""Return one condition for each tree: elementary weight = 1/gamma, where gamma is the density of the
+    tree (HLW III.1, Theorem 1.5). Each condition stores the label ``family``.
 
     >>> print(*tree_conditions([b"\0\1\1"]))
     sum_i b_i c_i^2 = 1/3

@@ -1,10 +1,10 @@
-"""Runge-Kutta-Munthe-Kaas methods: ``rkmk(r)`` truncates dexpinv after the power r, ``rkmk`` does not
-truncate it.
+"""Runge-Kutta-Munthe-Kaas methods. ``rkmk(r)`` truncates dexpinv after the power r of ad; ``rkmk`` does not
+truncate dexpinv.
 
-The left-hand sides of conditions are values of the series of the method on Lyndon words. No theorem about the
-order is used to derive these conditions. The order that follows from them is min(p, R + 2), where p is the
-order of the tableau as a Runge-Kutta method. Here R = r if r is 0 or odd, and R = r + 1 if r >= 2 is even,
-because then the Bernoulli number B_{r+1} is zero.
+The left-hand sides of conditions are values of the Lie-Butcher series of the method on Lyndon words. No
+theorem about the order is used to derive these conditions. They imply the order min(p, R + 2), where p is the
+order of the tableau as a Runge-Kutta method. Here R = r if r is 0 or odd. If r >= 2 is even, R = r + 1,
+because the Bernoulli number B_{r+1} is zero.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ if TYPE_CHECKING:
 
 
 RANKED = 8
-"""The highest order at which essential conditions are computed. At higher orders the computation of ranks
-takes too long."""
+"""The highest order at which essential conditions are selected by ranks of matrices. At higher orders this
+computation takes too long."""
 
 
 @register
@@ -85,15 +85,16 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word of trees in a forest. The trees of the forest form one word;
-        the branches at each vertex form another word."""
+        """Return the length of the longest word of trees in a forest. The trees of the forest form one word.
+        The branches at each vertex form another word."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. At order R + 3, the
-        lowest order at which the truncation of dexpinv changes a condition, it changes this condition. Return
-        None if dexpinv is not truncated, or if ``order`` < 3."""
+        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. Let r be ``cutoff``. Let
+        R = r if r is 0 or odd, otherwise R = r + 1. The truncation of dexpinv changes this condition if
+        ``order`` is R + 3. It changes no condition of lower order. Return None if dexpinv is not truncated,
+        or if ``order`` < 3."""
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
@@ -102,11 +103,11 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return the members of :meth:`conditions` that do not follow from other conditions of this order or
         from conditions of lower order.
 
-        Their number is the number of rooted trees, 1, 1, 2, 4, 9, .... The reason is that the method applies
-        a Runge-Kutta method to the problem transformed to the Lie algebra, which is a vector space. At order
-        R + 3 there is one more condition, which no tableau satisfies. Up to order :data:`RANKED` the
-        conditions are selected by ranks of matrices, which requires NumPy. Beyond this order all of
-        :meth:`conditions` are returned.
+        Without truncation, their number is the number of rooted trees, 1, 1, 2, 4, 9, .... The reason is that
+        the method applies a Runge-Kutta method in the Lie algebra, which is a vector space. If dexpinv is
+        truncated, there is one more condition at order R + 3, and no tableau satisfies it. Up to order
+        :data:`RANKED`, ranks of matrices select the conditions; this requires NumPy. Beyond this order, all
+        of :meth:`conditions` are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -115,7 +116,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     def remark(self, order: int) -> str:
         """Return a remark that explains why :meth:`conditions` returns more conditions than
-        :meth:`essential_conditions`. Up to order 2 the remark is empty, because both return the same.
+        :meth:`essential_conditions`. Up to order 2 the remark is empty, because both methods return the same
+        conditions.
         """
         if order < 3:
             return ""
@@ -130,13 +132,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         )
 
     def highest_order(self, limit: int) -> int:
-        """Return the smaller of ``limit`` and R + 2. The order R + 2 is the highest order that is possible
-        with this truncation of dexpinv.
-
-        At order R + 3 the values of every tableau satisfy a relation that the values of the exact flow
-        violate. This gives one essential condition that no tableau satisfies, in addition to one condition
-        for each rooted tree. The number of essential conditions is computed by ranks of matrices, which
-        requires NumPy.
+        """Return the highest order that methods with this truncation of dexpinv can have, but at most
+        ``limit``.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -154,8 +151,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 class _Words:
     """The coefficients of words in the exponents u_i = sum_j a_ij dexpinv_{u_j} k_j, as index sums.
 
-    The argument ``i`` is the index of a stage. If ``i`` is None, b_j replaces a_ij, and the exponent is that
-    of the update.
+    Here u_i is the exponent of stage i, and k_j is the value of the vector field at stage j. If the argument
+    ``i`` is None, b_j replaces a_ij, and the exponent is that of the update.
     """
 
     def __init__(self, cutoff: int | None) -> None:
@@ -206,11 +203,11 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # The coefficient of u^0 = 1 on a word is zero unless the word is empty. Therefore a term with
-                # m = 0 (or n = 0) is zero if letters stand before (or behind) the tree.
+                # The coefficient of u^0 = 1 is zero on every non-empty word. Therefore a term with m = 0 is
+                # zero if letters precede the tree. A term with n = 0 is zero if letters follow the tree.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
-                    # In a word of u^(k-m) x u^m, the letters of u^m precede the letters of u^(k-m). The class
-                    # DexpinvSeries has the same convention.
+                    # In a word of u^n x u^m, the letters of u^m precede the letters of u^n, as in the class
+                    # DexpinvSeries.
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))
                     terms.append((q, product(first, value, last)))

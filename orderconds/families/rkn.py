@@ -1,13 +1,14 @@
 """Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q), where T is quadratic in p. For such Hamiltonians some
 brackets of T and V are zero.
 
-The bracket of functions of degrees i and j in p has degree i + j - 1. Functions of q alone have degree 0, so
-the bracket of two such functions is zero. V and [V,[T,V]] are functions of q alone. More generally, all
-functions generated from V by the product x o y = [x,[T,y]] are functions of q alone. The brackets of two of
-these functions generate an ideal. The element of lowest weight in this ideal is [V,[V,[V,T]]]. The conditions
-are indexed by the linear combinations of words over T and V that vanish on the ideal. The numbers of
-conditions at order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995)
-151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+The Poisson bracket of polynomials of degrees i and j in p has degree i + j - 1. Functions of q alone have
+degree 0, so the bracket of two functions of q is zero. V and [V,[T,V]] are functions of q alone. More
+generally, all functions generated from V by the product x o y = [x,[T,y]] are functions of q alone. The
+brackets of two of these functions therefore vanish, and so does the ideal that they generate. The element of
+lowest weight in this ideal is [V,[V,[V,T]]]. The conditions are indexed by linear functionals, written as
+combinations of words over T and V, that are zero on the ideal. The numbers of conditions at order 1, 2, ...
+are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J.
+Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -47,8 +48,8 @@ T, V = 0, 1
 
 @register
 class NystroemFamily(Family):
-    """Splittings T + V. The key ``rkn`` of the tableau file states which part is V. Each condition belongs to
-    a linear combination of words over T and V.
+    """Splittings T + V. The key ``rkn`` of the tableau file states which part is V. A linear combination of
+    words over T and V indexes each condition.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
@@ -80,15 +81,15 @@ class NystroemFamily(Family):
         return tuple(map(self._condition, independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return one condition for each element of :func:`functionals`. A dependent condition contains its
-        relation to independent conditions."""
+        """Return one condition for each element of :func:`functionals`. Each dependent condition stores its
+        relation to the independent conditions."""
         return with_relations(map(self._condition, functionals(order)), relation, text)
 
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return, for each condition, the value of one step on the linear combination of words of the
-        condition. The value is multiplied by the same factor as the left-hand side of the printed condition.
+        """Return the value of each condition for one step of a splitting. The value on the words of the
+        condition is multiplied by the same factor as the printed left-hand side.
         """
         self.require(method, ring)
         splitting = expect(method, Splitting)
@@ -175,9 +176,9 @@ def formula(functional: Functional) -> Formula:
 
 
 def _scale(functional: Functional) -> int:
-    """Return the least positive integer k for which k x / f is an integer for each word of a linear
-    combination. Here x is the coefficient of the word, and f is the factor that the formula of the word
-    contains (:meth:`SplittingFamily.scale`)."""
+    """Return the least positive integer k such that k x / f is an integer for each word. Here x is the
+    coefficient of the word in the linear combination, and f is the factor of the word in printed formulas
+    (:meth:`SplittingFamily.scale`)."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 
@@ -195,9 +196,9 @@ def functionals(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def independent(order: int) -> tuple[Functional, ...]:
-    """Return as many members of :func:`functionals` as possible whose restrictions to Lie elements are
-    linearly independent. These restrictions are used because a product of functionals of lower order, which
-    gives no new condition, is zero on Lie elements.
+    """Return a maximal set of members of :func:`functionals` whose restrictions to Lie elements are linearly
+    independent. Products of functionals of lower order give no new condition. Such products are zero on Lie
+    elements, so the restriction removes them.
 
     >>> [text(functional) for functional in independent(4)]
     ['TTTV', 'TTVV']
@@ -207,8 +208,8 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return the elements of this weight that are generated from V by the product x o y = [x,[T,y]]. Each
-    element is given as a combination of words."""
+    """Return the elements of this weight that the product x o y = [x,[T,y]] generates from V. Each element is
+    a linear combination of words."""
     if weight == 1:
         return (expand(V),)
     potentials = []
@@ -261,9 +262,7 @@ def _relation(functional: Functional) -> tuple[tuple[tuple[Functional, ...], Fra
 
 def relation(functional: Functional) -> Polynomial:
     """Return the left-hand side of a condition as a polynomial in left-hand sides of independent conditions.
-
-    Each condition is given by a linear combination of words. The coefficients of the polynomial are the
-    solution of a linear system.
+    The linear combination ``functional`` indexes the condition.
 
     >>> relation((((1, 0), 1),))
     {((((0,), 1),), (((1,), 1),)): Fraction(1, 1), ((((0, 1), 1),),): Fraction(-1, 1)}
@@ -276,8 +275,8 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return all products of members of :func:`independent`. Each factor is a combination of words of one
-    length, at most ``heaviest``. The lengths of all factors add up to ``order``."""
+    """Return all products of members of :func:`independent` whose orders add up to ``order``. Each factor has
+    order at most ``heaviest``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

@@ -1,8 +1,9 @@
-"""The symplectic Lie group integrators of Section 2.5 of Marthinsen's thesis. Those with one stage are
-theta-methods.
+"""The symplectic Lie group integrators of Section 2.5 of Marthinsen's thesis. The integrators with one stage
+are theta-methods. The family is equal to ``vrkmk(0)``: variational Runge-Kutta-Munthe-Kaas methods without
+brackets in dexpinv.
 
-The family is equal to ``vrkmk(0)``, that is, VRKMK without brackets in dexpinv. The order is at most two (H.
-Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD thesis, NTNU Trondheim, 2014).
+The order is at most two (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD thesis,
+NTNU Trondheim, 2014).
 """
 
 from __future__ import annotations
@@ -19,8 +20,7 @@ from orderconds.tableau.record import Tableau
 
 @register
 class SymplecticLieGroupFamily(VariationalMuntheKaas):
-    """The family of tableaux (A, b) with all b_i non-zero; the family has the same conditions as
-    ``vrkmk(0)``.
+    """The family of tableaux (A, b) with all b_i non-zero. The conditions are the same as in ``vrkmk(0)``.
 
     >>> [len(SymplecticLieGroupFamily().conditions(n)) for n in (1, 2)]
     [1, 1]

@@ -1,6 +1,6 @@
-"""Splittings: products of the flows of fields A, B, ... whose sum is the field of the problem.
+"""Splittings: products of the flows of vector fields A, B, ... whose sum is the field of the problem.
 
-The conditions are indexed by words over A, B, .... One step is the product of flows ``... exp(b_1 h B)
+The conditions are indexed by words over A, B, .... One step of size h is the product ``... exp(b_1 h B)
 exp(a_1 h A)``. The rightmost flow acts first, so A acts first in each stage. The exact flow exp(h (A + B +
 ...)) has the value 1/n! on every word of n letters (HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002)
 341).
@@ -39,7 +39,7 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings into ``parts`` parts; letters 0, 1, ... denote the parts A, B, ... in the order of the file.
+    """Splittings into ``parts`` parts. Letters 0, 1, ... denote the parts A, B, ... in the order of the file.
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -106,10 +106,10 @@ class SplittingFamily(WordFamily):
         return prod(factorial(len(list(run))) for _, run in groupby(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum; a_i, b_i, ... are the step
-        sizes of the parts A, B, ... in stage i.
+        """Return the left-hand side of the condition of a word as an index sum.
 
-        For two parts, the sums c_i = a_1 + ... + a_i replace the coefficients a_i.
+        The coefficients a_i, b_i, ... are the step sizes of the parts A, B, ... in stage i. For two parts,
+        the sums c_i = a_1 + ... + a_i replace the coefficients a_i.
         """
         return two_part_formula(word) if self.parts == 2 else splitting_formula(word)
 
@@ -126,8 +126,8 @@ class SplittingFamily(WordFamily):
         return cls(len(method.parts)) if isinstance(method, Splitting) else None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order: the order as a Runge-Kutta-Nystroem splitting, but at most 3.
-        The additional relations of such splittings change only conditions of order 4 and more."""
+        """Return a lower bound of the order: the order in the family ``rkn``, but at most 3. The additional
+        relations of that family change only conditions of order 4 and more."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -135,7 +135,7 @@ class SplittingFamily(WordFamily):
         return None if isinstance(tableau.method, Splitting) else super().work(tableau)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of Nystroem splittings if the option --rkn is set, else the label of this
+        """Return the label ``rkn`` of Nystroem splittings if the option --rkn is set, else the label of this
         family."""
         return "rkn" if nystroem else self.label()
 
@@ -166,8 +166,8 @@ class SplittingFamily(WordFamily):
 
 
 def splitting_formula(word: Word) -> Formula:
-    """Return the value of one step on a word as an index sum, multiplied by the factorials of the run lengths
-    of the word.
+    """Return the value of one step on a word as an index sum, multiplied by the factorials of the run
+    lengths. A run is a maximal block of equal letters.
 
     >>> from orderconds.formula import named
     >>> named(splitting_formula((0, 1, 0))).text()
@@ -193,8 +193,8 @@ def splitting_formula(word: Word) -> Formula:
 
 
 def two_part_formula(word: Word) -> Formula:
-    """Return the index sum for two parts, with c_i = a_1 + ... + a_i. A letter A between b_i and b_j has the
-    factor c_j - c_i.
+    """Return the index sum of a word for two parts, with c_i = a_1 + ... + a_i. A letter A between b_i and
+    b_j has the factor c_j - c_i.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()
@@ -243,10 +243,10 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return a map from the names a, b, ... in formulas to lists with one coefficient for each stage. If a
-    stage does not contain the flow of a part, the coefficient is zero.
+    """Return a map from the names a, b, ... of formulas to lists with one coefficient for each stage.
 
-    For two parts, the entry ``c`` contains the sums a_1 + ... + a_i.
+    If a stage does not contain the flow of a part, the coefficient is zero. For two parts, the entry ``c``
+    contains the sums a_1 + ... + a_i.
 
     >>> from orderconds.ring import QQ
     >>> strang = Splitting(("T", "V"), ((1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))))

@@ -1,4 +1,5 @@
-"""Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i.
+"""Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i. The tableau (a, b)
+acts on the positions q, the tableau (ahat, bhat) on the momenta p.
 
 Suppose that two rooted trees differ only in the choice of the root, and that one edge joins the two roots. By
 the relation b_i ahat_ij = b_i b_j - b_j a_ji, the sum of the elementary weights of the two trees is a product
@@ -110,8 +111,8 @@ class SymplecticPartitionedFamily(Family):
 
         If ahat_ij = a_ij, the order is p. Otherwise suppose that Butcher's simplifying assumptions B(2m),
         C(m) and D(m) hold for the coefficients a_ij. By the definition of ahat_ij, C(m) and D(m) then hold
-        for the coefficients ahat_ij, and c_i = chat_i. Butcher's theorem on the order uses these assumptions
-        to reduce trees with one kind of edges. The same proof applies to both kinds of edges. Hence the order
+        for the coefficients ahat_ij, and c_i = chat_i. Butcher's theorem uses these assumptions to reduce
+        trees with one kind of edges. The same proof applies to trees with two kinds of edges. Hence the order
         is at least min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct

@@ -1,9 +1,9 @@
 """Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
 
-For such Hamiltonians, only trees occur in which neighbouring vertices differ in colour. The relation b_i
-ahat_ij + bhat_j a_ji = b_i bhat_j relates the conditions of two rooted trees that differ only in the choice
-of the root. Therefore the conditions are indexed by free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The
-weights b and bhat may differ; for example, they differ in pairs that are equivalent to splittings.
+For separable Hamiltonians, neighbouring vertices of every tree differ in colour. The relation b_i ahat_ij +
+bhat_j a_ji = b_i bhat_j relates the conditions of two rooted trees that differ only in the choice of the
+root. Therefore the conditions are indexed by free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b
+and bhat may differ, as in pairs that are equivalent to splittings.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ free trees."""
 @register
 class SeparableFamily(Family):
     """The family of symplectic pairs of tableaux (A, b) and (A_hat, b_hat). If only one tableau (A, b) is
-    given, its symplectic conjugate, with b_hat = b, is the second tableau.
+    given, the second tableau is its symplectic conjugate, with b_hat = b.
 
     >>> [len(SeparableFamily().conditions(n)) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]
@@ -102,8 +102,8 @@ class SeparableFamily(Family):
 def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Ring) -> None:
     """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
 
-    If the coefficients are balls, the difference of the two sides must be a ball that contains zero. The
-    relation then holds up to the rounding errors of the decimals in the file.
+    If the coefficients are balls (intervals), the difference of the two sides must be a ball that contains
+    zero. The relation then holds up to the rounding errors of the decimals in the file.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

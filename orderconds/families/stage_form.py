@@ -1,4 +1,4 @@
-"""The coefficients of a method with a fixed number of stages, by name, and the function that builds the
+"""The named coefficients of a method with a fixed number of stages, and the function that builds the
 method."""
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Symmetric compositions of a symmetric method of order two.
 
-The basic method is symmetric. Therefore its logarithm contains only odd powers of h. Letter k denotes the
-term with h^k, so all letters are odd. The composition is symmetric as well. Hence the conditions of even
-order follow from conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+The basic method is symmetric. Therefore its logarithm contains only odd powers of the step size h. Letter k
+denotes the term with h^k, so all letters are odd. The composition is symmetric as well. Hence the conditions
+of even order follow from conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return composition_formula(word, _step)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the first half of the step sizes as unknowns of a search; the second half follows by
+        """Return the first half of the step sizes as unknowns of a search. The second half follows by
         symmetry. If ``stages`` is odd, the middle step size is also an unknown."""
         refuse_explicit(self.label(), explicit)
         names = tuple(("gamma", (str(i),)) for i in range(1, (stages + 1) // 2 + 1))
@@ -108,8 +108,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None. This function is never called for this family: callers use it only for families that
-        have the same name as a tableau format, and no format has the name of this family."""
+        """Return None, because this family is itself the family of symmetric methods."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -140,8 +139,8 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return (((word,), Fraction(1)),)
     # On words of even weight, the logarithm of the step has the value zero. The value of the logarithm on a
     # word is a sum over all divisions of the word into m = 1, 2, ... parts. The term of a division is
-    # (-1)^(m+1)/m times the product of the values of the step on the parts. The equation "sum = 0" is solved
-    # for the term with m = 1, the value of the step on the word.
+    # (-1)^(m+1)/m times the product of the values of the step on the parts. The term with m = 1 is the value
+    # of the step on the whole word. The equation "sum = 0" gives this value.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

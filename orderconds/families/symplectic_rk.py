@@ -24,7 +24,7 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
 """A function that returns the elementary weight of a rooted tree as a polynomial in elementary weights of
-free trees. No edge divides these free trees into two equal halves."""
+free trees. Free trees that an edge divides into two equal halves do not occur in the polynomial."""
 
 
 @register

@@ -22,13 +22,12 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work
 
 HIGHEST = 40
-"""The highest degree. It is limited because the size of the emitted code grows with the square of the
-degree."""
+"""The highest degree P. The size of the emitted code grows with the square of the degree."""
 
 
 @register
 class TaylorFamily(Family):
-    """Taylor's method; ``degree`` is the degree P of the Taylor polynomial.
+    """Taylor's method. ``degree`` is the degree P of the Taylor polynomial.
 
     >>> TaylorFamily(3).label(), TaylorFamily(3).degree_of_step()
     ('taylor(3)', 3)
@@ -56,9 +55,9 @@ class TaylorFamily(Family):
         return self.name if self.degree is None else f"{self.name}({self.degree})"
 
     def degree_of_step(self) -> int:
-        """Return the degree, which is the order of the step.
+        """Return the degree P. The order of the step is also P.
 
-        Raises :class:`~orderconds.errors.InputError` if the family was named without a degree.
+        Raises :class:`~orderconds.errors.InputError` if the family was created without a degree.
         """
         if self.degree is None:
             raise InputError(
@@ -67,7 +66,7 @@ class TaylorFamily(Family):
         return self.degree
 
     def stability_coefficients(self) -> tuple[Fraction, ...]:
-        """Return the coefficients of R(z) = sum_{k <= P} z^k/k!."""
+        """Return the coefficients of the stability function R(z) = sum_{k <= P} z^k/k!."""
         return tuple(Fraction(1, factorial(k)) for k in range(self.degree_of_step() + 1))
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:

@@ -1,10 +1,11 @@
 """Variational commutator-free methods: each exponential may combine the velocities of several stages.
 
-Let xi_j be the velocity of stage j and q0 the initial position. For a Lagrangian l and the step size h, the
-discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0`` and ``X_iJ = h
-sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj replace alpha_iJj. The weights are ``b_i =
-sum_J beta_Ji``. The methods generalise the variational Crouch-Grossman methods (VCG), as Section 3.5 of
-Bogfjellmo and Marthinsen suggests. The family contains methods of order 3 with positive weights b_i.
+Let xi_j be the velocity of stage j, q0 the initial position, l the Lagrangian and h the step size. The
+discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)``. The position of stage i is ``Q_i = exp(X_im) ...
+exp(X_i1) q0`` with the exponents ``X_iJ = h sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj
+replace alpha_iJj. The weights are ``b_i = sum_J beta_Ji``. The methods generalise the variational
+Crouch-Grossman methods (VCG), as Section 3.5 of Bogfjellmo and Marthinsen suggests. The family contains
+methods of order 3 with positive weights b_i.
 """
 
 from __future__ import annotations
@@ -34,12 +35,12 @@ if TYPE_CHECKING:
 
 @register
 class VariationalCommutatorFree(ActionFamily):
-    """The family ``vcf``.
+    """Variational commutator-free methods on a Lie group.
 
-    Independent conditions are selected by the rank of a matrix, which contains the values of the conditions
-    at random methods. ``update`` and ``stage`` are the numbers of exponentials in the update and in each
-    stage of the random methods. With the default numbers, there is one independent condition for each
-    elementary Hamiltonian. A Runge-Kutta tableau is interpreted with one velocity in each exponential.
+    The rank of a matrix selects the independent conditions. The matrix contains the values of the conditions
+    for random methods. ``update`` and ``stage`` are the numbers of exponentials in the update and in each
+    stage of these methods. With the default numbers, there is one independent condition for each elementary
+    Hamiltonian. In a Runge-Kutta tableau, each exponential contains one velocity.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -88,17 +89,16 @@ class VariationalCommutatorFree(ActionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method without zero weights, else None. For a tableau (A,
-        b) the result is None, because its file claims the order in the family ``vcg``."""
+        """Return this family for a commutator-free method without zero weights, else None. The file of a
+        tableau (A, b) claims its order in the family ``vcg`` instead."""
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):
             return None
         return cls() if all_nonzero(method.as_runge_kutta(ring).b, ring) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric. The proof uses a sufficient condition:
-        reversal of the step maps the product of exponentials of stage i to that of stage s + 1 - i, for s
-        stages."""
+        """Return True if the method is proved to be symmetric. With s stages, it suffices that reversal of
+        the step maps the product of exponentials of stage i to the product of stage s + 1 - i."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -1,4 +1,5 @@
-"""The VRKMK methods ``vrkmk_pade(r)``. They replace dexpinv by the inverse of a truncated series of dexp.
+"""Variational Runge-Kutta-Munthe-Kaas methods ``vrkmk_pade(r)``, in which the inverse of a truncated series
+of dexp replaces dexpinv.
 
 Let xi_i be the velocity at stage i, and X_i the exponent of the stage. The method computes v_i from
 dexp^(r)(X_i) v_i = xi_i, where dexp^(r) is dexp truncated after the r-th power of ad (Marthinsen's thesis,
@@ -69,7 +70,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a tableau file is complete without a claim in this family."""
+        """Return None, because a tableau file need not claim an order in this family."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -77,8 +78,8 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the smaller of 2 and the order in ``rk``. No theorem about the truncation of dexp is used,
-        and therefore no higher order is derived."""
+        """Return the smaller of 2 and the order in ``rk``. A higher order would need a theorem about the
+        truncation of dexp."""
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:

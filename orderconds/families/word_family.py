@@ -1,8 +1,8 @@
 """Families whose conditions are indexed by words. Each letter of the alphabet has a weight.
 
-A step of a method and the exact flow are group-like series: their values on words satisfy the shuffle
-relations. The values on Lyndon words therefore determine all other values, and are independent (Radford 1979;
-Reutenauer, Free Lie Algebras, Thm 6.1). The first letter of a word acts first.
+The series of one step of a method and of the exact flow are group-like: their values on words satisfy the
+shuffle relations. Therefore the values on Lyndon words are independent and determine all other values
+(Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). The first letter of a word acts first.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ class WordFamily(Family):
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return a function of words. Its result is the value of one step of ``method`` on the word, as an
-        element of ``ring``."""
+        """Return a function that maps a word to the value of one step of ``method`` on this word, in
+        ``ring``."""
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -60,8 +60,8 @@ class WordFamily(Family):
         to distinguish all conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return words of this weight whose conditions are independent. These conditions imply the conditions
-        of all other words of this weight."""
+        """Return the Lyndon words of weight ``order``. Their conditions are independent. Together with the
+        conditions of lower weight, they imply the conditions of all other words of this weight."""
         letters = sorted({letter for word in self.words(order) for letter in word})
         return tuple(lyndon_words(letters, order, self.weigh))
 
@@ -103,8 +103,8 @@ class WordFamily(Family):
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return the left-hand side of the condition of a word as a polynomial in the left-hand sides of
-        independent words. Each left-hand side is a value multiplied by :meth:`scale`."""
+        """Return the left-hand side of the condition of a word as a polynomial in the left-hand sides of the
+        conditions of independent words. Each left-hand side is a value multiplied by :meth:`scale`."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

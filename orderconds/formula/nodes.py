@@ -1,4 +1,4 @@
-"""The syntax tree of index sums, its text, and functions that build and simplify formulas.
+"""The syntax tree of index sums, the conversion to text, and functions that build and simplify formulas.
 
 Bound indices must have unique names while a formula is being built; :func:`fresh` returns such names. When a
 formula is complete, :func:`named` replaces these names by readable names. Upper-case indices run over
@@ -43,7 +43,8 @@ class Formula(Struct, frozen=True):
 
 
 class Coefficient(Formula, frozen=True):
-    """A coefficient of the method, such as ``a_ij``: name ``a``, indices ``("i", "j")``."""
+    """A coefficient of the method. For example, ``a_ij`` has the name ``a`` and the indices ``("i",
+    "j")``."""
 
     name: str
     indices: tuple[str, ...]
@@ -105,7 +106,7 @@ def coefficient(name: str, *indices: str) -> Formula:
 
 def product(*factors: Formula) -> Formula:
     """Return the product of formulas. Nested products are flattened, numbers are moved to the front, and
-    equal factors are combined to powers.
+    equal factors are combined into powers.
 
     Factors that differ only in the names of bound indices count as equal. If a factor is zero, the product is
     zero.
@@ -127,7 +128,7 @@ def product(*factors: Formula) -> Formula:
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
     # Factors that contain sums count as equal if they differ only in the names of bound indices. This
-    # comparison takes time. It is necessary only if there are at least two such factors.
+    # comparison is slow. It is omitted if only one factor contains a sum.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -192,8 +193,8 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
 
 
 def fresh(kind: str = "i") -> str:
-    """Return a new index name, which no existing formula contains. ``kind`` is a letter: lower-case for an
-    index of stages, upper-case for an index of exponentials.
+    """Return a new index name that no existing formula contains. A lower-case letter ``kind`` gives an index
+    of stages, an upper-case letter an index of exponentials.
 
     >>> fresh() != fresh()
     True
@@ -205,7 +206,7 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its bound indices. Free indices are renamed as ``names``
     specifies.
 
-    The purpose is to use one formula several times in a product. If the copies have different bound indices,
+    A formula can then occur several times in one product. Because the copies have different bound indices,
     their sums can be merged into one sum.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
@@ -316,7 +317,8 @@ def _powers(factors: Iterable[Formula]) -> list[tuple[Formula, int]]:
 
 
 def _shape(formula: Formula, depths: Mapping[str, int]) -> Hashable:
-    """Return a key that is equal for two formulas iff they differ only in the names of bound indices.
+    """Return a key that is equal for two formulas if and only if they differ only in the names of bound
+    indices.
 
     In the key, bound indices are numbers, counted from the outermost sum inwards. The key contains only
     numbers and strings, because tuples of numbers and strings are compared much faster than formulas.

@@ -8,8 +8,8 @@ from fractions import Fraction
 from msgspec import Struct
 
 Relation = tuple[str, str, str]
-"""A relation ``("i", "<", "j")`` or ``("i", "<=", "j")`` between two indices. Both are bound by the same sum,
-or one of them is free in this sum."""
+"""A relation ``("i", "<", "j")`` or ``("i", "<=", "j")`` between two indices of a sum. One of the two indices
+may be free."""
 
 HATS = {"ahat": r"\hat{a}", "bhat": r"\hat{b}", "chat": r"\hat{c}", "alpha": r"\alpha", "beta": r"\beta"}
 HATS |= {name: f"\\{name}" for name in ("gamma", "omega", "phi")}
@@ -18,8 +18,9 @@ HATS |= {name: f"\\{name}" for name in ("gamma", "omega", "phi")}
 class Notation(Struct, frozen=True):
     """The signs and brackets of one notation, ASCII or LaTeX.
 
-    ``names`` maps names of coefficients to other texts. ``total`` is the summation sign. ``signs`` maps ``<``
-    and ``<=`` to their texts; ``reversed_signs`` maps them to ``>`` and ``>=``.
+    ``names`` maps names of coefficients to symbols, such as ``ahat`` to ``\\hat{a}``. ``total`` is the
+    summation sign. ``signs`` maps ``<`` and ``<=`` to their texts. ``reversed_signs`` maps them to the texts
+    of ``>`` and ``>=``.
     """
 
     names: Mapping[str, str]
@@ -59,8 +60,8 @@ def joined(indices: Sequence[str]) -> str:
 
 
 def subscript(written: str, notation: Notation) -> str:
-    """Return the text ``written`` as a subscript. In ASCII, braces are omitted if the subscript is clear
-    without them.
+    """Return the text ``written`` as a subscript. In ASCII, braces are omitted if the text contains only
+    letters and digits.
 
     >>> subscript("ij", TEXT), subscript("i,j1", TEXT), subscript("ij", LATEX)
     ('_ij', '_{i,j1}', '_{ij}')
@@ -73,8 +74,8 @@ def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Nota
     """Return the text below a summation sign. If possible, relations are joined to a chain: ``i<j`` and
     ``j<k`` give ``i<j<k``.
 
-    A chain should begin with one of ``indices``, which this sum binds. If the smallest index i of a chain is
-    free, the chain is therefore written in decreasing order, ``k>j>i``.
+    A chain begins with one of ``indices``, the indices that the sum binds. If the smallest index i of a chain
+    is free, the chain is written in decreasing order, ``k>j>i``.
 
     >>> chains(["i", "j"], [("i", "<", "j")], TEXT)
     'i<j'

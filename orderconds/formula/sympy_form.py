@@ -1,4 +1,4 @@
-"""Conversion of formulas to SymPy expressions. A coefficient becomes an entry of an ``IndexedBase``, an index
+"""Conversion of formulas to SymPy expressions. A coefficient becomes an entry of an ``IndexedBase``. An index
 sum becomes a ``Sum``.
 
 This is the only module of ``orderconds`` that imports SymPy at the top. Other modules import this
@@ -22,8 +22,8 @@ EXPONENTIALS = sympy.Symbol("m", integer=True, positive=True)
 
 
 def export(formula: Formula) -> sympy.Expr:
-    """Return the SymPy expression of a formula. Indices start at 1. Lower-case indices end at ``s``,
-    upper-case indices at ``m``.
+    """Return the SymPy expression of a formula. Indices start at 1. Lower-case indices end at ``s``, the
+    number of stages. Upper-case indices end at ``m``, the number of exponentials.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> export(index_sum(("i",), (), coefficient("b", "i")))
@@ -54,8 +54,9 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
     summation indices, i runs from 1 to j-1. If i is free, j starts at i+1. If j is free, i ends at j-1."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In SymPy the innermost index comes first. The limits of an inner index may contain outer indices,
-        # but not conversely. Therefore the loop chooses an index that no remaining limit contains.
+        # In SymPy the innermost index comes first. The limits of an inner index may contain outer indices.
+        # The limits of an outer index must not contain inner indices. Therefore the loop chooses an index
+        # that no remaining limit contains.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

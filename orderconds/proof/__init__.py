@@ -4,9 +4,11 @@ conditions.
 The ``[proof]`` table of a tableau file (:mod:`orderconds.tableau.unknowns`) states which equations the exact
 values of the decimals satisfy. Krawczyk's operator proves that these equations have exactly one solution
 within one unit of the last digit of each decimal. It also encloses the solution
-(:mod:`orderconds.proof.krawczyk`). The system contains every independent condition of a family. A reduction
-is a theorem by which some of these conditions follow from the others. If its assumptions have been verified,
-the system contains only the others (:mod:`orderconds.proof.equations`). The module
+(:mod:`orderconds.proof.krawczyk`).
+
+The system of equations contains every independent condition of a family. A reduction is a theorem by which
+some conditions follow from others. If the assumptions of a reduction have been verified, the system does not
+contain the conditions that follow (:mod:`orderconds.proof.equations`). The module
 :mod:`orderconds.proof.implications` applies theorems by which an order in one family implies orders in other
 families.
 """

@@ -1,5 +1,4 @@
-"""The proof of one file: the enclosed solution, its orders, and its distance from the decimals of the
-file."""
+"""Proof that an exact solution exists near the decimals of a tableau file."""
 
 from __future__ import annotations
 
@@ -24,8 +23,8 @@ from orderconds.tableau.unknowns import Proof
 
 @dataclass(frozen=True)
 class Misrounded:
-    """A decimal of a file that differs from the correctly rounded solution: its name, its digits in the file,
-    and the correct digits."""
+    """A decimal of a file that differs from the correctly rounded solution. ``given`` are the digits in the
+    file, and ``solution`` the correct digits."""
 
     name: str
     given: str
@@ -57,8 +56,8 @@ class Certificate:
     lower_facts: tuple[Fact, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the proved statement as an object for JSON: the conditions, the unknowns, the pinned
-        decimals and the error bounds."""
+        """Return the proved statement as an object for JSON: the conditions, the unknowns, the decimals that
+        are not unknowns, and the error bounds."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -90,8 +89,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 class _Key:
     """A tableau as a key of the cache of proofs. Two keys are equal if both tableaux were read from files
-    with equal content. Therefore the proof is computed only once, even if several families use the proof or
-    the file is read again."""
+    with equal content. Therefore the proof is not repeated if several families use the proof or if the file
+    is read again."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -108,8 +107,8 @@ class _Key:
 
     @property
     def content(self) -> Mapping[str, object] | None:
-        """The content of the file from which the tableau was read. None if there is no such file, or if the
-        proof of the tableau is not the proof in the file."""
+        """The content of the file from which the tableau was read. None if there is no file, or if the
+        [proof] table of the tableau has been replaced."""
         file = self.tableau.file
         return None if file is None or file.proof is not self.tableau.proof else file.data
 

@@ -1,10 +1,12 @@
-"""A search for dependent conditions of a sub-family, which consists of the methods that the formulas of a
-file allow. Each dependent condition is first written as a combination of other conditions modulo primes. The
-coefficients of the combination are then converted to fractions.
+"""A search for dependent conditions of a sub-family. The sub-family contains the methods that satisfy the
+formulas of a tableau file.
 
-Nothing in this module is a proof. A rank modulo a prime can be too small, and the numerator or denominator of
-a coefficient may be divisible by the prime. :class:`orderconds.proof.exact_member.ExactMember` verifies each
-combination in exact arithmetic.
+Each dependent condition is first written as a combination of other conditions modulo primes. The coefficients
+of the combination are then converted to fractions.
+
+The results of this module are not proofs. A rank modulo a prime can be too small. The numerator or
+denominator of a coefficient may be divisible by the prime. :class:`orderconds.proof.exact_member.ExactMember`
+verifies each combination in exact arithmetic.
 """
 
 from __future__ import annotations
@@ -27,25 +29,24 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The initial number of random methods of the sub-family. A small number suffices for most sub-families,
-because they have few independent conditions."""
+"""The initial number of random methods of the sub-family. A small number usually suffices, because most
+sub-families have few independent conditions."""
 
 SPARE = 24
-"""The least number of surplus random methods. A linear dependence at one order relates products of conditions
-and independent conditions. The number of random methods exceeds the number of these values by at least SPARE.
-Then it is improbable that independent values appear to be dependent."""
+"""The number of random methods exceeds the number of coefficients in a linear dependence by at least SPARE.
+Then it is improbable that independent conditions appear to be dependent by chance."""
 
 PRIME_BITS = 61
 """The size of the primes in bits. With this size, a residue fits in a machine word, and one prime suffices to
 determine fractions with small numerator and denominator."""
 
 MAX_PRIMES = 24
-"""The largest number of primes. A combination whose coefficients are too large for this number of primes is
-not found."""
+"""The largest number of primes. A combination is not found if its coefficients are too large for this number
+of primes."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""A map from each dependent condition to its combination of monomials, modulo one prime. A pair (x, y) is the
-coefficient x + y sqrt(d) of a monomial."""
+"""A map from each dependent condition to its combination of monomials, modulo one prime. A pair (x, y)
+denotes the coefficient x + y sqrt(d), where sqrt(d) is the only square root in the file."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,7 @@ def dependences(
 ) -> Iterator[Dependences]:
     """Yield the dependences modulo one prime, two primes, ..., at most :data:`MAX_PRIMES`.
 
-    ``candidates`` are the conditions of each order. Primes that give fewer independent conditions than
+    ``candidates`` contains the conditions of each order. Primes that give fewer independent conditions than
     another prime are not used.
 
     >>> from orderconds import families
@@ -129,8 +130,8 @@ def _modulo(
     prime.
 
     If the formulas of the sub-family contain a square root sqrt(d), each coefficient has the form x + y
-    sqrt(d). The function computes all coefficients for both signs of the root, and then x and y from the two
-    values. Return None if the independent conditions for the two signs differ.
+    sqrt(d). The function computes each coefficient for both signs of the root. The two values determine x and
+    y. Return None if the independent conditions for the two signs differ.
     """
     prime = sampling.prime
     if surd is None:
@@ -177,8 +178,9 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """The values of a product of conditions: the product of the left-hand sides at random members of the
-    sub-family, and the product of the right-hand sides. The latter is the value of the exact flow."""
+    """The values of a product of conditions. ``members`` is the product of the left-hand sides at random
+    methods of the sub-family. ``flow`` is the product of the right-hand sides, the value of the exact
+    flow."""
 
     factors: Monomial
     members: Sample
@@ -194,7 +196,7 @@ class _Value:
 
 @dataclass(frozen=True)
 class _Sampling:
-    """Conditions of a family, evaluated modulo a prime at random members (methods) of the sub-family."""
+    """Conditions of a family, evaluated modulo a prime at random methods of the sub-family."""
 
     family: Family
     symbolic: SymbolicCoefficients
@@ -204,8 +206,8 @@ class _Sampling:
     read: Reading | None
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
-        """Return the values of the conditions at ``count`` random members and at the exact flow. If ``root``
-        is not None, it is the value of the only square root."""
+        """Return the values of the conditions at ``count`` random methods and at the exact flow. If ``root``
+        is not None, ``root`` is the value of the only square root."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}

@@ -1,8 +1,8 @@
-"""The equations that the decimals of a file solve, and the orders of their solution.
+"""The equations that the exact values of a file's decimals solve, and the orders of the solution.
 
-Without a reduction the system contains one equation for every independent condition of one family. With a
-reduction there are fewer equations. The assumptions of a reduction are verified exactly, from the formulas in
-the file and not from its decimals:
+Without a reduction, the system contains one equation for every independent condition of one family. A
+reduction is a theorem that makes some of these equations unnecessary. The assumptions of a reduction are
+verified exactly, from the formulas in the file and not from the decimals:
 
 ``symmetric``    a palindromic composition of a symmetric method. The order is even, and only conditions of
                  odd order are needed, one for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2).
@@ -54,28 +54,28 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations for the decimals of ``tableau``; ``facts`` are pairs (family, order): the orders of every
+    """The equations for the decimals of ``tableau``. ``facts`` are pairs (family, order), the orders of every
     solution of the equations."""
 
     tableau: Tableau
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """The largest letter in the words that index independent conditions, for a Magnus method on Gauss nodes;
+    """For a Magnus method on Gauss nodes: the largest letter in the words that index independent conditions.
     None for other methods."""
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
     lower: tuple[OrderCondition, ...] = ()
-    """The conditions of the embedded method of a 2N scheme; the equations contain them after all others."""
+    """The conditions of the embedded method of a 2N scheme. Their equations come after all other
+    equations."""
     lower_facts: tuple[tuple[str, int], ...] = ()
-    """The orders of the embedded method, by family, for every solution of the equations; empty if ``lower``
-    is empty."""
+    """The orders of the embedded method, as pairs (family, order). Empty if ``lower`` is empty."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
     ) -> list[Element]:
-        """Return the left-hand side minus the right-hand side of each equation, for the values ``point`` of
-        the unknowns in ``ring``.
+        """Return the left-hand side minus the right-hand side of each equation. ``point`` contains the values
+        of the unknowns in ``ring``.
 
         With ``places``, return only the equations with these indices.
         """
@@ -123,8 +123,8 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
     family = families.get(label)
     orders = range(1, order + 1, step)
     # Some families choose their independent conditions by ranks modulo primes. If a rank were too small, a
-    # necessary equation would be missing. Therefore the relations of the omitted conditions are verified over
-    # Q.
+    # necessary equation would be missing. Therefore it is verified over the rationals Q that the omitted
+    # conditions depend on the chosen conditions.
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
@@ -208,8 +208,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return conditions that imply all other conditions up to the order in ``proof``. The implication is
-    valid for every method whose coefficients satisfy the formulas in the file."""
+    """Return conditions that imply all other conditions up to the order in ``proof``, for every method whose
+    coefficients satisfy the formulas in the file."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -224,8 +224,8 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
-    """Return s if the method is a Magnus method on the s Gauss nodes and the order in ``proof`` is at most
-    2s; else None.
+    """Return s if the method is a Magnus method on s Gauss nodes and the order in ``proof`` is at most 2s,
+    else None.
 
     The nodes are evaluated exactly. If a node depends on a rounded decimal of the file, the result is None.
     """
@@ -275,10 +275,11 @@ def _reached(proof: Proof, order: int) -> int:
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the indices of the equations that are not satisfied identically.
 
-    ``values`` are jets over a box. An equation may be an identity if the ball of its value and all balls of
-    its gradient contain zero. Such an equation is evaluated exactly, with random numbers for the unknowns
-    (:mod:`orderconds.tableau.random_member`). If the exact value is zero, the equation is an identity and is
-    omitted. If the exact evaluation fails, no equation is omitted.
+    ``values`` are jets, the values and gradients of the equations in ball arithmetic over a box. An equation
+    may be an identity if the ball of the value and all balls of the gradient contain zero. Such an equation
+    is evaluated exactly, with random numbers for the unknowns (:mod:`orderconds.tableau.random_member`). If
+    the exact value is zero, the equation is an identity and is omitted. If the exact evaluation fails, no
+    equation is omitted.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

@@ -1,9 +1,8 @@
-"""Theorems, with sources, that derive the order of a method in one family from its proved orders in other
-families.
+"""Theorems that derive the order of a method in one family from its proved orders in other families.
 
-A fact (label of a family, order) means that a method has at least this order in the family. For example,
-order 4 in ``cg`` implies order 4 in ``rk``, because a vector space is a Lie group under addition. The
-theorems are attributes and methods of the families: :attr:`~orderconds.families.Family.implies` and
+A fact is a pair (label of a family, order). It means that a method has at least this order in the family. For
+example, order 4 in ``cg`` implies order 4 in ``rk``, because a vector space is a Lie group under addition.
+The theorems are attributes and methods of the families: :attr:`~orderconds.families.Family.implies` and
 :meth:`~orderconds.families.Family.implied_order`.
 """
 
@@ -30,8 +29,7 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
 
 
 def least_order(facts: Iterable[Fact], family: Family) -> int:
-    """Return the highest order in ``family`` that ``facts`` about a tableau imply. If they imply no order,
-    return 0.
+    """Return the highest order in ``family`` that ``facts`` about a tableau imply, or 0.
 
     >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))
     5
@@ -41,8 +39,8 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return lower bounds of orders, by label of the family. The result contains the families in ``facts``,
-    and all families whose conditions are a subset of the conditions of such a family.
+    """Return a map from labels of families to lower bounds of the order. The result contains the families in
+    ``facts``, and all families whose conditions are a subset of the conditions of a family in ``facts``.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}
@@ -60,7 +58,7 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the exact order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders; ``orders`` maps labels of families to exact orders. If the
+    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. If the
     conditions of another family are a subset of the conditions of ``family``, the order in the other family
     is an upper bound of the order in ``family``.
 

@@ -21,8 +21,8 @@ from orderconds.ring.jets import Jet, Jets
 from orderconds.ring.precision import precision
 
 System = Callable[[Sequence[Jet], Jets], Sequence[Jet]]
-"""A system of n functions of n variables, as a Python function. Its arguments are the variables as jets, and
-the ring of jets. It returns the values of the n functions as jets."""
+"""A system of n functions of n variables. The arguments are the variables as jets (values with gradients),
+and the ring of jets. The result contains the n functions as jets."""
 
 MAX_SWEEPS = 40
 
@@ -87,9 +87,8 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 
 
 def inverse(matrix: arb_mat) -> arb_mat:
-    """Return an approximate inverse of a square matrix of balls. The inverse is computed in ball arithmetic,
-    and each entry is replaced by its midpoint. Raises :class:`NotProved` if some matrix in the balls may be
-    singular.
+    """Return an approximate inverse of a square matrix of balls. The entries are the midpoints of the inverse
+    in ball arithmetic. Raises :class:`NotProved` if the balls may contain a singular matrix.
 
     >>> inverse(arb_mat(1, 1, [4]))[0, 0] == 0.25
     True

@@ -41,10 +41,10 @@ class Refined:
 
 
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
-    """Return a tableau file in which the unknowns of the ``[proof]`` table have ``digits`` decimal places,
-    and in which the pinned decimals are listed.
+    """Return a tableau file in which the unknowns of the ``[proof]`` table have ``digits`` decimal places.
 
-    The original digits are recorded as ``printed``, unless the file already has a table of this name. Raises
+    The new file lists the pinned decimals. It records the original digits in the table ``[proof.printed]``.
+    If the file already has this table, the table is preserved. Raises
     :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method does not converge to a solution near the
     decimals.
 
@@ -63,9 +63,9 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # The function ``independent`` tests every equation whose value and gradient may both be zero. It
-        # receives values on a box, because at a single point the value and the gradient can also be zero by
-        # chance.
+        # The function ``independent`` tests every equation whose value and gradient may both be zero. The
+        # equations are evaluated on a box, because at a single point the value and the gradient can be zero
+        # by chance.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -80,10 +80,10 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
 
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
-    """Return the indices of the unknowns that elimination on the Jacobian with complete pivoting selects, in
-    ascending order. Each equation is one row of ``jacobian``.
+    """Return the indices of the unknowns that the equations determine best, in ascending order.
 
-    Each row is first divided by its largest entry.
+    Elimination on ``jacobian`` with complete pivoting selects these unknowns. Each equation is one row of
+    ``jacobian``, and each row is first divided by its largest entry.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if the rows are linearly dependent to working
     precision.

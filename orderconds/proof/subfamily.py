@@ -2,16 +2,17 @@
 
 Formulas such as ``b3 = "1 - b1 - b2"`` define coefficients in terms of other coefficients. They restrict a
 family to a sub-family, in which fewer conditions of the family are independent. A condition is omitted if its
-value is a combination of kept conditions of the same order and of products of kept conditions of lower order.
-The combination must have constant coefficients, and must be valid for every method of the sub-family and for
-the exact flow. Then the omitted condition holds if the kept conditions hold.
+value is a combination of retained conditions of the same order and of products of retained conditions of
+lower order. The combination must have constant coefficients, and must be valid for every method of the
+sub-family and for the exact flow. Then the omitted condition holds if the retained conditions hold.
 
 The combinations are found modulo primes (:mod:`orderconds.proof.dependence`), but a computation modulo primes
 is not a proof. Therefore each combination is verified exactly at one random method of the sub-family. The
 random numbers are computed from a digest of the file (:mod:`orderconds.proof.exact_member`). A condition
-without a verified combination is kept. A condition with a constant left-hand side is also kept, unless exact
-arithmetic shows that the two sides are equal. If a file has several radicals, random numbers replace their
-values. The sub-family then contains more methods, and the verified statement is stronger than necessary.
+without a verified combination is retained. A condition with a constant left-hand side is omitted only if
+exact arithmetic shows that the two sides are equal. If a file has several radicals, random numbers replace
+their values. The sub-family then contains more methods, and the verified statement is stronger than
+necessary.
 """
 
 from __future__ import annotations
@@ -30,9 +31,8 @@ def independent_conditions(
 ) -> tuple[OrderCondition, ...]:
     """Return the conditions up to ``order`` that do not follow from other conditions in the sub-family.
 
-    The function ``read`` converts a method from the format of the file to the format that the family
-    evaluates. Its arguments are the method and the ring of the coefficients. By default the method is not
-    converted.
+    The function ``read(method, ring)`` converts a method from the format of the file to the format that the
+    family evaluates. ``ring`` is the ring of the coefficients. By default the method is not converted.
 
     >>> from orderconds import families
     >>> from orderconds.tableau import Tableau
@@ -61,7 +61,8 @@ def independent_conditions(
 
 
 def decisive_conditions(family: Family, order: int) -> list[tuple[OrderCondition, ...]]:
-    """Return, by order, conditions that imply all conditions up to ``order`` for every method of the family.
+    """Return one tuple of conditions for each order. For every method of the family, these conditions imply
+    all conditions up to ``order``.
 
     >>> from orderconds import families
     >>> [len(of_order) for of_order in decisive_conditions(families.get("vcg"), 3)]

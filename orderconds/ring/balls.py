@@ -1,8 +1,8 @@
 """Real balls (the library Arb), which enclose real numbers rigorously. The working precision is fixed.
 
-A ball encloses one unknown real number. If the ball does not contain zero, the number is not zero. The number
-is proved to be zero only if midpoint and radius of the ball are zero. The ball of a coefficient that is
-exactly zero has radius zero, so the coefficient remains an exact zero.
+A ball is an interval with a midpoint and a radius; it encloses one unknown real number. If the ball does not
+contain zero, the number is not zero. The number is proved to be zero only if midpoint and radius are zero.
+The ball of a coefficient that is exactly zero has radius zero, so the coefficient remains an exact zero.
 """
 
 from __future__ import annotations
@@ -60,8 +60,8 @@ class Balls:
     def root(self, x: Ball, index: int) -> Ball:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError for an even root of a ball that contains negative numbers. Also raises ValueError
-        for an odd root of a ball that contains zero and negative numbers.
+        Raises ValueError for an even root of a ball that contains negative numbers, and for an odd root of a
+        ball that contains zero and negative numbers.
         """
         with precision(self.bits):
             if x.value >= 0:
@@ -102,7 +102,7 @@ class Balls:
         return 1 if x.value > 0 else -1
 
     def text(self, x: Ball) -> str:
-        """Return x as the text of a coefficient in a tableau file. An exact number is not rounded; every
+        """Return x as the text of a coefficient in a tableau file. An exact number is not rounded. Every
         other ball is written as a decimal with ``~``.
 
         The sign ``~`` means an error of at most one unit in the last digit.
@@ -129,7 +129,7 @@ class Balls:
         return int(low.p), int(low.q), int(high.p), int(high.q)
 
     def approximate(self, x: Ball, digits: int = 20) -> str:
-        """Return the midpoint as a decimal. :meth:`radius` returns a bound of its error."""
+        """Return the midpoint as a decimal. :meth:`radius` returns a bound of the error of the midpoint."""
         low, high = endpoints(x.value)
         return rational_decimal((low + high) / 2, digits)
 
@@ -144,7 +144,7 @@ class Balls:
         return rational_decimal((high - low) / 2, digits)
 
     def ball(self, x: Ball, bits: int) -> arb:
-        """Return the ball unchanged; ``bits`` is ignored because the precision is fixed."""
+        """Return the ball unchanged. ``bits`` is ignored, because the precision is fixed."""
         return x.value
 
 
@@ -154,7 +154,7 @@ class Enclosures:
 
     Elements have the type ``arb``, which does not store a precision. In a block ``with precision(bits)`` each
     operation returns the same ball as in :class:`Balls`, but takes less time. Division by a ball that
-    contains zero returns a ball that is not finite; in :class:`Balls` it raises an error.
+    contains zero returns a ball that is not finite, whereas :class:`Balls` raises an error.
 
     >>> with precision(128):
     ...     R = Enclosures(128)
