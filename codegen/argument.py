@@ -12,8 +12,10 @@ MOST = 2**63 - 1
 
 
 def real(x: object, name: str) -> float:
-    """Return ``x`` as a float. TypeError is raised for text, for a complex number and for an object that
-    ``float`` does not accept; ValueError is raised if the float would be infinite because ``x`` is too large.
+    """Return ``x`` as a float.
+
+    TypeError is raised for text, for a complex number, and for an object that ``float`` does not accept.
+    ValueError is raised if ``x`` is too large for a finite float.
 
     >>> real("0.1", "h")
     Traceback (most recent call last):
@@ -33,7 +35,9 @@ def real(x: object, name: str) -> float:
 
 
 def count(x: object, name: str, least: int = 0) -> int:
-    """Return ``x`` as an int; TypeError if it is no integer, ValueError if it is below ``least`` or above
+    """Return ``x`` as an int.
+
+    TypeError is raised if ``x`` is not an integer. ValueError is raised if ``x`` is below ``least`` or above
     :data:`MOST`.
 
     >>> count(2.0, "steps")
@@ -51,18 +55,20 @@ def count(x: object, name: str, least: int = 0) -> int:
 
 
 def numbers(inputs: object) -> tuple[float, ...]:
-    """Return the values of the run-time inputs in one step as floats; the inputs are constant during a step.
-    TypeError is raised if ``inputs`` is not a sequence of numbers."""
+    """Return the run-time inputs of one step as floats.
+
+    TypeError is raised if ``inputs`` is not a sequence of numbers.
+    """
     if isinstance(inputs, str) or not isinstance(inputs, Iterable):
         raise TypeError(f"expected a sequence of numbers for inputs, found {described(inputs)}")
     return tuple(real(x, "inputs") for x in inputs)
 
 
 def monotone(t: float, times: object) -> list[float]:
-    """Return ``times`` as floats. They are the output times ``t_eval`` of a run that starts at the time t.
+    """Return the output times ``t_eval`` of a run that starts at the time ``t`` as floats.
 
-    ValueError is raised if a time is not finite, or if the sequence of t and the times both increases and
-    decreases. TypeError is raised if ``times`` is not a sequence of numbers.
+    ValueError is raised if a time is not finite, or if the sequence t, times[0], times[1], ... is not
+    monotone. TypeError is raised if ``times`` is not a sequence of numbers.
 
     >>> monotone(0.0, [0, 1])
     [0.0, 1.0]
@@ -82,8 +88,7 @@ def monotone(t: float, times: object) -> list[float]:
 
 
 def described(x: object) -> str:
-    """Return a description for a message. It contains the type of ``x`` and, for a number or a text, also the
-    value.
+    """Describe an argument for an error message: its type and, if it is a number or a text, its value.
 
     >>> described(1j), described(iter(()))
     ('1j of type complex', 'an object of type tuple_iterator')

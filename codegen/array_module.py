@@ -1,4 +1,4 @@
-"""What emitted modules for lattices and for semilinear equations share: both advance arrays of any length."""
+"""The base of emitted modules that advance arrays of any length: lattices and semilinear equations."""
 
 from __future__ import annotations
 
@@ -40,16 +40,17 @@ class ArrayModule:
         self.interface, self.defaults = interface, dict(defaults)
 
     def _values(self, parameters: Mapping[str, object]) -> list[float]:
-        """Return the values of all parameters in their order; TypeError for unknown parameters."""
+        """Return the values of all parameters in their order. TypeError is raised for an unknown
+        parameter."""
         pairs = lanes.chosen(self.interface.parameters, self.defaults, parameters)
         return [real(x, name) for name, x in pairs]
 
 
 def real_array(given: object, content: str) -> NDArray[Any]:
-    """Return an array of real numbers without conversion of their type.
+    """Return ``given`` as an array of real numbers. The type of the numbers is not changed.
 
     Raises ValueError for rows of different lengths, and TypeError for numbers that are not real. ``content``
-    says in errors what the array contains, for example "values".
+    names the numbers in error messages, for example "values".
     """
     import numpy as np
 

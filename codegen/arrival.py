@@ -1,5 +1,4 @@
-"""The result of a run, its status, its error, and the counts of its iterations; also the checked arguments of
-a call."""
+"""The results, status codes, errors and iteration counts of runs, and the checked arguments of a call."""
 
 from __future__ import annotations
 
@@ -20,7 +19,7 @@ SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
 
 
 class Status(IntEnum):
-    """The status of a step or a run; emitted code returns the number of the status."""
+    """The status code of a step or a run. Emitted code returns the integer value."""
 
     OK = 0
     NOT_CONVERGED = 1
@@ -56,8 +55,11 @@ class StepFailed(ArithmeticError):
 
 @dataclass(frozen=True)
 class Arrival:
-    """The result of an adaptive run: the last state and its time, the proposed size of the next step, and the
-    numbers of accepted and rejected steps."""
+    """The result of an adaptive run.
+
+    ``state`` is the last state, ``t`` its time, and ``h`` the proposed size of the next step. ``accepted``
+    and ``rejected`` are numbers of steps.
+    """
 
     state: State
     t: float
@@ -65,7 +67,7 @@ class Arrival:
     accepted: int
     rejected: int
     states: State = None
-    """The states at the times ``t_eval``; None without such times."""
+    """The states at the times ``t_eval``; None if no such times were given."""
     crossings: tuple[Crossing, ...] = ()
     """The zeros of event functions that a run of ``integrate`` has found, in the order of the run."""
     status: Status = Status.OK
@@ -92,7 +94,8 @@ class Reached:
 
 @dataclass
 class Statistics:
-    """Counts of the iterations, called sweeps, that solve the implicit blocks of a run.
+    """Counts of the iterations of a run. An implicit block is a system of equations that each step
+    solves by iteration, and a sweep is one iteration.
 
     ``sweeps`` contains, for each block, the number of its sweeps in all steps together. ``most`` is the
     largest number of sweeps of a block in one step. ``failed`` is the index of the block that failed, counted
@@ -121,7 +124,7 @@ class Begun:
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
         """Return the error of a failed step; its state has the type of the caller's state.
 
-        If an implicit block did not converge, the message recommends shorter steps, and the solvers that the
+        If an implicit block did not converge, the message recommends shorter steps, or a solver that the
         module does not use.
         """
         if status == Status.NOT_CONVERGED:
@@ -132,8 +135,10 @@ class Begun:
 
 
 def joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
-    """Return one result for the adaptive runs of a batch. The final states are joined, the counts are added,
-    and t and h are those of the last run."""
+    """Return one result for the adaptive runs of a batch of independent systems.
+
+    The final states are joined, the counts of steps are added, and t and h are those of the last run.
+    """
     last = arrivals[-1]
     states = None if last.states is None else batch.joined([x.states for x in arrivals])
     accepted, rejected = sum(x.accepted for x in arrivals), sum(x.rejected for x in arrivals)

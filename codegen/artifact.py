@@ -1,9 +1,9 @@
 """An emitted module: its files, its manifest entry, and the folder that contains them.
 
 ``manifest.json`` has an entry for each module and target of the folder, with the digest of each file. Each
-file is written completely before it gets its final name; the manifest is written last. If the writing process
-is killed between two files, files and digests do not match. Writing the module again repairs the folder. Only
-one process at a time writes to a folder.
+file is written completely before it gets its final name, and the manifest is written last. If the writing
+process is killed between two files, some digests do not match their files. Writing the module again repairs
+the folder. Only one process at a time writes to a folder.
 """
 
 from __future__ import annotations
@@ -64,8 +64,8 @@ class Artifact:
             ) from None
 
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
-        """Raise an InputError if ``entry`` has the name and the target of this module, but another scene or
-        method. This module would then overwrite the files of the entry.
+        """Raise an InputError if this module would overwrite the files of another scene or method. In that
+        case ``entry`` has the name and the target of this module, but another scene or method.
 
         Two methods such as ``a.b`` and ``a-b`` have the same default module name. If the user chose the
         prefix of one of the two modules with ``--prefix``, the equal names are intended, and no error is

@@ -1,5 +1,5 @@
-"""Compile emitted C to a shared object. The shared object is stored in a cache. It is used again if the
-sources, the compiler and its flags are the same.
+"""Compile emitted C to a shared object in a cache. The cached object is used again if the sources, the
+compiler and its flags are the same.
 
 The compiler writes into a temporary folder inside the cache. The finished file is then copied to its final
 name atomically (:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes
@@ -29,8 +29,7 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""The error numbers that mean that this process may not write to the cache. A temporary folder is then used
-instead."""
+"""Error numbers for "this process may not write to the cache". In this case a temporary folder is used."""
 
 
 class CompilerMissing(InputError):
@@ -98,7 +97,7 @@ def build(
 ) -> Path:
     """Return the path of a shared object compiled from C files; ``files`` maps their names to their texts.
 
-    A cached file is used if its content has the recorded digest; with ``again`` the files are always
+    A cached file is used if its content has the recorded digest. If ``again`` is true, the files are always
     compiled. ``seconds`` limits the time of the compiler. Errors: CompilerMissing, CompileError, and
     InputError if the result cannot be written.
     """
@@ -178,8 +177,9 @@ def compile_files(
 def _finished(
     command: Sequence[str], directory: Path, environment: Mapping[str, str], seconds: float | None
 ) -> subprocess.CompletedProcess[str]:
-    """Run a compiler and return its output. If the call is interrupted, or if the time limit is exceeded, all
-    processes of the compiler end."""
+    """Run a compiler and return its output. If the call is interrupted or exceeds the time limit, all
+    processes of the compiler are killed.
+    """
     # A compiler starts other programs, such as an assembler. They would continue if only the compiler were
     # killed, so all of them belong to one process group.
     with subprocess.Popen(

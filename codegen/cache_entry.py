@@ -108,13 +108,14 @@ def recall(entry: Path) -> bytes | None:
 
 
 def keep(entry: Path, content: bytes) -> None:
-    """Write an entry and its digest, each atomically; raise OSError if one of them cannot be written."""
+    """Write an entry and its digest, each atomically. OSError is raised if a file cannot be written."""
     entry.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     write_entries({_digest_file(entry): _digest(content) + b"\n", entry: content})
 
 
 def write_entries(contents: Mapping[Path, bytes]) -> None:
-    """Write files that only the user can read, each atomically; first remove folders with the same names.
+    """Write files that only the user can read, each atomically. Folders with the same names are removed
+    first.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     (Path(folder) / "x" / "y").mkdir(parents=True)

@@ -1,5 +1,6 @@
-"""The order in the header of emitted code. It is computed by ``orderconds.check``; the order that a tableau's
-file claims is not used."""
+"""The order in the header of emitted code. ``orderconds.check`` computes this order. The order that the file
+of a tableau claims is not used.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ DOUBLE_BITS = 53
 
 @dataclass(frozen=True)
 class CertifiedOrder:
-    """An order, its certificate, and those conditions of the next order that the method does not satisfy.
+    """The proved order of a method, its certificate, and the conditions of the next order that the method
+    violates.
 
     If ``bound`` is true, no condition failed up to the largest order that was examined, so the order may be
     higher. If the order was computed for an abelian group, ``classical`` is the classical family to which the
@@ -71,11 +73,11 @@ def family_of(method: Method) -> Family:
 
 
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
-    """Return the order of a method in its family; raise a MethodError if the precision of the coefficients
-    does not determine the order.
+    """Return the order of a method in its family.
 
-    If the group of ``scene`` is abelian, a method of some families reduces to a classical method. The
-    conditions of the classical family are then used, if they determine the order.
+    If the group of ``scene`` is abelian, the methods of some families reduce to classical methods. The
+    conditions of the classical family are then used if they determine the order. MethodError is raised if the
+    coefficients have too few digits to determine the order.
     """
     from orderconds.checking import check
 
@@ -95,8 +97,10 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
 
 def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision, scene: Problem) -> str:
-    """Return a sentence for a header: how well the order conditions hold if the coefficients are rounded to
-    the precision ``target``."""
+    """Return a sentence for a header: the size of the residuals after the coefficients are rounded.
+
+    ``target`` is the precision to which the coefficients are rounded.
+    """
     from orderconds import families
 
     lowered = lowering(method.family)

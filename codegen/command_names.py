@@ -1,4 +1,4 @@
-"""Names of scenes and methods in the command that regenerates a module."""
+"""Shorten and quote the names of scenes and methods for the command that regenerates a module."""
 
 from __future__ import annotations
 

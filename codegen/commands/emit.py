@@ -248,8 +248,10 @@ def _warn(compiled: Compiled, scene: str, method: str) -> None:
 
 
 def explanation(compiled: Compiled) -> str:
-    """Return the text that ``--explain`` prints: the program before the first compiler pass and after each
-    pass, the operation counts, and what the emitted code leaves out for this scene and method.
+    """Return the text that ``--explain`` prints.
+
+    It contains the program before the first compiler pass and after each pass, the operation counts, and the
+    features that the emitted code omits for this scene and method.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations
@@ -290,8 +292,10 @@ def solvers_of(compiled: Compiled) -> list[str]:
 
 
 def functions_of(compiled: Compiled) -> list[dict[str, object]]:
-    """Return name, number of calls and description of each outlined function of a step. An outlined function
-    contains a computation that a step needs several times."""
+    """Return the name, the number of calls and a description of each outlined function of a step.
+
+    An outlined function contains a computation that a step needs several times.
+    """
     from codegen.kernel.outlined_functions import calls
 
     often = calls(compiled.kernel)

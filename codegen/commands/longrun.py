@@ -123,8 +123,10 @@ def show_properties(rows: Sequence[Properties]) -> None:
 
 
 def show(run: LongRun) -> None:
-    """Print one run: its quantities, the distance from the start after equally many steps forward and back,
-    and the symplectic defect."""
+    """Print one run: the drift of its quantities, its reversibility errors and its symplectic defect.
+
+    A reversibility error is the distance from the initial state after n steps forward and n steps back.
+    """
     click.echo(f"{run.method} on {run.scene}, {run.steps} steps of {run.h:g}")
     rows = [
         [

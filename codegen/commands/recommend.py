@@ -1,4 +1,4 @@
-"""``orderconds recommend``: find the fastest method for a scene that reaches an error and satisfies needs."""
+"""``orderconds recommend``: find the fastest method that reaches an error and has given properties."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def command(
 
 
 def show(result: Recommendation) -> None:
-    """Print the recommendation, the runner-up and the command that emits the integrator."""
+    """Print the fastest method, the runner-up and the command that emits the integrator."""
     from codegen.lab.page.formatting import duration
 
     asked = result.request
@@ -109,7 +109,7 @@ def show(result: Recommendation) -> None:
 
 
 def control(asked: Request, place: Result) -> str:
-    """Return the step size or the tolerance of a run as a text; '' if the step size is not known."""
+    """Return the step size or the tolerance of a run as text, or '' if the step size is not known."""
     if place.tolerance is not None:
         return f"rtol = atol = {place.tolerance:.1e}"
     from codegen.lab.efficiency.recommend import step_of
@@ -119,7 +119,7 @@ def control(asked: Request, place: Result) -> str:
 
 
 def searched(result: Recommendation) -> str:
-    """Return a sentence on the extent of the search."""
+    """Return a sentence about the search: the numbers of methods compared, the time, and its limits."""
     text = (
         f"{result.predicted} methods compared by prediction, {result.raced} by measurement, "
         f"in {result.seconds:.0f} s"

@@ -1,5 +1,6 @@
-"""``orderconds regenerate``: emit modules again; rewrite the files of a folder, or compare them byte by byte
-with the new files."""
+"""``orderconds regenerate``: emit modules again, and rewrite the files of a folder or compare them with the
+new files byte by byte.
+"""
 
 from __future__ import annotations
 
