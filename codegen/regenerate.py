@@ -34,7 +34,8 @@ class Entry:
 def entries(path: Path = LIST) -> list[Entry]:
     """Return the entries of the list; an InputError names an entry that cannot be read.
 
-    A list without modules is an error, because every file of ``generated/`` would then be removed as stale.
+    A list without modules is an error. With such a list, every file of ``generated/`` would be removed as
+    stale.
     """
     text = read_text(path, "a list of modules")
     try:
@@ -71,8 +72,10 @@ def _entry(module: object, where: str) -> Entry:
 
 
 def contents(listed: list[Entry]) -> dict[str, str]:
-    """Return the expected files of the folder, including manifests: a dictionary from paths relative to the
-    folder to the texts of the files."""
+    """Return the expected files of the folder, including manifests, as a dictionary from paths to texts.
+
+    Paths are relative to the folder.
+    """
     files: dict[str, str] = {}
     manifests: dict[str, list[dict[str, object]]] = {}
     for entry in listed:
@@ -91,11 +94,10 @@ def contents(listed: list[Entry]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Difference:
-    """A difference between the folder and the files that the list requires: one path and the kind of
-    difference.
+    """A path at which the folder and the files that the list requires differ, and the kind of difference.
 
     ``kind`` is ``missing``, ``different``, ``stale`` (emitted, but not by a listed module) or ``unknown``
-    (never emitted, so it must not be removed).
+    (never emitted). An unknown file must not be removed.
     """
 
     path: str
@@ -134,16 +136,17 @@ def emitted(directory: Path) -> set[str]:
 
 
 def ignored(path: str) -> bool:
-    """Return True if a file may be ignored: a file that Python creates when an emitted module is run, or a
-    temporary file of a writing process that was killed."""
+    """Return True for a file that Python creates beside an emitted module, and for a temporary file.
+
+    Temporary files remain if a writing process is killed.
+    """
     return "__pycache__" in path.split("/") or is_temporary(path.rpartition("/")[2])
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
     """Write the files, remove stale files, and return the differences that existed before writing."""
     changed = compare(directory, files)
-    # Manifests are written last: until then, the old manifests still tell ``emitted`` which files were
-    # emitted.
+    # Manifests are written last. Until then ``emitted`` finds the emitted files in the old manifests.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))
     try:
         for difference in last:

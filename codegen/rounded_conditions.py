@@ -1,6 +1,4 @@
-"""Order conditions at rounded coefficients: the residuals that remain after rounding to a target's
-precision.
-"""
+"""Order conditions at rounded coefficients: residuals after rounding to a target's precision."""
 
 from __future__ import annotations
 
@@ -19,13 +17,15 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 RING = Balls(256)
-"""The ball arithmetic in which residuals are evaluated. It has more bits than the coefficients, because the
-terms of a residual cancel.
+"""The ball arithmetic in which residuals are evaluated.
+
+It has more bits than the coefficients, because the terms of a residual cancel.
 """
 
 MOST = 3000
-"""If an order has more conditions than this number, no residual is computed, because this would take most of
-the time of ``emit``.
+"""If an order has more conditions than this number, no residual is computed.
+
+The computation would take most of the time of ``emit``.
 """
 
 
@@ -33,7 +33,7 @@ def rounded_residual(method: Method, family: Family, order: int, target: Precisi
     """Return the largest residual of the conditions up to ``order``, for coefficients rounded to ``target``.
 
     Every coefficient is rounded once to the target's format. :func:`largest_residual` evaluates the
-    conditions, and states when the result is None.
+    conditions. Its docstring states when the result is None.
 
     >>> from codegen.method import parse
     >>> from codegen.ir.precision import DOUBLE, SINGLE

@@ -1,8 +1,9 @@
-"""Expressions as infix text with few parentheses; the text has the same roundings as the expression tree.
+"""Expressions as infix text with few parentheses. The text has the same roundings as the expression tree.
 
-Expressions are rewritten only if this changes no bit in IEEE arithmetic. Thus a + (-b) becomes a - b, and the
-sign of a factor becomes the sign of the product. Operands of sums and products may be exchanged. Sums and
-products are never regrouped.
+Expressions are rewritten only if the rewriting changes no bit in IEEE arithmetic. Thus a + (-b) becomes a -
+b,
+and the sign of a factor becomes the sign of the product. Operands of sums and products may be exchanged. Sums
+and products are never regrouped.
 """
 
 from __future__ import annotations
@@ -19,8 +20,9 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 
 @dataclass(frozen=True)
 class Rendering:
-    """The text of an expression x without its sign, and the precedence of the text. ``negative`` is true if x
-    has a minus sign. Lines may break between ``segments``.
+    """The text of an expression without its sign, and the precedence of the text.
+
+    ``negative`` is True if the expression has a minus sign. Lines may break between ``segments``.
     """
 
     segments: tuple[str, ...]
@@ -57,17 +59,17 @@ DOUBLES = Style()
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
     """Return the text of an expression in segments between which a line may break.
 
-    ``names`` maps symbols to identifiers of the target; other symbols keep their names.
+    ``names`` maps symbols to identifiers of the target. All other symbols keep their names.
     Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
-    # The text of each node is formed once, although several nodes may contain this node. There is no
-    # recursion, because expressions may be nested more deeply than Python's recursion limit allows.
+    # The text of each node is formed once, although several nodes may contain this node. The loop is not
+    # recursive, because expressions may be nested more deeply than Python's recursion limit allows.
     rendered: dict[int, Rendering] = {}
     for node in walk([root]):
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
-                # The sign is stored separately: the sign of a factor becomes the sign of the product, and a
+                # The sign is stored separately. The sign of a factor becomes the sign of the product, and a
                 # sum turns + into -.
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
@@ -83,8 +85,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
-                # a * (b * c) becomes b * c * a: in IEEE arithmetic multiplication is commutative, but not
-                # associative.
+                # a * (b * c) becomes b * c * a, which saves parentheses. In IEEE arithmetic multiplication is
+                # commutative, but not associative.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":
@@ -92,8 +94,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
                     raise ValueError("the printer received a power that the schedule has not rewritten")
-                # Powers are printed as products, because products are rounded alike in every target, but
-                # results of ``pow`` may differ in the last bit.
+                # Powers are printed as products, because products are rounded alike in every target. Results
+                # of ``pow`` may differ in the last bit.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
                 inner = ", ".join(" ".join(signed(a)) for a in args)
@@ -102,7 +104,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
 
 
 def signed(x: Rendering) -> tuple[str, ...]:
-    """Return the segments of ``x`` with its sign; a negative sum is printed in parentheses."""
+    """Return the segments of ``x`` with its sign. A negative sum is printed in parentheses."""
     if not x.negative:
         return x.segments
     if x.precedence == SUM:
@@ -111,8 +113,8 @@ def signed(x: Rendering) -> tuple[str, ...]:
 
 
 def _add(x: Rendering, y: Rendering) -> Rendering:
-    # Operands of a sum may be exchanged: b - a avoids the sign of -a + b, and a sum on the left needs no
-    # parentheses.
+    # Operands of a sum may be exchanged. Writing b - a avoids the sign of -a + b, and a sum on the left needs
+    # no parentheses.
     if (x.negative and not y.negative) or (_sum(y) and not _sum(x)):
         x, y = y, x
     first = signed(x)
@@ -123,7 +125,7 @@ def _add(x: Rendering, y: Rendering) -> Rendering:
 
 
 def _sum(x: Rendering) -> bool:
-    """Return True if x is printed as a sum without parentheses; a negated sum has parentheses."""
+    """Return True if x is printed as a sum without parentheses. A negated sum has parentheses."""
     return x.precedence == SUM and not x.negative
 
 

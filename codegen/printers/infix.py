@@ -1,8 +1,8 @@
 """Terms of the run representation as infix text: precedence, parentheses and line breaks.
 
 The targets differ in a few operators and functions only, which subclasses of :class:`Infix` define.
-Operations are never regrouped: parentheses reproduce the tree, and are omitted only if precedence implies
-them (a b + c).
+Operations are never regrouped. Parentheses reproduce the tree of operations. They are omitted only if
+precedence implies them, as in a b + c.
 """
 
 from __future__ import annotations
@@ -39,33 +39,34 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments, in parentheses if the precedence is below ``level``."""
-        # If the precedence equals ``level``, no parentheses are added; callers for which the grouping matters
-        # pass a higher level.
+        # Equal precedence gives no parentheses. Callers for which the grouping matters pass a higher level.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")
 
 
 def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
-    """Return segments with ``start`` before the first and ``end`` after the last."""
+    """Return segments with ``start`` before the first segment and ``end`` after the last."""
     if len(segments) == 1:
         return (f"{start}{segments[0]}{end}",)
     return (f"{start}{segments[0]}", *segments[1:-1], f"{segments[-1]}{end}")
 
 
 SHORT, LONG = 48, 80
-"""Operands of at most SHORT characters and comparisons of at most LONG characters are never broken into
-several lines."""
+"""The greatest numbers of characters of an operand (SHORT) and of a comparison (LONG) that is never broken
+into
+lines."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Return all segments joined to one if it has at most ``most`` characters, otherwise the segments."""
+    """Return all segments joined to one segment; return them unchanged if it had more than ``most``
+    characters."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 
 
 class Infix(ABC):
-    """Writes terms as text; ``words`` maps an operator to the target's word for it, if the two differ."""
+    """Writes terms as text. ``words`` maps an operator to the target's operator, if the two differ."""
 
     words: ClassVar[dict[str, str]]
 
@@ -92,8 +93,8 @@ class Infix(ABC):
             tight = {OR: COMPARED, AND: NOT}[level]
             first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
-        # Operators associate to the left: a + (b + c) keeps its parentheses, because regrouping
-        # changes the rounding.
+        # Operators associate to the left. a + (b + c) keeps its parentheses, because regrouping changes the
+        # rounding.
         first = left.within(level if level in (SUM, PRODUCT) else SUM)
         segments = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
         return Text(joined(segments, LONG) if level == COMPARED else segments, level)

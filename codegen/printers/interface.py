@@ -1,7 +1,8 @@
 """The calling convention of an emitted module: prefix, state size, arguments and implicit blocks.
 
-Printers describe the convention in headers, the manifest stores it, and the loader needs it to call the
-module.
+Printers describe the convention in headers. The manifest stores the convention, and the loader uses it to
+call
+the module.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel
 from codegen.ir.precision import DOUBLE, Precision, precision
 
 LISTS = ("parameters", "blocks", "inputs", "solvers")
-"""The fields of :class:`Interface` that are tuples; in JSON they are lists."""
+"""The fields of :class:`Interface` that are tuples. In JSON they are lists."""
 
 LATTICE = ("dimension", "workspace")
 """The fields that describe a lattice."""
@@ -30,17 +31,18 @@ class Interface:
     """The calling convention of one module.
 
     ``prefix`` starts every external C name and ends in an underscore. A state consists of ``size`` numbers.
-    ``time`` is true if the step reads t. ``parameters`` are the run-time parameters in order. ``blocks`` are
+    ``time`` is True if the step reads t. ``parameters`` are the run-time parameters in order. ``blocks`` are
     the labels of the implicit blocks, whose sweeps the statistics count. ``precision`` is the name of the
     number format (:mod:`codegen.ir.precision`). ``inputs`` are the run-time functions of time, in order.
-    ``adaptive`` is true if there is a run with step control. ``solvers`` are the methods that solve the
-    blocks. ``variations`` is the size of the Jacobian; it is 0 if there is no Jacobian. ``batch`` is true if
-    there is a function for many independent systems. ``integrated`` is true if there is a run to a given end
-    time, ``controlled`` if step control chooses the steps of this run. ``events`` is the number of event
-    functions of this run. ``dense`` is the order of the continuous extension, or 0 if there is none.
-    ``dimension`` is the dimension of the lattice, or 0 for a single system. ``workspace`` is the length of
-    the workspace for each site, in numbers. ``modes`` is true for a step on Fourier modes, whose state is an
-    array of any length.
+    ``adaptive`` is True if there is a run with step control. ``solvers`` are the methods that solve the
+    blocks. ``variations`` is the size of the Jacobian, or 0 if there is no Jacobian. ``batch`` is True if
+    there is a function for many independent systems.
+
+    ``integrated`` is True if there is a run to a given end time. ``controlled`` is True if step control
+    chooses the steps of this run. ``events`` is the number of event functions of this run. ``dense`` is the
+    order of the continuous extension, or 0 if there is none. ``dimension`` is the dimension of the lattice,
+    or 0 for a single system. ``workspace`` is the length of the workspace for each site, in numbers.
+    ``modes`` is True for a step on Fourier modes. The state of such a step is an array of any length.
     """
 
     prefix: str
@@ -64,7 +66,7 @@ class Interface:
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
-        """Return the interface of a kernel. The time t and parameters are included only if the kernel reads
+        """Return the interface of a kernel. It has t and a parameter as arguments only if the kernel reads
         them."""
         used = kernel.used_scalars()
         # Run-time inputs are sampled at certain times, so a step that reads inputs has the argument t.
@@ -73,8 +75,9 @@ class Interface:
             prefix=prefix,
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
-            # Parameters that simplification has removed from the kernel are omitted, because they would be
-            # unused arguments.
+            # Simplification may have removed a parameter from the kernel. It is omitted here, because it
+            # would
+            # be an unused argument.
             parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
             blocks=tuple(loop.label for loop in kernel.loops),
             precision=precision,
@@ -99,7 +102,7 @@ class Interface:
 
     @property
     def newton(self) -> bool:
-        """True if Newton's method solves a block; the statistics then also count its matrices."""
+        """True if Newton's method solves a block. The statistics then also count Newton's matrices."""
         return NEWTON in self.solvers
 
     @property
@@ -111,9 +114,8 @@ class Interface:
         """Return plain data for the manifest; :meth:`from_json` reads it back."""
         # Tuples become lists, so that the data equal the data read from a JSON file.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
-        # The manifest of a module without a run to a given end time omits the fields RUN, and the manifest of
-        # a module for a single system omits the fields LATTICE. Only the manifest of a step on Fourier modes
-        # has the fields MODES.
+        # The fields RUN are omitted without a run to a given end time. The fields LATTICE are omitted for a
+        # single system. Only the manifest of a step on Fourier modes has the fields MODES.
         hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
         hidden += () if self.modes else MODES
         return {k: x for k, x in data.items() if k not in hidden}
@@ -121,7 +123,7 @@ class Interface:
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
         """Return the interface that :meth:`as_json` wrote."""
-        # Lists become tuples, because JSON has no tuples. A list that is missing in a manifest is empty.
+        # Lists become tuples, because JSON has no tuples. A list that a manifest does not contain is empty.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))
 
 

@@ -13,8 +13,10 @@ from codegen.printers.expression import Style, render
 
 @dataclass(frozen=True)
 class Lines:
-    """The text of a formula with several outputs. ``assignments`` are pairs of a name and the text of its
-    value, in the order of evaluation. ``outputs`` are the texts of the outputs, which may contain the names.
+    """The text of a formula with several outputs.
+
+    ``assignments`` are pairs of a name and the text of its value, in the order of evaluation. ``outputs`` are
+    the texts of the outputs. They may contain these names.
     """
 
     assignments: tuple[tuple[str, str], ...]
@@ -35,7 +37,7 @@ class ModeFormulas:
     reserved: Collection[str]
 
     def lines(self, kernel: Kernel, **more: str) -> Lines:
-        """Return the text of a kernel; ``more`` are identifiers of further symbols."""
+        """Return the text of a kernel. ``more`` gives the identifiers of further symbols."""
         arranged = arrange(kernel)
         names = {**self.names, **more}
         taken = {*self.reserved, *names.values()}
@@ -52,15 +54,19 @@ class ModeFormulas:
         return Lines(tuple(assignments), outputs)
 
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
-        """Return the text of a factor, a function of z. Here z is h times an eigenvalue of the linear part L.
-        ``call`` returns the text of a call, given a function and the text of its argument."""
+        """Return the text of a factor, a function of z = h times an eigenvalue of the linear part L.
+
+        ``call`` returns the text of a call, given a function and the text of its argument.
+        """
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:
-        """Return the text of the value of a table at one mode. The text names the values of the step's
-        factors at this mode ``f0``, ``f1``, ..."""
+        """Return the text of the value of a table at one mode.
+
+        In this text, ``f0``, ``f1``, ... are the values of the step's factors at this mode.
+        """
         number = {factor: f"f{k}" for k, factor in enumerate(self.step.factors)}
         words: list[str] = []
         for monomial, value in table.multiplier.key:
@@ -82,8 +88,8 @@ class ModeFormulas:
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
     def time(self, number: int, start: str) -> str:
-        """Return the text of the time of evaluation ``number``, given the text ``start`` of the time at which
-        the step begins."""
+        """Return the text of the time of evaluation ``number``; ``start`` is the text of the time at the
+        start of the step."""
         c = self.step.evaluations[number].time
         if c.is_zero:
             return start

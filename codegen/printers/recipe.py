@@ -9,8 +9,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Recipe:
-    """Facts for the header comment. All facts depend on scene, method and options only; none contains a date
-    or a path.
+    """Facts for the header comment. They depend on scene, method and options only, not on date or path.
 
     ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
     ``left_out`` has one line for each part of the general step that this scene and method do not need.
@@ -38,14 +37,14 @@ MOST_ENTRIES = 16
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
-"""The comment of an example that does not set the state."""
+"""The comment of a usage example that does not set the state."""
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
-    """Return the indices and values of the entries of a long initial state that are not zero. The result is
-    None for a short state, which the example contains in full.
+    """Return the indices and values of the nonzero entries of a long initial state.
 
-    If more than :data:`MOST_ENTRIES` entries are not zero, the result is empty, and the example refers to the
+    The result is None for a short state, because the usage example contains a short state in full. If more
+    than :data:`MOST_ENTRIES` entries are not zero, the result is empty. The example then refers to the
     manifest, which contains the state.
 
     >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
@@ -69,8 +68,7 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
             initial_indent=start,
             subsequent_indent=indent,
             break_long_words=False,
-            # Lines are not broken at hyphens, because a command or a name with a line break could not be
-            # copied.
+            # Lines are not broken at hyphens. A command or a name with a line break could not be copied.
             break_on_hyphens=False,
         )
     return lines
@@ -84,8 +82,9 @@ def header(
     stack: str = "",
     inputs: Sequence[str] = (),
 ) -> list[str]:
-    """Return the recipe's lines up to the usage example. A line is longer than ``width`` only if it is a
-    single long word.
+    """Return the recipe's lines up to the usage example.
+
+    A line is longer than ``width`` only if it is a single long word.
 
     ``layout`` describes the state, ``counts`` the operations of a step, and ``inputs`` the run-time inputs.
     ``stack`` states the bound on the stack of a call, if the bound is known.

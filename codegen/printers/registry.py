@@ -39,7 +39,7 @@ def register(new: Target) -> Target:
 
 
 def unregister(name: str) -> None:
-    """Remove a target that was added by :func:`register`; other names have no effect."""
+    """Remove a target that was added by :func:`register`. Unknown names have no effect."""
     _registered.pop(name, None)
 
 
@@ -52,8 +52,8 @@ def targets() -> tuple[Target, ...]:
 
 @cache
 def _built_in() -> tuple[Target, ...]:
-    # The built-in targets are cached, because finding them imports modules. Registered targets are not
-    # cached, because they may change.
+    # The built-in targets are cached, because finding them imports modules. Registered targets may change and
+    # are not cached.
     return tuple(map(resolve_name, BUILT_IN))
 
 

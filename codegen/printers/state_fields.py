@@ -1,4 +1,4 @@
-"""Lines for the header of emitted code, which describe the numbers of a state and the run-time inputs."""
+"""Lines for the header of emitted code that describe the state and the run-time inputs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from codegen.printers.expression import render
 
 
 def layout(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line for each field of the state: the indices, name and meaning of the field."""
+    """Return a line for each field of the state: indices, name and meaning."""
     lines: list[str] = []
     start = 0
     for field in kernel.state:
@@ -19,7 +19,8 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line with the run-time inputs and the times when they are read; no lines without inputs."""
+    """Return a line with the run-time inputs and the times at which they are read; no lines without
+    inputs."""
     if not kernel.inputs:
         return ()
     # Names are not converted to identifiers of the target, because the header shows the names of the scene.

@@ -34,16 +34,16 @@ class Target:
     ``name`` is the name in commands, ``title`` the name in headings, ``about`` one line for listings.
     ``printer`` is a function (kernel, interface, recipe) -> files. ``loader`` is a function (interface,
     parameter values, files) -> :class:`codegen.loader.Integrator`. ``suffix`` is the suffix of the file that
-    contains the step. ``most_steps`` limits the number of steps of a run in measurements of the order; a run
+    contains the step. ``most_steps`` limits the number of steps of a run when the order is measured. A run
     of this length takes about one second.
 
     The other fields are optional. ``compiler`` is a function that compiles the files of a module without a
     cache and returns the seconds. ``observer`` is a function (integrator, state, t, h) that makes one step
-    and returns the solved unknowns of each substep; measurements of implicit steps use these unknowns.
-    ``stack`` is a regular expression; its first group is the stack of a call in bytes, as stated in the file
-    that contains the step. ``batches`` is true if modules can have a function for many systems.
-    ``lattice_loader`` is the loader of modules for lattices, and ``spectral_loader`` is the loader of modules
-    for semilinear equations. If a loader is missing, the target has no modules of this type.
+    and returns the solved unknowns of each substep. Measurements of implicit steps use these unknowns.
+    ``stack`` is a regular expression for the file that contains the step. Its first group is the stack of a
+    call in bytes. ``batches`` is True if modules can have a function for many systems. ``lattice_loader`` is
+    the loader of modules for lattices, and ``spectral_loader`` is the loader of modules for semilinear
+    equations. If a loader is missing, the target has no modules of this type.
     """
 
     name: str
@@ -63,8 +63,8 @@ class Target:
     @property
     def print_module(self) -> PrintModule:
         """The function that prints a module."""
-        # The function is imported only when it is called, so that listing targets does not import printers
-        # and templates.
+        # The function is imported only when it is called. Listing targets then imports no printers and no
+        # templates.
         return cast("PrintModule", resolve_name(self.printer))
 
     @property
@@ -74,14 +74,12 @@ class Target:
 
     @property
     def load_lattice(self) -> LoadLattice:
-        """The function that loads the files of a module for a lattice; ValueError if ``lattice_loader`` is
-        empty."""
+        """The function that loads a module for a lattice; ValueError if ``lattice_loader`` is empty."""
         return cast("LoadLattice", resolve_name(self.lattice_loader))
 
     @property
     def load_spectral(self) -> LoadSpectral:
-        """The function that loads the files of a module for a semilinear equation; ValueError if
-        ``spectral_loader`` is empty."""
+        """The function that loads a module for a semilinear equation; ValueError if there is no loader."""
         return cast("LoadSpectral", resolve_name(self.spectral_loader))
 
     @property

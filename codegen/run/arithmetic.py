@@ -20,8 +20,10 @@ from codegen.run.warm_start import begun
 
 
 def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
-    """Return the statements of a kernel, in order, with ``after_loops`` after the last loop. If ``counting``
-    is true, the sweeps of loops are counted in the statistics."""
+    """Return the statements of a kernel, in order, with ``after_loops`` after the last loop.
+
+    If ``counting`` is True, the statistics count the sweeps of loops.
+    """
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
     # The solution is stored directly after the last loop, when all unknowns have their final values.
@@ -38,16 +40,19 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
-    """Return the statements that assign array entries to their symbols: entry i to ``symbols[i]``. Entries
-    whose symbols are not in ``read`` are omitted."""
-    # Entries that are not read are not loaded, because C compilers warn of unused variables.
+    """Return the statements that assign entry i of an array to ``symbols[i]``, for all symbols in
+    ``read``."""
+    # Entries that are not read are not loaded, because C compilers warn about unused variables.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 
 
 def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Statement], list[Term]]:
-    """Return the statements that assign a kernel's outputs to names, and these names. An output that is
-    already a variable, and not an old entry of the state, keeps its name and needs no statement."""
+    """Return the statements that assign a kernel's outputs to names, and these names.
+
+    Some outputs are already variables. Such an output keeps its name and needs no statement, except if it is
+    an old entry of the state.
+    """
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
@@ -69,7 +74,7 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     """Return the statements that sample run-time inputs at each time and load the inputs that are read."""
     sequence: list[Statement] = []
-    # Inputs are sampled once for each time, before all sweeps: an input function may be slow, and all sweeps
+    # Inputs are sampled once for each time, before all sweeps. An input function may be slow, and all sweeps
     # of a step must use equal values.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
@@ -80,11 +85,12 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
 
 
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
-    """Return an outlined function of a kernel; it returns a single result, or fills an array with several."""
+    """Return an outlined function of a kernel. It returns a single result, or fills an array with several."""
     body: list[Statement] = []
     for statement in arrangement.statements:
-        # An outlined function only evaluates formulas of its inputs. Loops solve equations, and they are
-        # never moved into an outlined function.
+        # An outlined function only evaluates formulas of its inputs. Loops solve equations and are never
+        # moved
+        # into an outlined function.
         assert isinstance(statement, Simple)
         body += simple(statement)
     parameters = tuple(map(own, function.inputs))
@@ -98,8 +104,7 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
 
 
 def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
-    """Return a function that evaluates a kernel on the state and writes the outputs of the kernel to an
-    array."""
+    """Return a function that evaluates a kernel on the state and writes the outputs to an array."""
     arrangement = plan.arrangement
     state = plan.state()
     body = loaded(plan.symbols, state, arrangement.symbols())

@@ -1,7 +1,8 @@
 """Assignments of whole matrices (:mod:`codegen.ir.array_program`) as loops.
 
-The length of the text does not grow with the numbers of rows and columns. Sums are formed for two rows and
-four columns at once, because eight sums that do not depend on each other keep a processor busy.
+The length of the emitted code does not grow with the numbers of rows and columns. Sums are formed for two
+rows
+and four columns at once. These eight sums are independent of each other and keep a processor busy.
 """
 
 from __future__ import annotations
@@ -39,14 +40,18 @@ _ENTRY = real("entry")
 
 Index = Term | int
 Group = Callable[[Term | None, int], Iterator[Statement]]
-"""A function that yields the statements for a group of columns. Its arguments are the first column of the
-group (None for column 0) and the number of columns."""
+"""A function that yields the statements for a group of columns.
+
+Its arguments are the first column of the group (None for column 0) and the number of columns."""
 
 
 @dataclass(frozen=True)
 class ArrayLoops:
-    """Writes assignments of matrices as loops. ``arrays`` maps names of matrices to their arrays. Any other
-    matrix has an array with its own name."""
+    """Writes assignments of matrices as loops.
+
+    ``arrays`` maps names of matrices to their arrays. A matrix that is not in ``arrays`` has an array with
+    its own name.
+    """
 
     arrays: dict[str, Term]
 
@@ -111,7 +116,7 @@ class ArrayLoops:
     ) -> Iterator[Statement]:
         """Yield the statements that compute entries of the target in the given rows and columns.
 
-        An entry is the sum of factor(row, k) other(k, column) for k < ``inner``. If ``added`` is true, the
+        An entry is the sum of factor(row, k) other(k, column) for k < ``inner``. If ``added`` is True, the
         sum is added to the old entry. The statements ``before`` are executed once for each k.
         """
         totals: list[tuple[Term, Index, Index]] = []
@@ -150,15 +155,14 @@ class ArrayLoops:
             yield self.over(part, more, flat=False)
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
-        """Return the entry at a place of a sum of matrices, each multiplied by its weight."""
+        """Return one entry of a weighted sum of matrices; ``place`` is the position of the entry."""
         result: Term | None = None
         for term in terms:
             result = _plus(result, term, weights[id(term)], self.summand(term, place))
         return number(0.0) if result is None else result
 
     def summand(self, term: Summand, place: _Place) -> Term:
-        """Return the entry of a term's matrix at a place. For a transposed term it is the entry of the
-        transposed matrix."""
+        """Return the entry of a term's matrix at a place. If the term is transposed, so is the matrix."""
         turned = _Place(place.column, place.row) if term.transposed and place.column is not None else place
         return self.at(term.matrix, turned)
 
@@ -169,8 +173,11 @@ class ArrayLoops:
         return self.entry(matrix, place.row, place.column)
 
     def over(self, target: Matrix, entry: Callable[[_Place], Term], *, flat: bool) -> Statement:
-        """Return the statement that sets all entries of a matrix: a loop over rows that contains a loop over
-        columns, or, with ``flat``, a single loop over all entries."""
+        """Return the statement that sets all entries of a matrix.
+
+        The statement is a loop over rows that contains a loop over columns. With ``flat`` it is a single loop
+        over all entries.
+        """
         if flat:
             place = _Place(_ROW, None)
             return For(_ROW, whole(target.size), (Assign(self.at(target, place), entry(place)),))
@@ -179,8 +186,8 @@ class ArrayLoops:
         return For(_ROW, whole(target.rows), (inner,))
 
     def weight(self, name: str, c: Expr) -> tuple[Term | None, list[Statement]]:
-        """Return a coefficient as a term, and the statements that compute it. For 1 and -1 the term is
-        None."""
+        """Return a coefficient as a term, and the statements that compute it; the term is None for 1 and
+        -1."""
         if _sign(c):
             return None, []
         if c.op in ("const", "sym"):
@@ -205,9 +212,12 @@ class ArrayLoops:
             yield For(_ROW, whole(c.length(diagonal)), body)
 
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
-        """Return a function that sets a group of entries in row ``row`` of the target. A new entry is the
-        constant :data:`_ENTRY` times the entry of ``a.matrix`` in the same column and in the row with the
-        index ``column``. If ``added`` is true, this product is added to the old entry."""
+        """Return a function that sets a group of entries in row ``row`` of the target.
+
+        A new entry is the constant :data:`_ENTRY` times an entry of ``a.matrix``. This entry has the same
+        column, and its row is the index ``column``. If ``added`` is True, the product is added to the old
+        entry.
+        """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
             for place in (_shifted(first, b) for b in range(columns)):
@@ -256,8 +266,10 @@ class ArrayLoops:
 
 @dataclass(frozen=True)
 class _Place:
-    """The position of an entry: a row and a column. If ``column`` is None, ``row`` is the number of the
-    entry, counted row by row."""
+    """The position of an entry: a row and a column.
+
+    If ``column`` is None, ``row`` is the number of the entry, counted row by row.
+    """
 
     row: Term
     column: Term | None
@@ -266,12 +278,11 @@ class _Place:
 def constant_entry(
     given: Entry, table: str, row: Term, column: Term, place: Term
 ) -> tuple[list[Statement], Term]:
-    """Return an entry of a constant matrix, and the statements that must be executed before the entry is
-    read. If the entry is a formula in its row or column, the statements convert these indices to reals;
-    otherwise there are no statements.
+    """Return an entry of a constant matrix, and the statements to execute before the entry is read.
 
-    If the entries are numbers and not formulas, ``table`` is the name of their table, and ``place`` is the
-    index in this table.
+    If the entry is a formula in its row or column, the statements convert these indices to reals. Otherwise
+    there are no statements. If the entries are numbers and not formulas, ``table`` is the name of their
+    table, and ``place`` is the index in this table.
     """
     if isinstance(given, tuple):
         return [], real(table, len(given))[place]
@@ -289,7 +300,7 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of entries that are given as numbers."""
     # A matrix with formulas in t occurs in ``constants`` once for each stage time. Its numbers do not depend
-    # on t, so its tables are yielded only once.
+    # on t. Therefore its tables are yielded only once.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (

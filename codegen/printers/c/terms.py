@@ -29,12 +29,12 @@ FUNCTIONS = {"abs": "fabs", "power": "pow"}
 
 
 def literal(precision: Precision, x: float) -> str:
-    """Return a number of the format as a C literal."""
+    """Return a number of the format ``precision`` as a C literal."""
     return precision.text(x) + precision.suffix
 
 
 def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = str) -> Style:
-    """Return the constants and function names of C: ``0.5f``, ``sqrtf``, helpers with the module's prefix.
+    """Return the notation of constants and function names in C: ``0.5f``, ``sqrtf``, helpers with a prefix.
 
     ``forms`` maps the name of a function to the name of the variant that a module uses, for example a variant
     without branches.
@@ -44,8 +44,8 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
         name = forms(name)
         if name not in LIBRARY:
             return prefix + name
-        # isfinite is a macro for all types and gets no suffix. All other functions get the suffix, because
-        # without it they would compute in double.
+        # isfinite is a macro for all types and has no suffix. All other functions get the suffix. Without the
+        # suffix they would compute in double.
         return name + precision.suffix if name != "isfinite" else name
 
     return Style(lambda value: literal(precision, precision.round(value)), called)
@@ -54,7 +54,7 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
 class Terms(Infix):
     """Writes the terms of one function in C.
 
-    ``pointers`` are the parameters that are records, ``tables`` the names of the unit's tables.
+    ``pointers`` are the parameters that are records. ``tables`` are the names of the unit's tables.
     """
 
     words: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "//": "/"}
@@ -79,16 +79,16 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
-        # The test is not replaced by the opposite comparison: if a is a NaN, !(a < b) is true and a >= b is
+        # The test is not replaced by the opposite comparison. If a is a NaN, !(a < b) is true, but a >= b is
         # false.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return two tests. All values are finite if and only if at least one of the tests is true."""
-        # The first test is isfinite of the sum of all values, which is faster than a test for each value. It
-        # is false for finite values whose sum overflows. In this rare case the second test decides: it adds
-        # the terms x - x, and cannot overflow.
+        # The first test is isfinite of the sum of all values, which is faster than a test for each value. If
+        # the sum of finite values overflows, the first test is false. In this rare case the second test
+        # decides. It adds the terms x - x, and cannot overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
@@ -103,8 +103,9 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # Every expression of the kernel is treated like a sum: it gets parentheses wherever a sum
-                # would need them.
+                # Every expression of the kernel is treated like a sum. It gets parentheses wherever a sum
+                # would
+                # need them.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))
@@ -122,7 +123,7 @@ class Terms(Infix):
                 return self.converted(term)
             case "holding":
                 # A signal with constant values is printed as two arguments: the emitted function ``hold``,
-                # and a pointer to the values, which ``hold`` copies.
+                # and a pointer to the values. ``hold`` copies these values.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
@@ -132,9 +133,9 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return the text of a name. A signal (the run-time inputs as a function of time) becomes two
-        arguments: a C function and its context pointer."""
-        # The context pointer is needed, because C has no closures.
+        """Return the text of a name. A name of a signal becomes two arguments."""
+        # A signal contains the run-time inputs as a function of time. C has no closures, so a signal consists
+        # of a C function and a context pointer.
         if term.kind is Kind.SIGNAL:
             return "input, context"
         if term.kind is Kind.EVENTS:
@@ -158,7 +159,7 @@ class Terms(Infix):
         if term.op == "part":
             start = int(term.number)
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
-        # A cell is a pointer to one value, so its entry is that value.
+        # A cell is a pointer to one value. Its entry is that value.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
         if (
@@ -169,8 +170,9 @@ class Terms(Infix):
             return Text((f"{self.line(base)} + {base.shape[1]} * {self.line(term.args[1])}",), SUM)
         if base.op == "item" and base.args[0].shape[0] == 0:
             row, width = base.args[1], base.args[0].shape[1]
-            # The first dimension 0 means any number of rows. The caller passes them in one array, one after
-            # the other, so row and column become one index.
+            # The first dimension 0 means any number of rows. The caller passes the rows in one array, one
+            # after
+            # the other. Row and column therefore become one index.
             place = (
                 self.line(width * row + term.args[1])
                 if not _is_zero(term.args[1])
@@ -191,8 +193,7 @@ class Terms(Infix):
     def finite(self, values: Sequence[Term]) -> Text:
         """Return the test that all values are finite."""
         first = values[0]
-        # For an array a helper with a loop is called, because an expression with all its entries would be
-        # long.
+        # For an array, a helper with a loop is called. An expression with all entries would be long.
         if first.shape:
             return Text((f"{self.prefix}all_finite({self.line(first)}, {first.shape[0]})",))
         if len(values) == 1:
@@ -208,8 +209,9 @@ class Terms(Infix):
             (array,) = term.args
             return Text((f"{self.prefix}largest({self.line(array)}, {array.shape[0]})",))
         name = FUNCTIONS.get(term.text, term.text)
-        # In single precision ``sqrtf`` is called and not ``sqrt``, which would convert its argument to double
-        # and the result back.
+        # In single precision ``sqrtf`` is called. ``sqrt`` would convert its argument to double and the
+        # result
+        # back.
         name += "" if name == "isfinite" else self.precision.suffix
         if len(term.args) == 1:
             return Text(closed(f"{name}(", self.text(term.args[0]).segments, ")"))

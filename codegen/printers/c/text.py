@@ -11,7 +11,7 @@ WIDTH = 100
 
 
 def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
-    """Return the maximum of terms as a balanced tree of two-argument calls of ``name``, in segments.
+    """Return the maximum of terms as a balanced tree of calls ``name(x, y)``, in segments.
 
     >>> greatest(["a", "b", "c"])
     ('greater(a,', 'greater(b,', 'c))')
@@ -37,17 +37,16 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 
 
 def comment(text: str) -> str:
-    """Return the text, changed so that it cannot end a C comment."""
+    """Return the text, changed so that it cannot begin or end a C comment."""
     # The characters that start a comment are changed, too, because compilers warn about them inside a
     # comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
 def block_comment(text: str) -> list[str]:
-    """Return the lines of a C comment with a text, broken into several lines if it is long. For an empty text
-    there are no lines."""
+    """Return the lines of a C comment with a text. An empty text gives no lines."""
     safe = comment(text)
-    # Words are never broken: names and commands must stay intact for searching and copying.
+    # Words are never broken, because names and commands must stay intact for searching and copying.
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
     if len(lines) < 2:
         return [f"/* {line} */" for line in lines]
@@ -57,7 +56,8 @@ def block_comment(text: str) -> list[str]:
 def fill(
     start: str, segments: tuple[str, ...], end: str, width: int = WIDTH, separator: str = " "
 ) -> list[str]:
-    """Return lines of start, segments and end, joined by spaces, with breaks before segments that do not fit.
+    """Return ``start``, ``segments`` and ``end``, joined by spaces, with line breaks before segments that do
+    not fit.
 
     ``separator`` separates start and the first segment.
 

@@ -43,7 +43,8 @@ RESERVED = (
 """Words that no variable may have as a name, in addition to the names of the run representation.
 
 These are the keywords of C and the functions of the mathematical library. The keywords of C++ are reserved,
-because C++ programs may include the emitted header. Macros are reserved, too: every macro that some dialect
-of C defines in a header which the module or its caller is likely to include. The names of helpers are not in
-this set: they start with the prefix of their module, so no variable has such a name.
+because C++ programs may include the emitted header. Macros are reserved if some dialect of C defines them in
+a
+header that the module or its caller is likely to include. The names of helpers are not in this set. They
+start with the prefix of their module, so no variable has such a name.
 """

@@ -1,2 +1,4 @@
-"""The target Python: one module for each step. It needs only the standard library, except in single precision
-and for steps on Fourier modes, which need NumPy."""
+"""The target Python: one module for each step.
+
+A module needs only the standard library. In single precision and for steps on Fourier modes it needs NumPy.
+"""

@@ -1,8 +1,8 @@
 """Functions of the run representation in Python: lists are changed in place, and statuses are returned.
 
-A single statement reads several consecutive entries of a list into names, or writes values to several
-consecutive entries. Python raises an arithmetic error where C computes an infinity or a NaN. The guard of a
-function converts the error to a status or to NaNs.
+Consecutive entries of a list are read or written by a single statement if there are enough of them. Python
+raises an arithmetic error where C computes an infinity or a NaN. The guard of a function converts the error
+to a status or to NaNs.
 """
 
 from __future__ import annotations
@@ -47,10 +47,10 @@ class FunctionPrinter:
     def definition(self, function: Function) -> list[str]:
         """Return the lines of a function."""
         own = self.identifiers[function.name]
-        # All functions printed here are private. The public functions are in the template; they convert
+        # All functions printed here are private. The public functions are in the template. They convert
         # arguments and raise exceptions.
         head = filled(f"def _{function.name}(", [own.of(p) for p in function.parameters], "):", 0)
-        # Text from users must not end the docstring, nor contain an escape sequence.
+        # Text from users must not end the docstring, and must not contain an escape sequence.
         about = function.about.replace("\\", "\\\\").replace('"""', "'''")
         lines = [*head, *docstring(about)] if about else head
         depth = 2 if function.guard else 1
@@ -84,8 +84,10 @@ class FunctionPrinter:
         return [*lines, ")"]
 
     def zeros(self, shape: Sequence[int], kind: Kind, record: str = "") -> str:
-        """Return the text of a list of zeros or new records, nested if ``shape`` has several dimensions. For
-        an empty ``shape`` it is the text of a single zero or record."""
+        """Return the text of a list of zeros or new records, nested if ``shape`` has several dimensions.
+
+        An empty ``shape`` gives the text of a single zero or record.
+        """
         if not shape:
             if kind is Kind.RECORD:
                 return f"{class_of(self.unit.record(record))}()"
@@ -98,12 +100,12 @@ class FunctionPrinter:
         return f"[{inner}] * {shape[0]}"
 
     def record(self, record: Record) -> list[str]:
-        """Return the lines of a record's class. All fields of an object are zero initially and after
+        """Return the lines of a record's class. All fields of an object are zero at first and after
         ``clear``."""
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
-            # A large array is printed without its description, because the line would be too long.
+            # A large array is printed without its description. The line would be too long.
             note = f"  # {about}" if about and prod(field.shape) < 100 else ""
             line = f"        self.{field.text} = {self.zeros(field.shape, field.kind)}"
             lines.append(line + note)
@@ -174,8 +176,11 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Return True if a statement may join a group, because it continues the consecutive entries of the
-        group: entries that are read if ``reading`` is true, otherwise entries that are written."""
+        """Return True if a statement may join a group because it continues the consecutive entries of the
+        group.
+
+        If ``reading`` is True, these are entries that are read, otherwise entries that are written.
+        """
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target
@@ -189,8 +194,8 @@ class _Body:
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        # A joint assignment evaluates all values before it writes: no value may depend on an entry that an
-        # earlier assignment of the group writes.
+        # A joint assignment evaluates all values before it writes. Therefore no value may depend on an entry
+        # that an earlier assignment of the group writes.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
@@ -257,8 +262,9 @@ class _Body:
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
-        # This ``break`` ends the loop after its last statement. No loop of the run representation is left
-        # from its middle, so no other ``break`` is printed here.
+        # This ``break`` ends the loop after its last statement. Loops of the run representation are never
+        # left
+        # from the middle, so no other ``break`` is printed here.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:
@@ -269,14 +275,13 @@ class _Body:
             yield f"{'    ' * depth}{name}.clear()"
             return
         if target.shape:
-            # A slice assignment changes the caller's list; a plain assignment would only rebind the local
+            # A slice assignment changes the caller's list. A plain assignment would only rebind the local
             # name.
             name = name if target.op == "part" else f"{name}[:]"
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
-        # x += y is printed only for x = x + y and not for x = y + x, so that the order of the operands is
-        # kept.
+        # x += y is printed only for x = x + y and not for x = y + x. This keeps the order of the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)
@@ -298,16 +303,16 @@ class _Body:
         results = [self.terms.line(r) for r in statement.results]
         name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
-        # ``invert`` comes from the library of helpers, whose names have no underscore. The other functions
-        # are emitted for this module, and their names start with an underscore.
+        # ``invert`` comes from the library of helpers, whose names have no underscore. The names of all
+        # functions of this module start with an underscore.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
 
 
 def _entry(term: Term) -> int | None:
     """Return the constant index of an entry of a list of scalars; None for any other term."""
-    # If the index is a variable, its value is not known when code is generated, so consecutive entries cannot
-    # be recognised.
+    # The value of a variable index is not known when code is generated. Consecutive entries then cannot be
+    # recognised.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
     return int(term.args[1].number)

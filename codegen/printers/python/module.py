@@ -1,5 +1,8 @@
-"""One step as a Python module. The module has the functions ``step`` and ``run``, an exception with the
-reason of a failure, and the recipe as its docstring."""
+"""One step as a Python module.
+
+The module has the functions ``step`` and ``run``, an exception with the reason of a failure, and the recipe
+as its docstring.
+"""
 
 from __future__ import annotations
 
@@ -52,10 +55,10 @@ class _Module:
 
     @cached_property
     def unit(self) -> Unit:
-        """The unit of the module, without the function ``step``: in Python a step is a run of a single
-        step."""
+        """The unit of the module, without the function ``step``."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
-        # The public ``step`` is in the template, where it calls ``run``.
+        # In Python a step is a run of a single step. The public ``step`` is in the template, where it calls
+        # ``run``.
         kept = tuple(f for f in unit.functions if f.name != "step")
         return Unit(unit.scalars, unit.records, unit.tables, kept)
 
@@ -109,15 +112,14 @@ class _Module:
     def imports(self) -> tuple[list[str], list[str]]:
         """Return the names to import from ``math``, and the names to import from NumPy."""
         names = set(self.needed.library)
-        # Names are imported only if they are used, because linters of the user's project report unused
-        # imports.
+        # Names are imported only if they are used. Linters of the user's project report unused imports.
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
         # The helper for powers returns an infinity for a negative power of zero.
         plain |= {"inf"} if self.called & {"infinity", "power"} else set()
         plain |= self.called & {"nan", "copysign"}
         if not self.single:
             return sorted(names | plain), []
-        # NumPy's functions keep float32; functions of ``math`` return doubles.
+        # NumPy's functions keep float32. Functions of ``math`` return doubles.
         return sorted(plain), ["errstate", "float32", *sorted(names - {"isfinite"})]
 
     def parts(self) -> list[list[str]]:
@@ -130,8 +132,8 @@ class _Module:
     def keyword_arguments(self) -> list[str]:
         """Return the run-time parameters, with the scene's values as defaults if all values are known."""
         known = self.recipe.defaults
-        # Either all parameters have defaults or none has, because a parameter with a default must not precede
-        # a parameter without a default.
+        # Either all parameters have defaults or none has. In Python a parameter with a default must not
+        # precede a parameter without a default.
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
         pairs = zip(self.interface.parameters, self.parameters, strict=True)
@@ -236,7 +238,7 @@ class _Module:
 
 
 def keywords(arguments: list[str]) -> list[str]:
-    """Return the arguments after a ``*``, which makes them keyword-only; an empty list without arguments."""
+    """Return the arguments after a ``*``, which makes them keyword-only; an empty list if there are none."""
     return ["*", *arguments] if arguments else []
 
 

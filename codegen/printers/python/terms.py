@@ -1,7 +1,7 @@
 """Terms in Python: names, literals, entries of lists, attributes, calls of the standard library.
 
-In single precision constants are named float32 objects of NumPy, and each object is created once. Such
-objects are needed, because the product of a float32 and a Python float may be a double.
+In single precision constants are named float32 objects of NumPy, and each object is created once. The product
+of a float32 and a Python float may be a double, so literals cannot be used.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from codegen.run.terms import Kind, Term
 
 
 class Constants:
-    """The constants of a module; in single precision ``digits`` maps their names to their digits."""
+    """The constants of a module. In single precision ``digits`` maps their names to their digits."""
 
     def __init__(self, precision: Precision, taken: frozenset[str]) -> None:
         self.precision, self.taken = precision, taken
@@ -59,7 +59,7 @@ class Terms(Infix):
         """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
-        # The test is not replaced by the opposite comparison: if a is a NaN, not a < b is true and a >= b is
+        # The test is not replaced by the opposite comparison. If a is a NaN, not a < b is true, but a >= b is
         # false.
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
@@ -88,7 +88,7 @@ class Terms(Infix):
                 return Text(self.called(term))
             case "finite":
                 first = term.args[0]
-                # The test of many values uses ``all`` and ``map``, whose loops are implemented in C and are
+                # The test of many values uses ``all`` and ``map``. Their loops are implemented in C and are
                 # faster than byte code.
                 listed = self.line(first) if first.shape else self.tuple_of(term.args)
                 return Text((f"all(map(isfinite, {listed}))",))
@@ -98,8 +98,8 @@ class Terms(Infix):
                 return self.argument(term)
 
     def argument(self, term: Term) -> Text:
-        """Return the text of one of four terms: infinity, a signal with constant values, None, or the test
-        that an optional argument is not None."""
+        """Return the text of infinity, None, a signal with constant values, or a test for an optional
+        argument."""
         match term.op:
             case "given":
                 return Text((f"{self.line(term.args[0])} is not None",), COMPARED)
@@ -132,10 +132,10 @@ class Terms(Infix):
         given = [self.line(x) for x in term.args]
         if term.text == "largest":
             return (f"max(map(abs, {given[0]}))",)
-        # `0.0 ** -1` raises in Python; the helper ``_power`` returns an infinity, as C does.
+        # `0.0 ** -1` raises an error in Python. The helper ``_power`` returns an infinity, as C does.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
-        # ``math.copysign`` returns a Python float, with which the next product would be a double.
+        # ``math.copysign`` returns a Python float. With a Python float, the next product would be a double.
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:

@@ -10,13 +10,15 @@ WIDTH = 88
 
 def quoted(text: str) -> str:
     """Return a string literal with double quotes."""
-    # A JSON string is a Python literal, too, and always has double quotes, unlike ``repr``.
+    # A JSON string is also a Python literal and always has double quotes, unlike ``repr``.
     return json.dumps(text, ensure_ascii=False)
 
 
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
-    """Return start, terms with commas, and end: on one line if they fit. Otherwise start and end have their
-    own lines, and the terms between them fill as few lines as possible.
+    """Return ``start``, ``terms`` with commas, and ``end``, on one line if they fit.
+
+    Otherwise ``start`` and ``end`` have their own lines, and the terms between them fill as few lines as
+    possible.
 
     >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
     '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
@@ -41,7 +43,7 @@ def packed(segments: Sequence[str], depth: int) -> list[str]:
 
 
 def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
-    """Return start and segments on one line, or in parentheses on several if one line is too long.
+    """Return start and segments on one line, or on several lines in parentheses if one line is too long.
 
     >>> indented("x = ", ("a", "+ b"), 1)
     ['    x = a + b']
@@ -55,7 +57,8 @@ def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
 
 
 def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
-    """Return start and a tuple of terms: on one line without parentheses, else on several in parentheses."""
+    """Return start and a tuple of terms, on one line if possible, otherwise on several lines in
+    parentheses."""
     space = "    " * depth
     # The comma after a single term makes a tuple of it.
     line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
@@ -67,8 +70,8 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
 def unpacked(names: Sequence[str], value: str, depth: int) -> list[str]:
     """Return the lines that unpack a list into names."""
     lines = listed("", names, depth)
-    # If the names do not fit on one line, they are printed in parentheses, inside which Python allows line
-    # breaks.
+    # If the names do not fit on one line, they are printed in parentheses, because Python allows line breaks
+    # there.
     if len(lines) == 1 and len(f"{lines[0]} = {value}") <= WIDTH:
         return [f"{lines[0]} = {value}"]
     return filled("(", names, f") = {value}", depth)
