@@ -15,8 +15,8 @@ from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
 Enclosure = Callable[[int], arb]
-"""A real number, given by a function. The argument of the function is a number of bits; the result is a ball
-that contains the real number."""
+"""A real number, given by a function. The argument is a number of bits. The result is a ball (interval) that
+contains the real number."""
 
 
 def endpoints(ball: arb) -> tuple[fmpq, fmpq]:
@@ -47,8 +47,8 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     p, q = abs(int(x.p)), int(x.q)
     if p == 0:
         return "0"
-    # The exponent must satisfy 10^exponent <= p/q < 10^(exponent+1). It is estimated from the numbers of
-    # digits of p and q. If the estimate is too large by one, it is corrected.
+    # The exponent must satisfy 10^exponent <= p/q < 10^(exponent+1). The numbers of digits of p and q give an
+    # estimate, which can be too large by one.
     exponent = len(_figures(p)) - len(_figures(q))
     if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
         exponent -= 1
@@ -71,7 +71,7 @@ def _figures(n: int) -> str:
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return as text the decimal with the significant digits ``figures``. The first of them is multiplied by
+    """Return as text the decimal with the significant digits ``figures``. The first digit is multiplied by
     10^exponent. If the exponent is below -5 or above 24, the notation is scientific."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures

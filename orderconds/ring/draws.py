@@ -1,6 +1,6 @@
 """Pseudorandom numbers that are computed from a SHA-256 digest of the tested object and a counter.
 
-Some tests evaluate an object at random points or modulo a random prime. Such a test is valid only if the
+Some tests evaluate an object at random points or modulo a random prime. The result is meaningful only if the
 object was not constructed for these random numbers. Therefore the random numbers are computed from a digest
 of the object itself.
 """
@@ -38,7 +38,7 @@ class Draws:
         """Yield different primes of ``bits`` bits that are 3 modulo 4 and divide none of the numbers
         ``avoided``.
 
-        For such a prime p, a square root of a square x modulo p is x^((p + 1)/4).
+        If a prime p is 3 modulo 4 and x is a square modulo p, then x^((p + 1)/4) is a square root of x.
 
         >>> next(Draws("one file").primes(61)).bit_length()
         61

@@ -1,10 +1,10 @@
 """Real number fields, whose elements are exact algebraic numbers. Whether an element is zero is decidable.
 
-A field Q(a) is represented by a monic irreducible polynomial and enclosures of its real root a. An element is
-a polynomial in the root a, whose degree is lower than the degree of the irreducible polynomial. The element
-is zero iff all coefficients of its polynomial are zero. :class:`orderconds.ring.tower.Tower` constructs
-fields by adjoining one root after another. If the operands of an operation belong to different fields of a
-tower, the operand in the smaller field is first converted to an element of the larger field.
+A field Q(a) is represented by a monic irreducible polynomial and by enclosures of one of its real roots, a.
+An element is a polynomial in a, of lower degree than the irreducible polynomial. The element is zero if and
+only if all coefficients of the polynomial in a are zero. :class:`orderconds.ring.tower.Tower` constructs
+fields by adjoining one root after another. If two operands belong to different fields of a tower, the operand
+in the smaller field is first converted to an element of the larger field.
 """
 
 from __future__ import annotations
@@ -22,20 +22,20 @@ from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
-"""In fields of this or a higher degree, 1/x is computed by solving a linear system. In smaller fields it is
-computed by Euclid's algorithm."""
+"""In fields of this or a higher degree, 1/x is computed by solving a linear system. In fields of lower
+degree, Euclid's algorithm computes 1/x."""
 
 REMEMBERED = 1000
 """The largest size of the cache in which a field stores converted elements of smaller fields."""
 
 
 class Generator(Struct, frozen=True):
-    """A root that is adjoined to a field: a radical, or a root that a tableau file defines by a name and a
-    polynomial. ``index`` is the index n of an n-th root, and 0 for a named root.
+    """A root that is adjoined to a field. It is a radical, or a named root that a tableau file defines by a
+    polynomial.
 
-    The symbol of a radical ``radicand^(1/index)`` is its radicand; the symbol of a named root is its name.
-    ``degree`` is the degree of the field over the preceding field. ``minpoly`` is the polynomial of a named
-    root, and None for a radical.
+    ``index`` is the index n of an n-th root, and 0 for a named root. ``symbol`` is the radicand of a radical
+    as text, or the name of a named root. ``degree`` is the degree of the extended field over the field before
+    the root was adjoined. ``minpoly`` is the polynomial of a named root, and None for a radical.
     """
 
     symbol: str
@@ -57,10 +57,10 @@ class Generator(Struct, frozen=True):
 class NumberField:
     """The real field Q[x]/(modulus) with the embedding that sends x to the enclosed root.
 
-    ``generators`` are the adjoined roots; ``images`` are these roots as polynomials in x. ``parent`` is the
-    field to which the last root was adjoined; ``parent_image`` is the primitive element of the parent as a
-    polynomial in x. ``reciprocals`` is a cache of inverses. It is useful because one division takes as long
-    as many products. It remains small, because the formulas of methods divide only by a few weights.
+    ``generators`` are the adjoined roots. ``images`` are these roots as polynomials in x. ``parent`` is the
+    field to which the last root was adjoined. ``parent_image`` is the primitive element of the parent as a
+    polynomial in x. ``reciprocals`` is a cache of inverses, because one division takes as long as many
+    products. The cache remains small, because the formulas of methods divide only by a few weights.
     """
 
     def __init__(
@@ -89,8 +89,8 @@ class NumberField:
 
     @cached_property
     def _identity(self) -> Key:
-        """The key by which two fields are compared: the name, the irreducible polynomial, and the named
-        roots. Two fields are equal iff their keys are equal."""
+        """The name of the field, the irreducible polynomial and the named roots. Two fields are equal if and
+        only if these triples are equal."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:
@@ -116,8 +116,8 @@ class NumberField:
         return bool(x.polynomial.is_zero())
 
     def lift(self, x: Algebraic) -> Algebraic:
-        """Return x as an element of this field. The number x may belong to a smaller field of the same tower.
-        Raises TypeError for an element of any other field."""
+        """Return x as an element of this field. The number x must belong to this field or to a smaller field
+        of the same tower; otherwise TypeError is raised."""
         if x.field == self:
             return x
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
@@ -158,8 +158,8 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """A basis of the field over Q. Each element of the basis is a product of powers of the generators and
-        is given by the exponents. The exponent of the first generator varies fastest."""
+        """A basis of the field over Q. Each element of the basis is a product of powers of the generators,
+        given by a tuple of exponents. The exponent of the first generator varies fastest."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -235,8 +235,7 @@ class Algebraic:
     """An element of a number field: a ``polynomial`` in the primitive element, of lower degree than the
     field.
 
-    The other operand of an arithmetic operation may be an element of any field of the same tower, an fmpq or
-    an int.
+    Arithmetic operations also accept elements of other fields of the same tower, ``fmpq`` and ``int``.
     """
 
     __slots__ = ("field", "polynomial")
@@ -284,8 +283,7 @@ class Algebraic:
         return None
 
     def __add__(self, other: object) -> Algebraic:
-        # Usually both operands are elements of the same field. This case is treated first, because it needs
-        # no conversion.
+        # Fast path: usually both operands are elements of the same field, and no conversion is necessary.
         if type(other) is Algebraic and other.field is self.field:
             return Algebraic(self.field, self.polynomial + other.polynomial)
         if (pair := self._pair(other)) is None:

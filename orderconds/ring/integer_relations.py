@@ -1,9 +1,9 @@
 """Integer relations between numbers that are known to few digits, by lattice reduction.
 
 An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Let e_k be unit vectors
-and N a large number. The lattice spanned by the vectors (e_k, N x_k) contains a short vector if a combination
-of the numbers x_k with small integer coefficients is zero (Lenstra, Lenstra and Lovasz 1982). The result is
-not proved. The caller must verify it.
+and N a large number. If the c_k are small, the lattice spanned by the vectors (e_k, N x_k) contains the short
+vector sum_k c_k (e_k, N x_k) (Lenstra, Lenstra and Lovasz 1982). A relation that is found in this way is not
+proved, so the caller must verify the relation.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""A relation is accepted only if random numbers satisfy a relation with coefficients of this size with a
-probability below 2^-GUARD."""
+"""A relation is accepted only if random numbers would satisfy a relation with equally small coefficients with
+a probability below 2^-GUARD."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
     """Return small integers c_k with sum_k c_k x_k = 0 up to 2^-bits, where x_k are the given values. Return
-    None if no such integers are found.
+    None if no relation is found.
 
     >>> root = Fraction(2**0.5)
     >>> relation([root / 2 - 1, Fraction(1), root], 50)
@@ -57,8 +57,8 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return a square-free integer d > 1 such that x is equal to p + q sqrt(d), to ``bits`` binary digits,
-    with rational p and q != 0. Return None if no such d is found.
+    """Return a square-free integer d > 1 such that x = p + q sqrt(d), to ``bits`` binary digits, with
+    rational p and q != 0. Return None if no d is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

@@ -1,7 +1,7 @@
 """Balls with gradients: rigorous enclosures of the value and of the first derivatives of a formula.
 
-The method is automatic differentiation in forward mode. The caller sets the precision in a block ``with
-precision(bits)``.
+The derivatives are computed by automatic differentiation in forward mode. The caller sets the precision in a
+block ``with precision(bits)``.
 """
 
 from __future__ import annotations
@@ -63,8 +63,8 @@ class Jets:
         return Jet(value, x.width, _scaled(x.slopes, value / (x.value * index)))
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Jet:
-        """Return, as a constant, the only real root of ``minpoly`` whose distance from ``near`` is at most
-        ``unit``."""
+        """Return the only real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. The
+        result is a constant, with gradient zero."""
         return self.constant(Balls(working_bits()).named_root(minpoly, near, unit, name).value)
 
     def is_zero(self, x: Jet) -> bool | None:
@@ -88,10 +88,10 @@ class Jets:
 
 
 class Jet:
-    """A value and its gradient, both as flint balls. If ``slopes`` is None, the gradient is zero.
+    """A value and its gradient, both as flint balls.
 
-    ``slopes`` is a matrix of one row, which contains the gradient. One flint operation then computes all
-    entries.
+    ``slopes`` is the gradient as a matrix of one row, so that one flint operation computes all entries. If
+    ``slopes`` is None, the gradient is zero.
     """
 
     __slots__ = ("slopes", "value", "width")

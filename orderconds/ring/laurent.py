@@ -1,8 +1,8 @@
 """Laurent polynomials over Q. They can be divided by monomials such as the weights b_i.
 
 This ring is used to expand conditions for a fixed number of stages, in families whose formulas divide by b_i
-(SPRK, VCG). An element is a flint polynomial divided by a monomial, in lowest terms. Hence equal elements
-have equal numerators and equal denominators.
+(``sprk``, ``vcg``). An element is a flint polynomial divided by a monomial, in lowest terms. Hence equal
+elements have equal numerators and equal denominators.
 """
 
 from __future__ import annotations
@@ -17,8 +17,7 @@ Exponents = tuple[int, ...]
 
 
 class LaurentPolynomials:
-    """The ring Q[names, 1/names]. The order of terms is the degree-lexicographic order in the numerator of an
-    element.
+    """The ring Q[names, 1/names]. Terms are in the degree-lexicographic order of the numerator.
 
     >>> R = LaurentPolynomials(["b1", "b2"])
     >>> b1, b2 = R.generators
@@ -67,7 +66,7 @@ class LaurentPolynomials:
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
     def approximate(self, x: Laurent, digits: int = 20) -> str:
-        """Return x as text. The rational coefficients are not rounded."""
+        """Return x as text, with exact rational coefficients."""
         return self.text(x)
 
     def _render(self, exponents: Exponents, c: fmpq) -> str:

@@ -4,9 +4,9 @@ Suppose that the nodes c_1, ..., c_s of a method are the simple roots of one pol
 Gauss, Radau and Lobatto methods. Each vector x over the stages is then p(c) for exactly one polynomial p
 modulo M. The componentwise product of vectors is the product of polynomials modulo M, and a matrix A is a
 linear map of polynomials. Let b be the vector of weights. Suppose that for all k < s, A c^k is a polynomial
-in c with *rational* coefficients, and b.c^k is a rational number. Then all computations are done over Q. For
-example, five Radau nodes generate a field of degree 24. Then the product of two vectors requires one product
-of rational polynomials modulo M, and not five products in this field.
+in c with *rational* coefficients, and b.c^k is a rational number. Then the order conditions are computed over
+Q. For example, five Radau nodes generate a field of degree 24. Then the product of two vectors requires one
+product of rational polynomials modulo M, and not five products in this field.
 
 Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
 field. The polynomial ``A p`` is computed as ``int_0^z p`` modulo M, plus a correction for each power z^k in p
@@ -33,7 +33,7 @@ Matrix = Sequence[Sequence[Element]]
 
 class NodalAlgebra:
     """The algebra Q[z]/M for the nodes of a method. Each matrix of the method is a linear map from this
-    algebra to itself; the weights are a linear map to Q.
+    algebra to itself. The weights are a linear map to Q.
 
     ``corrections[kind]`` contains a pair (k, polynomial) for each k for which A z^k differs from the integral
     of z^k. The polynomial is the difference. ``moments`` contains a pair (k, number) for each k for which
@@ -101,9 +101,9 @@ class NodalAlgebra:
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
     """Return the algebra for the nodes c_i = sum_j a_ij of the first matrix.
 
-    The result is None if the field of the coefficients is Q, or if two nodes are equal. It is also None if
-    one of the following is not rational: the number b.c^k for some k, a coefficient of the polynomial M, or a
-    coefficient of some A c^k as a polynomial in c.
+    The result is None if the coefficients are not in a number field other than Q, or if two nodes are equal.
+    The result is also None if one of the following numbers is not rational: b.c^k for some k, a coefficient
+    of the polynomial M, or a coefficient of some A c^k as a polynomial in c.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))
@@ -181,7 +181,7 @@ class _Guess:
 
 
 def simplest(x: arb) -> fmpq:
-    """Return the rational number with the smallest denominator in a ball. It is computed from the continued
+    """Return the rational number with the smallest denominator in a ball, computed from the continued
     fractions of the end points.
 
     >>> with precision(64):

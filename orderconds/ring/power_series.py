@@ -1,7 +1,7 @@
-"""Truncated power series in h over any base ring. Terms of degree above ``order`` are omitted.
+"""Truncated power series in the step size h, over any base ring. Terms of degree above ``order`` are omitted.
 
 If the program of one step of a method is evaluated over this ring, the result contains the exact Taylor
-coefficients of the local error of the step.
+coefficients of the step in h.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ class PowerSeries:
 
 
 class Series:
-    """A truncated power series; ``coefficients[k]`` multiplies h^k.
+    """A truncated power series. ``coefficients[k]`` multiplies h^k.
 
     Operands may be series of the same ring, elements of the base ring, or integers.
     """

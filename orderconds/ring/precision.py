@@ -1,9 +1,7 @@
-"""The working precision of flint, which is a global variable of the process. Only this module changes the
-precision.
+"""The working precision of flint, a global variable of the process. Only this module changes the precision.
 
-Other modules call the context manager of this module, which restores the previous precision at the end.
-Hence rings of different precision do not affect each other, and the user's own code with python-flint is not
-affected.
+Other modules use the context manager of this module. It restores the previous precision at the end, so that
+neither rings of other precision nor the user's own code with python-flint are affected.
 """
 
 from __future__ import annotations
@@ -13,7 +11,7 @@ from types import TracebackType
 from flint import ctx
 
 
-class precision:  # noqa: N801 - reads as the statement it is: with precision(200): ...
+class precision:  # noqa: N801 - a lower-case name, because the class is used as ``with precision(200):``
     """A context manager that sets the working precision of balls to ``bits`` and restores the previous
     precision at the end.
 

@@ -20,11 +20,11 @@ def rank(rows: Sequence[Row]) -> int:
 
 
 def kernel(rows: Sequence[Row], width: int) -> Iterator[list[tuple[int, Fraction]]]:
-    """Yield the vectors of a basis of the kernel of the matrix with these rows and ``width`` columns. A
-    vector is given by pairs (index, entry) of its non-zero entries.
+    """Yield a basis of the kernel of the matrix with these rows and ``width`` columns. Each vector is a list
+    of pairs (index, entry) of its non-zero entries.
 
     Pivot columns are chosen from the left. Each basis vector has the entry 1 at one column that is not a
-    pivot column; this entry comes first. All other entries are at pivot columns.
+    pivot column. This entry comes first. All other entries are at pivot columns.
 
     >>> [[(place, str(x)) for place, x in vector] for vector in kernel([[1, 2, 0]], 3)]
     [[(1, '1'), (0, '-2')], [(2, '1')]]

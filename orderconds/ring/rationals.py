@@ -1,5 +1,5 @@
-"""The field of rational numbers. Elements have python-flint's type ``fmpq``, because operations with a
-wrapper would take more time."""
+"""The field of rational numbers. Elements have python-flint's type ``fmpq``, because a wrapper would make
+operations slower."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from orderconds.ring.precision import precision
 
 
 class Rationals:
-    """The ring Q; use the instance :data:`QQ`.
+    """The field Q. Its only instance is :data:`QQ`.
 
     >>> QQ.text(QQ.rational(1, 6) + QQ.rational(1, 3) * 2)
     '5/6'

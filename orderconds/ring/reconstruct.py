@@ -11,9 +11,9 @@ def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
     """Return the unique fraction p/q with these residues and with |p| and q at most sqrt(M/2), where M is the
     product of the primes.
 
-    The algorithm combines the residues by the Chinese remainder theorem. It then applies Euclid's algorithm
-    and stops when the remainder is below the bound (von zur Gathen and Gerhard, *Modern Computer Algebra*,
-    Section 5.10). Raises ArithmeticError if no such fraction exists.
+    The Chinese remainder theorem combines the residues. Euclid's algorithm is then applied until the
+    remainder is at most sqrt(M/2) (von zur Gathen and Gerhard, *Modern Computer Algebra*, Section 5.10).
+    Raises ArithmeticError if the algorithm finds no fraction.
 
     >>> primes = (10007, 10009)
     >>> print(rational_number([-5 * pow(12, -1, p) % p for p in primes], primes))

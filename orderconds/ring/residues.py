@@ -1,8 +1,8 @@
 """Vectors of residues modulo a prime, one residue for each sample. This ring is used to compute how many
 conditions are independent.
 
-An element is a vector of independent residues. A random vector is the value of one coefficient in many random
-tableaux, one tableau for each entry. The prime is below 2^31, so that products fit in 64 bits.
+A random vector contains the values of one coefficient in many random tableaux. Each entry (sample) belongs to
+one tableau. The prime is below 2^31, so that products fit in 64 bits.
 """
 
 from __future__ import annotations
@@ -71,8 +71,7 @@ class Residues:
         return tuple(int(v) for v in x.values)
 
     def approximate(self, x: Residue, digits: int = 20) -> str:
-        """Return the residues as text. They are not decimals, because a residue has no decimal
-        approximation."""
+        """Return the residues as text, because a residue has no decimal approximation."""
         return self.text(x)
 
 
@@ -80,8 +79,8 @@ class Residue:
     """A vector of residues, shape (samples,), with componentwise arithmetic."""
 
     __slots__ = ("ring", "values")
-    # Because this attribute is None, NumPy does not handle operations with this class. Python then calls
-    # __radd__ etc. if the left operand is a NumPy scalar.
+    # Because of this attribute, NumPy does not handle operations with this class. If the left operand is a
+    # NumPy scalar, Python calls __radd__, __rmul__ and so on.
     __array_ufunc__ = None
 
     def __init__(self, ring: Residues, values: NDArray[np.int64]) -> None:

@@ -1,4 +1,4 @@
-"""Real roots of rational polynomials. A root is specified by a decimal near it, and can be enclosed in a ball
+"""Real roots of rational polynomials. A nearby decimal specifies a root. The root can be enclosed in a ball
 to any precision."""
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
     """Return a monic irreducible factor of a polynomial, and a real root of the factor.
 
     The root is the only real root of the polynomial in [near - unit, near + unit]. Raises ValueError if the
-    interval contains no root or more than one. ``coefficients`` are those of the polynomial, in ascending
-    order.
+    interval contains no root or more than one. ``coefficients`` contains the coefficients of the polynomial
+    in ascending order.
 
     >>> factor, root = isolate([fmpq(-2), fmpq(0), fmpq(0), fmpq(1)], fmpq(126, 100), fmpq(1, 100))
     >>> factor, root(64).overlaps(arb(2).root(3))
@@ -66,8 +66,8 @@ def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> t
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:
     """Return a decimal that identifies ``root`` among the real roots of the polynomial ``monic``.
 
-    The decimal differs from ``root`` by at most one unit of its last place, and from every other real root by
-    more than one unit. It has 10 places if they suffice, otherwise 20, 40, ... places.
+    The decimal differs from ``root`` by at most one unit of the last place, and from every other real root by
+    more than one unit. The decimal has 10 places if 10 suffice, otherwise 20, 40, ... places.
 
     >>> from flint import fmpq_poly
     >>> from orderconds.ring.precision import precision

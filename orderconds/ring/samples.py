@@ -1,10 +1,10 @@
 """Vectors of residues modulo a prime. The implementation does not use NumPy, because the import of NumPy
 would take as long as the check of a whole tableau file.
 
-The ring (Z/p)^n of n samples is isomorphic to (Z/p)[z]/((z - 0)(z - 1) ... (z - (n - 1))): sample k is the
-value of a polynomial at z = k. One sum or product of polynomials thus computes the result for all samples.
-The map from the samples to the coefficients of the polynomial is linear and invertible, so ranks can be
-computed from the coefficients.
+Let p be the prime. The ring (Z/p)^n of n samples is isomorphic to (Z/p)[z]/((z - 0)(z - 1) ... (z - (n -
+1))): sample k is the value of a polynomial at z = k. One sum or product of polynomials thus computes the
+result for all samples. The map from the samples to the coefficients of the polynomial is linear and
+invertible. Hence ranks can be computed from the coefficients.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ class Samples:
 
     def random(self, generator: Random) -> Sample:
         """Return independent, uniformly distributed samples. The coefficients of the polynomial are drawn
-        uniformly; the samples are then also uniform, because the map between them is linear and
-        invertible."""
+        uniformly. The samples are then also uniform, because the map from coefficients to samples is linear
+        and invertible."""
         return Sample(
             self, nmod_poly([generator.randrange(self.prime) for _ in range(self.count)], self.prime)
         )
@@ -67,8 +67,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial. They can replace the samples in a computation
-        of ranks, because the map from the samples to the coefficients is linear and invertible."""
+        """Return the ``count`` coefficients of the polynomial. In a computation of ranks, these coefficients
+        can replace the samples, because the map between them is linear and invertible."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 
@@ -81,8 +81,7 @@ class Samples:
         return tuple(self.coordinates(x))
 
     def approximate(self, x: Sample, digits: int = 20) -> str:
-        """Return the samples as text. They are not decimals, because a residue has no decimal
-        approximation."""
+        """Return the samples as text, because a residue has no decimal approximation."""
         return self.text(x)
 
 
@@ -150,11 +149,11 @@ def _plain(x: Element) -> Element:
 def echelon(
     columns: Sequence[Sequence[int]], prime: int
 ) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
-    """Return the pivots of a matrix modulo ``prime``, and a map of the other columns. The pivots are the
-    indices of columns that are not combinations of earlier columns.
+    """Return the pivot columns of a matrix modulo ``prime``, and the other columns as combinations of pivot
+    columns.
 
-    The map contains every column that is not a pivot, as a combination of pivot columns: {column: {pivot:
-    residue}}.
+    A pivot column is not a combination of earlier columns. The second result has the form {column: {pivot
+    column: coefficient}}, with all coefficients modulo ``prime``.
 
     >>> echelon([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
     ((0, 2), {1: {0: 2}, 3: {0: 3, 2: 1}})

@@ -4,7 +4,7 @@ contains every coefficient.
 A root b of a separable polynomial over K = Q(a) is adjoined as follows. In the algebra K[x]/(polynomial), let
 c be the first of the elements b, ab, b + a, b - a, ... whose powers span the algebra. The characteristic
 polynomial of c is computed and factored. Balls decide which irreducible factor vanishes at the real number c.
-If the degree of this factor is the degree of K, b is already an element of K, and no new field is formed. For
+If this factor and K have the same degree, b is already an element of K, and no new field is formed. For
 example, sqrt(8) becomes 2 sqrt(2) if K contains sqrt(2).
 """
 
@@ -24,19 +24,19 @@ from orderconds.ring.rationals import QQ
 from orderconds.ring.roots import isolate
 
 MAX_DEGREE = 24
-"""The largest degree of a field. For larger degrees, balls are more efficient."""
+"""The largest degree of a field. For higher degrees, computation with balls is more efficient."""
 MAX_DIMENSION = 64
 """The largest dimension of an algebra that is constructed to adjoin a root."""
 
 
 class DegreeError(ArithmeticError):
-    """The error that is raised if the degree of a field would exceed :data:`MAX_DEGREE`, or the dimension of
-    an algebra :data:`MAX_DIMENSION`."""
+    """The error for a field whose degree would exceed :data:`MAX_DEGREE`, or an algebra whose dimension would
+    exceed :data:`MAX_DIMENSION`."""
 
 
 class Tower:
-    """A number field that is extended when a root is adjoined. Elements that were computed before remain
-    valid: they belong to a smaller field, and are converted to the current field when this is necessary.
+    """A number field that is extended when a root is adjoined. Earlier elements remain valid. They belong to
+    a smaller field and are converted to the current field when necessary.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -55,16 +55,16 @@ class Tower:
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
         """Return an exact rational number.
 
-        Raises TypeError for a positive ``unit``, because the constant is then a rounded decimal, and only a
-        ball can represent a rounded decimal.
+        Raises TypeError for a positive ``unit``. The constant is then a rounded decimal, which only a ball
+        can represent.
         """
         if unit:
             raise TypeError("a number field contains no balls")
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the final ring (Q if no root was adjoined), and the map that converts numbers of all fields
-        of the tower to elements of this ring."""
+        """Return the current field, or Q if no root was adjoined, and a function that converts every number
+        of the tower to an element of this ring."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -142,9 +142,12 @@ class Tower:
     def _adjoin(
         self, powers: list[Algebraic], enclosure: Enclosure, generator: Callable[[int], Generator]
     ) -> Algebraic:
-        """Return the number b as an element of the field. If the field does not contain b, it is extended.
+        """Return the number b as an element of the field. If the field does not contain b, the field is
+        extended.
+
         The number b is given by ``enclosure`` and the equation b^k = sum_j powers[j] b^j with k =
-        len(powers)."""
+        len(powers).
+        """
         field = self.field
         if len(powers) == 1:
             return powers[0]
@@ -173,8 +176,8 @@ class Tower:
 
 class _Relation:
     """An element c that generates the algebra K[x]/(polynomial of b) over Q, where K = Q(a).
-    ``characteristic`` is the characteristic polynomial of c; ``a`` and ``b`` are a and b as polynomials in
-    c."""
+    ``characteristic`` is the characteristic polynomial of c. The attributes ``a`` and ``b`` are the numbers a
+    and b as polynomials in c."""
 
     def __init__(self, solution: fmpq_mat, dimension: int) -> None:
         column = [fmpq_poly([solution[i, j] for i in range(dimension)]) for j in range(3)]
@@ -184,8 +187,8 @@ class _Relation:
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
     """Return the first of the elements b, ab, b + a, b - a, ... that generates the algebra K[x]/(polynomial
-    of b), where K = Q(a) is ``field``. The result is (m, relation) for b + m a, and (None, relation) for
-    ab."""
+    of b), where K = Q(a) is ``field``. The result is (m, relation) for the element b + m a, and (None,
+    relation) for ab."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)

@@ -1,9 +1,9 @@
-"""A ring that records arithmetic operations as a straight-line program, which has no branches and no loops.
+"""A ring that records arithmetic operations as a straight-line program, a program without branches and loops.
 An element is the index of an operation in the program, or a constant.
 
-If an algorithm runs over this ring, its operations are recorded as a program. The program can later be
-evaluated at any inputs. Equal operations are recorded once. Operations between two constants, and x + 0, 0 x,
-1 x, x/1 and 0/x, are evaluated at once and not recorded.
+If an algorithm runs over this ring, the operations of the algorithm are recorded as a program. The program
+can later be evaluated at any inputs. Equal operations are recorded once. Operations between two constants,
+and x + 0, 0 x, 1 x, x/1 and 0/x, are evaluated at once and not recorded.
 """
 
 from __future__ import annotations
@@ -83,8 +83,8 @@ class Traces:
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
-        """Record an operation of two elements, and return its result. At least one of the elements must not
-        be a constant."""
+        """Record an operation of two elements, and return the result. The two elements must not both be
+        constants."""
         left, right = x.placed(), y.placed()
         if kind != DIVIDE and left > right:
             left, right = right, left
@@ -112,7 +112,7 @@ class Trace:
         return self.ring.text(self)
 
     def placed(self) -> int:
-        """Return the index of the operation; a constant is recorded if necessary."""
+        """Return the index of the operation. A constant is first recorded as an operation."""
         return self.place if self.constant is None else self.ring.constant(self.constant)
 
     def _lift(self, x: Element) -> Trace:
@@ -166,7 +166,7 @@ def evaluate(
     operations: Sequence[Operation], inputs: Sequence[Element], ring: RingWithRoots
 ) -> list[Element]:
     """Return the values of all operations, one for each element of ``operations``. The ring must have
-    division and, if a root is recorded, roots.
+    division. If a root is recorded, the ring must also have roots.
 
     >>> from orderconds.ring import QQ
     >>> R = Traces(1)

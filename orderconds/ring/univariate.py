@@ -1,4 +1,4 @@
-"""Polynomials over Q in one variable, the time s. They are used to compute iterated integrals over [0, 1].
+"""Polynomials over Q in one variable, the time s, for iterated integrals over [0, 1].
 
 Elements have python-flint's type ``fmpq_poly``, which supports ``+ - *``.
 """

@@ -2,17 +2,21 @@
 
 Let q0 be the initial position and mu1 the final momentum of a step. If the step is expanded about (q0, mu1),
 each stage velocity and each stage momentum is a sum over the trees of :mod:`orderconds.series.action_trees`.
-The coefficients at stage i with weight b_i are
+In these trees, u, v and w are words of trees, and M is a multiset of trees. Let b_i be the weight of stage i.
+The coefficients at stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for a tree ``t`` with the word w and the multiset M,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``,
 
 where Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
-coefficient of a word in a group element; the letter x is a variation of the velocity of stage i and occurs
-once. The method has order p iff ``sum_i b_i tau_t(i)`` is equal to the value of the exact flow for every tree
-with at most p vertices. Families differ only in the map from velocities to group elements. This module uses
-products of exponentials (VCG, VCF); :mod:`orderconds.series.action_lie` uses one exponential of a Lie series.
+coefficient of a word in a group element. The letter x is a variation of the velocity of stage i and occurs
+once. The method has order p if and only if ``sum_i b_i tau_t(i)`` is equal to the value of the exact flow for
+every tree t with at most p vertices.
+
+Families differ only in the map from velocities to group elements. This module uses products of exponentials
+(the families ``vcg`` and ``vcf``). The module :mod:`orderconds.series.action_lie` uses one exponential of a
+Lie series.
 """
 
 from __future__ import annotations
@@ -29,7 +33,7 @@ Stages = list[Element]
 """A vector over the stages: one ring element for each stage."""
 
 Exponential = tuple[tuple[int, Element], ...]
-"""The exponent of one exponential, as pairs (stage, coefficient); zero coefficients are omitted."""
+"""The exponent of one exponential, as pairs (stage, coefficient). Zero coefficients are omitted."""
 
 Row = tuple[Exponential, ...]
 """The exponentials of one group element, in the order in which they act."""
@@ -38,8 +42,8 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method over one ring. Computed values are cached.
 
-    ``weights`` are the b_i, all invertible in ``ring``. A row is an index: row i < ``stages`` denotes stage
-    i, and the last row, with index ``stages``, denotes the update.
+    ``weights`` contains the weights b_i, which must be invertible in ``ring``. A row is an index: row i <
+    ``stages`` denotes stage i, and row ``stages`` denotes the update.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -58,13 +62,13 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in the group element of a row: a stage, or the update (the last
-        row)."""
+        """Return the coefficient of a word in the group element of stage ``row``, or of the update if ``row``
+        is the number of stages."""
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in a row, where u is ``before``, v is ``after`` and x is a
-        variation of the velocity of ``stage``."""
+        """Return the coefficient of the word u x v in the group element of ``row``. Here u is ``before``, v
+        is ``after``, and the letter x is a variation of the velocity of ``stage``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return :meth:`coefficient` of a word for every stage."""
@@ -112,8 +116,8 @@ class ActionSeries(ABC):
         ]
 
     def stage_insertions(self, before: Word, after: Word) -> list[Stages]:
-        """Return the values of :meth:`insertion` as a table. The outer index is the row j; the inner index is
-        the stage i whose velocity is varied."""
+        """Return the values of :meth:`insertion` as a table. The outer index is the row, and the inner index
+        is the stage whose velocity is varied."""
         values = self._insertions.get((before, after))
         if values is None:
             values = self._insertions[before, after] = self._stage_insertions(before, after)
@@ -139,8 +143,7 @@ class ActionSeries(ABC):
         """Return sum_i b_i tau_t(i). This number is the coefficient of the tree t in the update, and also the
         coefficient of the elementary Hamiltonian of t.
 
-        Intermediate values that only this tree needs are not cached, so that the cache for all trees of one
-        order fits in memory.
+        The coefficients tau_t(i) are not cached, so that the cache for all trees of one order fits in memory.
         """
         known = self._tau.get(tree)
         values = self._velocity(tree) if known is None else known
@@ -150,28 +153,28 @@ class ActionSeries(ABC):
         """Return the coefficients of all words with at most ``vertices`` vertices in the group element of the
         update.
 
-        Let ``F(t)`` be the right-invariant field of t at (q0, mu1), divided by the order of the symmetry
-        group of t. For every function f on the group, ``f(q1)`` is the sum over all words ``w = t_1 ...
-        t_k`` of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``. The field of the first letter acts first.
+        Let ``F(t)`` be the right-invariant field of the tree t at (q0, mu1), divided by the order of the
+        symmetry group of t. For every function f on the group, ``f(q1)`` is the sum over all words ``w = t_1
+        ... t_k`` of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``. The field of the first letter acts first.
 
-        The same coefficients determine the momentum. Let mubar be the momentum relative to q0, with mubar1 =
-        Ad*_{q1} mu1. Then mubar1 - mubar0 is a sum over the trees t = (v, M). The term of t is the
-        coefficient of the one-letter word t, times the covector ``x -> -D_q H(x v | M)``. In this covector
-        the derivative along x is applied first. The covector mubar1 is a linear combination of the covectors
-        ``x -> <mu1, ad t_1 ... ad t_k x>`` for all words ``t_1 ... t_k``. The factor of such a covector is
-        the coefficient of the reversed word ``t_k ... t_1``.
+        The same coefficients determine the momentum. Let mubar0 and mubar1 be the initial and final momentum
+        relative to q0, with mubar1 = Ad*_{q1} mu1. Then mubar1 - mubar0 is a sum over the trees t = (v, M).
+        The term of t is the coefficient of the one-letter word t, times the covector ``x -> -D_q H(x v |
+        M)``. In this covector the derivative along x is applied first. The covector mubar1 is a linear
+        combination of the covectors ``x -> <mu1, ad t_1 ... ad t_k x>`` for all words ``t_1 ... t_k``. The
+        factor of such a covector is the coefficient of the reversed word ``t_k ... t_1``.
         :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates q1 and mu1 in this way.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
 
 class CommutatorFreeSeries(ActionSeries):
-    """The action series of a method whose stages and update are products of exponentials (VCG, VCF).
+    """The action series of a method whose stages and update are products of exponentials.
 
     ``rows`` contains the exponentials of each stage and, as the last row, of the update. The weight b_i is
-    the sum of the coefficients of stage i in all exponentials of the update. For VCG the series follows from
-    equation (3.18) of Bogfjellmo and Marthinsen. For VCF the discrete Lagrangian has the same form; the
-    equations of motion contain the coefficients of each exponential.
+    the sum of the coefficients of stage i in all exponentials of the update. For the family ``vcg``, the
+    series follows from equation (3.18) of Bogfjellmo and Marthinsen. For ``vcf``, the discrete Lagrangian has
+    the same form.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -193,18 +196,18 @@ class CommutatorFreeSeries(ActionSeries):
         self._inverse_factorial = [ring.one]
 
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)! for a word t_1 ... t_k.
-        The indices J_l run over the exponentials of the row.
+        """Return the coefficient of the word t_1 ... t_k in the group element of ``row``.
 
-        Here phi_J(t) is the coefficient of the letter t in the exponent of exponential J. A run is a maximal
-        block of letters t_l with equal J_l.
+        The coefficient is sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)!. The indices
+        J_l run over the exponentials of the row, and phi_J(t) is the coefficient of the letter t in the
+        exponent of exponential J. A run is a maximal block of letters t_l with equal J_l.
         """
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in a row, where u is ``before`` and v is ``after``. The
-        letter x is a variation of the velocity of ``stage``. If x, r letters before x and r' letters after x
-        come from the same exponential, the term has the factor 1/(r + 1 + r')!."""
+        """Return the coefficient of the word u x v in the group element of ``row``, where u is ``before`` and
+        v is ``after``. The letter x is a variation of the velocity of ``stage``. If x, r letters before x and
+        r' letters after x come from the same exponential, the term has the factor 1/(r + 1 + r')!."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -213,9 +216,9 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return a part of the coefficient of u x v, where u is ``before`` and v is ``after``: the sum of the
-        terms in which x comes from the exponential with index ``place``. The terms are computed as if the
-        coefficient of x in this exponential were one."""
+        """Return the sum of those terms in the coefficient of u x v in which x comes from the exponential
+        with index ``place``. Here u is ``before`` and v is ``after``. The coefficient of x in this
+        exponential is taken to be one."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -290,7 +293,7 @@ class CommutatorFreeSeries(ActionSeries):
 
 
 def crouch_grossman_rows(ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]) -> tuple[Row, ...]:
-    """Return the exponentials of a Butcher tableau in the family VCG, one for each non-zero coefficient.
+    """Return the exponentials of a Butcher tableau in the family ``vcg``, one for each non-zero coefficient.
 
     >>> from orderconds.ring import QQ
     >>> crouch_grossman_rows(QQ, [[QQ.zero, QQ.zero], [QQ.one, QQ.zero]], [QQ.one, QQ.one])

@@ -7,9 +7,10 @@ def tree_counts(order: int) -> tuple[int, ...]:
     """Return the numbers of unrooted trees (elementary Hamiltonians) with 1, 2, ..., ``order`` vertices.
 
     The generating function of the numbers is U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W =
-    1/(1 - T). The power of x is the number of vertices. T counts g-valued trees, and P counts g*-valued
-    trees. W counts words of g-valued trees, Lie(T) counts the Lie elements over them, and E(P) counts
-    multisets of g*-valued trees. The numbers are upper bounds of the numbers of independent conditions.
+    1/(1 - T). The power of x is the number of vertices. T counts trees with values in the Lie algebra g, and
+    P counts trees with values in the dual g*. W counts words of g-valued trees, Lie(T) counts independent Lie
+    polynomials in g-valued trees, and E(P) counts multisets of g*-valued trees. The numbers are upper bounds
+    of the numbers of independent conditions.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)
@@ -33,9 +34,9 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` copies of H. Two trees are in the same
     class if they differ only in the choice of the root.
 
-    A class corresponds to an unrooted tree. Across some edges of this tree the root can move; the number of
-    possible roots is one more than the number of these edges. Hence the number of classes is R - E. Here R is
-    the number of rooted trees, and E is the number of unrooted trees with one marked edge across which the
+    A class corresponds to an unrooted tree. The root can move across some edges of this tree, and the number
+    of possible roots is one more than the number of these edges. Hence the number of classes is R - E. Here R
+    is the number of rooted trees, and E is the number of unrooted trees with one marked edge across which the
     root can move. The marked edge joins a force to the rest of the tree. Therefore E is the number of pairs
     of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree.
 
@@ -76,8 +77,8 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
 
 
 def _lie_counts(t: list[int], order: int) -> list[int]:
-    """Consider the free Lie algebra with ``t[n]`` letters of weight n. Return the dimensions of its parts of
-    weight 0, ..., ``order`` (Witt's formula)."""
+    """Return the dimensions of the parts of weight 0, ..., ``order`` of a free Lie algebra, by Witt's
+    formula. The algebra has ``t[n]`` letters of weight n."""
     power = [0] * (order + 1)  # the numbers n [x^n] log 1/(1 - T), n = 1, 2, ...
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))

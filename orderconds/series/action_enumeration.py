@@ -1,12 +1,12 @@
-"""Enumeration of the action trees with a given number of vertices. The trees are generated when they are
-needed, simplest trees first.
+"""Enumeration of the action trees with a given number of vertices. The trees are generated on demand,
+simplest trees first.
 
 The cost of a tree measures how difficult its condition is to read. The cost is a sum of non-negative terms,
 among them the costs of the subtrees. Hence a tree whose cost is at most a limit has only subtrees whose costs
 are at most this limit. Subtrees are tried in order of cost, so the search ends at the first subtree whose
-cost exceeds the limit. A long list is enumerated in parts, with increasing cost limits. The parts that a
-check does not need are not computed. For example, there are 6331 trees with six vertices, but the few hundred
-simplest trees decide the order of most methods.
+cost exceeds the limit. A long list is enumerated in parts, with increasing cost limits. A check stops when it
+has decided the order, and the remaining parts are not computed. For example, there are 6331 trees with six
+vertices, but the few hundred simplest trees decide the order of most methods.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ from orderconds.series.action_trees import (
 )
 
 LIMITS = (8, 16, 32, 64, math.inf)
-"""The enumeration is divided into parts. Each part contains the trees whose cost exceeds the previous limit
-but not its own limit."""
+"""The cost limits of the parts of an enumeration. A part contains the trees whose cost exceeds the previous
+limit but not the limit of the part."""
 
 
 def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
@@ -59,7 +59,7 @@ def velocities(vertices: int) -> tuple[Velocity, ...]:
 
 
 def words(vertices: int) -> tuple[Word, ...]:
-    """Return all words of g-valued trees with ``vertices`` copies of H in total; words of low cost come
+    """Return all words of g-valued trees with ``vertices`` copies of H in total. Words of low cost come
     first.
 
     >>> words(2)
@@ -121,8 +121,8 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return pairs (cost, tree) for the g-valued trees that may be letters of a word with a cost of at most
-    ``limit``, sorted by cost. The cost is that of the tree as a letter."""
+    """Return pairs (cost, tree), sorted by cost, for the g-valued trees that may be letters of a word with a
+    cost of at most ``limit``. The first entry is the cost of the tree as a letter."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()
@@ -160,10 +160,13 @@ def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield multisets with their costs. The trees of a multiset are chosen one after another, in decreasing
-    order of (number of vertices, index in the list of all trees with this number of vertices). The previous
-    tree has ``largest`` vertices and index ``bound``. For the first tree ``bound`` is None. The costs of the
-    remaining trees may add up to ``rest``."""
+    """Yield pairs (cost, multiset). The trees of a multiset have ``vertices`` vertices in total, and costs
+    that add up to at most ``rest``.
+
+    The trees are chosen one after another, in decreasing order of (number of vertices, index among the trees
+    with this number of vertices). The previous tree has ``largest`` vertices and index ``bound``. For the
+    first tree, ``bound`` is None.
+    """
     if vertices == 0:
         yield 0, ()
         return

@@ -1,8 +1,7 @@
 """The action series of the exact flow: iterated integrals over [0, 1] of univariate polynomials over Q.
 
-In the formulas of :mod:`orderconds.series.action`, a time s replaces a stage, and ordered integrals replace
-sums over stages. The coefficient a_ji is replaced by 1 if time i is earlier than time j, else by 0. The
-factor 1/b_i is omitted:
+In the formulas of :mod:`orderconds.series.action`, a time s replaces the index of a stage. Integrals over
+ordered times replace sums over stages, and the factor 1/b_i is omitted:
 
 - ``Phi_w(s)`` is the iterated integral of tau over 0 <= s_1 <= ... <= s_k <= s;
 - ``psi_{L(t_1...t_k)}(s)`` is the iterated integral over 1 >= s_1 >= ... >= s_k >= s;
@@ -88,8 +87,8 @@ def psi_product(momenta: Momenta) -> UnivariatePolynomial:
 
 
 def condition(tree: Velocity) -> Fraction:
-    """Return the coefficient of a tree in the exact flow. This is the right-hand side of the order condition
-    of the tree.
+    """Return the coefficient of a tree in the exact flow, the right-hand side of the order condition of the
+    tree.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(condition(t)) for t in velocities(2)]

@@ -1,11 +1,11 @@
-"""Evaluation of trees (:mod:`orderconds.series.action_trees`) for one Hamiltonian H(q, mu): elementary
-velocities, covectors and the local error.
+"""Evaluation of action trees for one Hamiltonian H(q, mu): elementary velocities, covectors and the local
+error. The module :mod:`orderconds.series.action_trees` defines the trees.
 
 A derivative of H along k directions is computed exactly. Direction i has a symbol eps_i whose square is zero.
-The point (q, mu) is moved along each direction, multiplied by its symbol. The derivative is the coefficient
-of eps_1 ... eps_k in the value of H at the moved point. Hence H may be any polynomial in the entries of q and
-the coordinates of mu, over any ring. The group may be any matrix group, because a right-invariant field X
-moves q to (1 + eps X) q.
+The point (q, mu) is moved along direction i by the step eps_i, for all i. The derivative is the coefficient
+of eps_1 ... eps_k in the value of H at the moved point. H may be any polynomial in the entries of q and the
+coordinates of mu, over any ring. The group may be any matrix group, because a right-invariant field X moves q
+to (1 + eps X) q.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ class ActionFields:
         self._covector: dict[Momentum, Coordinates] = {}
 
     def derivative(self, fields: Sequence[Coordinates], covectors: Sequence[Coordinates]) -> Element:
-        """Return the mixed derivative of H: in q along all right-invariant ``fields``, and in mu along all
+        """Return the mixed derivative of H in q along the right-invariant ``fields``, and in mu along the
         ``covectors``. The first field moves q first."""
         q: Matrix = self.q
         mask = 1
@@ -171,12 +171,13 @@ class ActionFields:
         return tuple(values)
 
     def local_error(self, defects: Mapping[Word, Element]) -> tuple[Matrix, Coordinates]:
-        """Return the coefficients of h^(p+1) in q1 - q(h) (a matrix) and in mu1 - mu(h) (coordinates). A
-        method of order p computes (q1, mu1), and (q(h), mu(h)) is the exact solution.
+        """Return the leading terms of the local errors of position and momentum, for a method of order p.
 
-        ``defects`` maps each word with p + 1 vertices to the coefficient of the method's update
-        (``update_words``) minus the coefficient of the flow. For all words with fewer vertices this
-        difference must be zero. The trees are evaluated at the initial point (q, mu).
+        Let (q1, mu1) be the result of one step of size h, and (q(h), mu(h)) the exact solution. The function
+        returns the coefficients of h^(p+1) in q1 - q(h) (a matrix) and in mu1 - mu(h) (coordinates).
+        ``defects`` maps each word with p + 1 vertices to its coefficient in the update (``update_words``)
+        minus its coefficient in the exact flow. For all words with fewer vertices this difference must be
+        zero. The trees are evaluated at the initial point (q, mu).
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -199,8 +200,9 @@ class ActionFields:
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of the covector that maps x to a mixed derivative of H: in q along x and
-        then along the letters of the tree's word, and in mu along the covectors of the tree."""
+        """Return the coordinates of the covector that maps x to a mixed derivative of H. The derivative in q
+        is along x and then along the letters of the tree's word. The derivative in mu is along the covectors
+        of the tree."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

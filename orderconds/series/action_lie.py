@@ -1,11 +1,12 @@
 """The action series of variational Runge-Kutta-Munthe-Kaas methods (VRKMK). The group element of each stage,
 and of the update, is one exponential of a Lie series in the stage velocities.
 
-The exponents are ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j`` for stage i, and ``Y``, with b_j in place of
-a_ij, for the update (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
-dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X. An additional letter x represents a
-variation of the velocity of one stage. In a word ``u x v`` the letter x occurs exactly once. The functions
-of this module call the word u ``before`` and the word v ``after``.
+The exponent of stage i is ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``. In the exponent ``Y`` of the update,
+b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
+dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
+
+An additional letter x represents a variation of the velocity of one stage. In a word ``u x v`` the letter x
+occurs exactly once. The functions of this module call the word u ``before`` and the word v ``after``.
 """
 
 from __future__ import annotations
@@ -30,8 +31,8 @@ of this stage. Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
-    """The action series of the tableau (A, b) in VRKMK. dexpinv is truncated after the power ``cutoff``; if
-    ``cutoff`` is None, it is not truncated.
+    """The VRKMK action series of a tableau (A, b), with dexpinv truncated after the power ``cutoff``. If
+    ``cutoff`` is None, dexpinv is not truncated.
 
     The coefficients of a word are computed for all stages together. The coefficients of a word u x v are
     computed for the variations of all stages together.
@@ -190,9 +191,11 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return one factor for each stage j. Let t be a letter of xi_j. The factor times the coefficient of
-        t in xi_j is the contribution of this letter to the coefficient of the word ``before`` t ``behind`` in
-        dexpinv_{(r),X_j} xi_j. The result None means that all factors are zero."""
+        """Return one factor for each stage j, or None if all factors are zero.
+
+        Let t be a letter of xi_j. The factor times the coefficient of t in xi_j is the contribution of t to
+        the coefficient of the word ``before`` t ``behind`` in dexpinv_{(r),X_j} xi_j.
+        """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -228,11 +231,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms X^n xi X^m of dexpinv that contribute to words in which ``before`` letters precede
-        the letter of xi and ``behind`` letters follow it.
+        """Return the terms X^n xi X^m of dexpinv that contribute to a word with ``before`` letters before the
+        letter of xi and ``behind`` letters after the letter of xi.
 
         In a word the first letter acts first. Hence the letters of X^m precede the letter of xi, and the
-        letters of X^n follow it. The power X^0 = 1 contributes only if its word is empty.
+        letters of X^n follow. The power X^0 = 1 contributes only if there are no letters for it.
         """
         known = self._in_sight.get((before, behind))
         if known is None:
@@ -249,8 +252,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the triples (q, m, n) that represent the terms q X^n xi X^m of the truncated dexpinv with
-        m + n <= ``most``."""
+        """Return the terms q X^n xi X^m of the truncated dexpinv with m + n <= ``most``, as triples (q, m,
+        n)."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 
@@ -260,10 +263,10 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 
 
 class PadeActionSeries(MuntheKaasActionSeries):
-    """The action series of VRKMK in which the inverse of a truncated dexp replaces dexpinv.
+    """The action series of VRKMK methods in which the inverse of a truncated dexp replaces dexpinv.
 
-    The exponents are X_i = h sum_j a_ij v_j, where v_j solves dexp_{(r),X_j} v_j = xi_j. Here dexp_{(r),X} is
-    dexp_X truncated after the r-th power of X, and r is ``cutoff``.
+    The exponents are X_i = h sum_j a_ij v_j, where v_j solves dexp_{(r),X_j} v_j = xi_j. Here xi_j is the
+    velocity of stage j, dexp_{(r),X} is dexp_X truncated after the r-th power of X, and r is ``cutoff``.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -278,8 +281,10 @@ class PadeActionSeries(MuntheKaasActionSeries):
 
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
-    """Return the terms (q_k comb(k, m) (-1)^m, m, k - m) for all k <= ``most`` with q_k != 0 and m <= k. Here
-    sum_k q_k z^k is the power series of 1/sum_{j<=r} z^j/(j+1)! with r = ``cutoff``.
+    """Return the terms of the inverse of the truncated dexp, up to the power ``most``.
+
+    The terms are the triples (q_k comb(k, m) (-1)^m, m, k - m) for all k <= ``most`` with q_k != 0 and all m
+    <= k. Here sum_k q_k z^k is the power series of 1/sum_{j<=r} z^j/(j+1)! with r = ``cutoff``.
 
     >>> [(str(q), m, n) for q, m, n in pade_terms(1, 2)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0), ('1/4', 0, 2), ('-1/2', 1, 1), ('1/4', 2, 0)]

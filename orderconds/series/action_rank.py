@@ -1,12 +1,12 @@
-"""Selection of independent action conditions, by ranks at random tableaux modulo a prime.
+"""Selection of independent action conditions, by ranks at random methods modulo a prime.
 
-A condition of order n depends on other conditions if its value is a linear combination of two kinds of terms:
-other values of order n, and products of values of lower order. The coefficients must be constant, and the
-combination must be valid for every method **and for the exact flow**. Such dependences are computed from the
-values of the trees for many random methods and for the exact flow. Pivots are chosen in the canonical order
-of the trees, so that the simplest trees are selected. The values for the exact flow are necessary. Without
-these values, a condition that no method of the family satisfies would count as dependent. Such conditions
-exist, for example, for VRKMK with too few terms of dexpinv.
+A condition of order n depends on other conditions if its value is a linear combination of other values of
+order n and of products of values of lower order. The coefficients must be constant, and the combination must
+be valid for every method **and for the exact flow**. Such dependences are computed from the values of the
+trees for many random methods and for the exact flow. Pivots are chosen in the canonical order of the trees,
+so that the simplest trees are selected. The values for the exact flow are necessary. Without these values, a
+condition that no method of the family satisfies would count as dependent. Such conditions exist, for example,
+for VRKMK with too few terms of dexpinv.
 """
 
 from __future__ import annotations
@@ -27,24 +27,24 @@ from orderconds.series.action_trees import Velocity
 from orderconds.series.monomials import products
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
-"""A function that returns one action series for many random methods of a family. Each value of the series
-contains one residue for each method (sample)."""
+"""A function that returns one action series for many random methods of a family. Each value of the series is
+a vector with one residue for each method (sample)."""
 
 SPARE_SAMPLES = 24
 """The number of samples minus the largest possible rank. The additional samples make accidental dependences
 improbable."""
 
 BLOCK = 256
-"""The number of samples that are evaluated together. A larger number would be faster, but would need too much
-memory at order 6."""
+"""The number of samples that are evaluated together. A larger number would need too much memory at order
+6."""
 
 
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return, for each of the orders 1, ..., ``order``, the trees whose conditions are independent of all
     simpler conditions.
 
-    The rank is computed modulo two primes, and the larger of the two sets of trees is returned. A rank modulo
-    a prime is never larger than the rank over Q. This proves that the returned trees, together with all
+    The trees are selected modulo two primes, and the larger of the two sets is returned. A rank modulo a
+    prime is never larger than the rank over Q. This proves that the returned trees, together with all
     products of trees of lower order, are independent. With high probability the set is complete. Completeness
     is proved if the number of trees equals the upper bound of
     :func:`~orderconds.series.action_counts.tree_counts`, as for variational commutator-free methods.
@@ -104,11 +104,11 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 
 
 def _largest_rank(order: int) -> int:
-    """Return the largest possible rank at one order, which is the largest number of independent conditions
-    and products of conditions of lower order.
+    """Return the largest possible rank at one order: the largest number of independent conditions and
+    products of conditions of lower order.
 
-    It is the number of monomials of degree ``order`` in graded unknowns, with U_n unknowns of degree n = 1,
-    2, ..., where U_n is the number of unrooted trees.
+    This is the number of monomials of degree ``order`` in unknowns of degrees 1, 2, .... There are U_n
+    unknowns of degree n, where U_n is the number of unrooted trees with n vertices.
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

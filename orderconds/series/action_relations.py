@@ -1,14 +1,14 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
 The value of a tree with n vertices is a linear combination of monomials of degree n in the values of
-independent trees. The combination is the same for every method of the family and for the flow. Trees that
-differ only in the choice of the root have the same value. For all other trees, the values at random methods
-give linear equations for the coefficients of the combination. The equations are solved modulo two primes, and
-the rational coefficients are reconstructed from the residues.
+independent trees. The combination is the same for every method of the family and for the exact flow. Trees
+that differ only in the choice of the root have the same value. For all other trees, the values at random
+methods give linear equations for the coefficients of the combination. The equations are solved modulo two
+primes, and the rational coefficients are reconstructed from the residues.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
-commutator-free methods. These three relations follow from the equation ``psi_{L(H|L)} = 3 psi_{L(HH)} -
-psi_{L(H)}^2``, where psi_p is the coefficient of the tree p at a stage (:mod:`orderconds.series.action`).
+commutator-free methods. They follow from the equation ``psi_{L(H|L)} = 3 psi_{L(HH)} - psi_{L(H)}^2``, where
+psi_p is the coefficient of the tree p at a stage (:mod:`orderconds.series.action`).
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial. Each term consists of a coefficient and of trees; it denotes the product of the
-coefficient and the values of the trees."""
+"""The terms of a polynomial. Each term is a pair (coefficient, trees), the product of the coefficient and the
+values of the trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a map from each dependent tree of the highest order to the polynomial that is equal to the value
-    of the tree.
+    """Return the value of each dependent tree of the highest order as a polynomial in the values of
+    independent trees.
 
     ``independent`` contains the independent trees of each order 1, 2, ..., from
     :func:`orderconds.series.action_rank.independent_trees`. The result is wrong with a probability of about
@@ -80,7 +80,7 @@ SEED = 61
 
 
 class _Drawn(Rationals):
-    """The ring Q. The numerators and denominators of random elements have at most 61 bits."""
+    """The ring Q with random elements, whose numerators and denominators have at most 61 bits."""
 
     def random(self, generator: np.random.Generator) -> Element:
         """Return a random non-zero fraction."""
@@ -94,10 +94,12 @@ def hold_over_rationals(
 ) -> bool:
     """Return True if the relations hold exactly for a random method over Q and for the exact flow.
 
-    The function ``series`` returns the series of a random method; its first argument is the ring of the
-    coefficients. The random method should have more stages than the methods from which the relations were
-    computed. If a relation of degree d is not an identity, it holds at a random method with a probability
-    below d/2^60.
+    The function ``series(ring, generator)`` returns the series of a random method with coefficients in
+    ``ring``. The random method should have more stages than the methods from which the relations were
+    computed. A relation of degree d that is not an identity holds at a random method with a probability below
+    d/2^60.
+
+    In the example, ``right`` contains the relations of order 2, and ``wrong`` changes their coefficients.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -133,8 +135,8 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Return, for each tree, the linear combination of monomials that is equal to the value of the tree. Each
-    combination is a map from the index of a monomial to its coefficient modulo ``prime``."""
+    """Return the value of each tree as a linear combination of monomials. A combination is a map from the
+    index of a monomial to the coefficient of the monomial modulo ``prime``."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:
