@@ -149,7 +149,7 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the multisets of elements of ``trees[start:]`` that have ``vertices`` vertices in total."""
+    """Yield the multisets of trees from ``trees[start:]`` that have ``vertices`` vertices in total."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):

@@ -1,10 +1,10 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
 The root of a tree can be moved to the vertex of a force that is attached to the root: ``o(w | M, H(u*v |
-N))`` and ``o(u o(w | M) v | N)`` have equal coefficients, for every method and for the flow. Both
-coefficients contain a double sum, whose two indices are the stages of the two vertices of the connecting
-edge. The coefficients are equal, because the order of the two summations can be exchanged. Hence one tree of
-each class is sufficient.
+N))`` and ``o(u o(w | M) v | N)`` have equal coefficients, for every method and for the exact flow. Both
+coefficients contain a double sum over the stages of the two connected vertices. The coefficients are equal,
+because the order of the two summations can be exchanged. Trees that are connected by such moves form a class,
+and the condition of one tree of each class is sufficient.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from orderconds.series.action_trees import Force, Velocity, force, velocity
 
 
 def switched(tree: Velocity) -> Iterator[Velocity]:
-    """Yield the trees that result if the root is moved to a neighbouring vertex: to a force that is attached
-    to the root, or to a letter of its word. Equal trees may be yielded several times.
+    """Yield the trees that result if the root is moved to a neighbouring vertex. The neighbours are the
+    forces and the letters of the word at the root. Equal trees may be yielded several times.
 
     >>> list(switched(velocity((), (force(), force()))))
     [o(o(|f(*))), o(o(|f(*)))]
@@ -34,8 +34,8 @@ def switched(tree: Velocity) -> Iterator[Velocity]:
 
 @cache
 def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
-    """Return the classes of trees whose members differ only in the choice of the root. The first tree of each
-    class is the simplest.
+    """Return the classes of trees that differ only in the choice of the root. The first tree of each class is
+    the simplest.
 
     >>> classes(2)
     ((o(o), o(|f(*))), (o(|L(o)),))
@@ -44,8 +44,8 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the classes one by one, in the order of their simplest trees. Each class is computed when it is
-    needed, and only once.
+    """Yield the classes one by one, in the order of their simplest trees. Each class is computed on demand,
+    and only once.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)

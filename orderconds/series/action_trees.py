@@ -1,10 +1,12 @@
 """The trees that index the action series of variational Lie group methods on T*G.
 
-Every node of a tree is either a copy of the Hamiltonian H or a :class:`Transport`. Only the copies of H count
-as vertices. There are two kinds of trees. A tree of either kind may contain subtrees of both kinds:
+Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. D_q and D_mu denote derivatives in
+q and mu. Every node of a tree is either a copy of H or a :class:`Transport`. Only the copies of H count as
+vertices. There are two kinds of trees, and a tree of either kind may contain subtrees of both kinds:
 
-- g-valued ``t = (word w of t's, multiset M of p's)``, a :class:`Velocity`: the derivative of ``D_mu H`` along
-  the word w of right-invariant fields (the first letter acts first) and along the covectors of M;
+- g-valued ``t = (w, M)``, a :class:`Velocity`, with a word w of g-valued trees and a multiset M of g*-valued
+  trees: the derivative of ``D_mu H`` along the right-invariant fields of w (the first letter acts first) and
+  along the covectors of M;
 - g*-valued ``p``: a :class:`Force` ``H(u * v | M)``, a derivative of ``D_q H`` in which the free direction is
   between the words u and v; or a :class:`Transport` ``L(t_1 ... t_k)``, the covector ``x -> <mu, ad t_1 ...
   ad t_k x>``.
@@ -21,10 +23,11 @@ from math import factorial, prod
 
 
 class _Node:
-    """The base class of the three kinds of nodes. A node stores its number of copies of H, its cost and its
-    canonical text. The cost measures how difficult the condition of a tree is for a reader.
+    """The base class of the three kinds of nodes. A node stores the number of copies of H in the tree below
+    the node, the cost and the canonical text of this tree.
 
-    The text is computed only when it is needed, because most trees are only counted and compared.
+    The cost measures how difficult the condition of a tree is for a reader. The text is computed on demand,
+    because most trees are only counted and compared.
     """
 
     __slots__ = ("_key", "_text", "cost", "vertices")
@@ -62,8 +65,8 @@ class _Node:
 
 
 class Velocity(_Node):
-    """The g-valued tree t = (w, M). Use :func:`velocity` to create one: the function returns the same object
-    for equal trees.
+    """The g-valued tree t = (w, M), with a word w and a multiset M. The function :func:`velocity` creates
+    trees and returns the same object for equal trees.
 
     >>> tree = velocity((velocity(),), (force(), force()))
     >>> tree, tree.vertices, tree.symmetry
@@ -85,7 +88,7 @@ class Velocity(_Node):
             cost += p.cost
         self._describe(vertices, cost)
         # A deep tree is harder to read than a wide tree. Therefore the cost of a tree counts twice if the
-        # tree is a letter in a word of another tree.
+        # tree is a letter of another tree.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:
@@ -99,8 +102,8 @@ class Velocity(_Node):
 
 
 class Force(_Node):
-    """The g*-valued tree H(u * v | M). Use :func:`force` to create one: the function returns the same object
-    for equal trees.
+    """The g*-valued tree H(u * v | M), with words u and v and a multiset M. The function :func:`force`
+    creates trees and returns the same object for equal trees.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices
@@ -125,7 +128,7 @@ class Force(_Node):
 
 
 class Transport(_Node):
-    """The g*-valued tree L(w), where w is not empty. Use :func:`transport` to create one: the function
+    """The g*-valued tree L(w) with a non-empty word w. The function :func:`transport` creates trees and
     returns the same object for equal trees.
 
     >>> tree = transport((velocity(), velocity()))
@@ -144,7 +147,7 @@ class Transport(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree: the product of the orders for the letters of w."""
+        """The order of the symmetry group of the tree, the product of the orders for the letters of w."""
         return _symmetry(self.word, ())
 
 
@@ -214,8 +217,8 @@ def canonical_force(before: Word, after: Word, momenta: Momenta) -> Force:
 
 @cache
 def transport(word: Word) -> Transport:
-    """Return the tree L(w). It denotes the covector ``x -> <mu, ad t_1 ... ad t_k x>``, where mu is the
-    momentum at the end of the step.
+    """Return the tree L(w) for w = t_1 ... t_k. The tree denotes the covector ``x -> <mu, ad t_1 ... ad t_k
+    x>``, where mu is the momentum at the end of the step.
 
     >>> transport((velocity(),))
     L(o)
@@ -235,8 +238,7 @@ def multiset(momenta: Momenta) -> Momenta:
 
 
 def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
-    """Return the g-valued tree (w, M). The order of the letters in w matters; the order of the trees in M
-    does not.
+    """Return the g-valued tree (w, M). The order of the trees in M does not matter.
 
     >>> velocity((velocity(),), (force(), transport((velocity(),))))
     o(o|f(*) L(o))
@@ -254,7 +256,7 @@ def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
 
 
 def hamiltonian(tree: Velocity) -> str:
-    """Return the elementary Hamiltonian of a tree as text; ``m`` denotes mu, and ``ad(x) y = [x, y]``.
+    """Return the elementary Hamiltonian of a tree as text. Here ``m`` denotes mu, and ``ad(x) y = [x, y]``.
 
     Arguments before the semicolon are the directions of right-invariant derivatives in q. The first direction
     moves q first. Arguments after the semicolon are the directions of derivatives in mu.

@@ -2,7 +2,7 @@
 
 For each subtree t, a vector tau_t with one entry for each stage is computed once. The entry tau_t(i) is the
 product of ``sum_j a_ij tau_u(j)`` over the branches u of t. If the abscissae c_i are the roots of one
-rational polynomial, a vector is represented by a polynomial in the abscissae (:mod:`orderconds.ring.nodal`).
+rational polynomial, a polynomial in the abscissae represents a vector (:mod:`orderconds.ring.nodal`).
 """
 
 from __future__ import annotations
@@ -36,8 +36,9 @@ class StageAlgebra(Protocol):
 
 
 class ElementaryWeights(Generic[TreeT]):
-    """The numbers ``sum_i b_i tau_t(i)`` of a method, for trees t of any encoding. The number tau_t(i) is the
-    product of ``sum_j a_ij tau_u(j)`` over the branches u of t.
+    """The numbers ``sum_i b_i tau_t(i)`` of a method, for trees t. The encoding of trees is arbitrary.
+
+    The number tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the branches u of t.
 
     ``matrices`` contains one s x s coefficient matrix over ``ring`` for each kind of edge. The function
     ``branches`` returns the branches of a tree as pairs (kind of the edge, subtree).
@@ -117,8 +118,9 @@ class StageVectors:
 class Sums:
     """The sums ``sum_j weight_j x_j`` of several sparse rows. A row contains pairs (j, weight_j).
 
-    If several rows begin with the same pairs (identical objects as weights), their common partial sum is
-    computed once. For a composition of midpoint rules this reduces the number of products from s^2 to 2 s.
+    If several rows begin with the same pairs, with identical objects as weights, their common partial sum is
+    computed once. For a composition of s midpoint rules this reduces the number of products from about s^2 to
+    2 s.
 
     >>> a, b = 2, 3
     >>> sums = Sums([((0, a),), ((0, a), (1, b)), ((0, a), (1, b), (2, 5))], 0)
@@ -129,8 +131,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """For each partial sum: the index of the preceding partial sum, the index j of the added term, and
-        its weight."""
+        """For each partial sum: the index of the preceding partial sum, and the index j and the weight of the
+        added term."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:
@@ -173,7 +175,7 @@ def _uncoloured_branches(tree: Tree) -> tuple[tuple[int, Tree], ...]:
 
 
 def sparse(ring: Ring, row: Sequence[Element]) -> tuple[tuple[int, Element], ...]:
-    """Return the pairs (index, entry) for all entries of a row except those that are proved to be zero.
+    """Return the pairs (index, entry) of a row. Entries that are proved to be zero are omitted.
 
     >>> from orderconds.ring import QQ
     >>> [(place, str(x)) for place, x in sparse(QQ, [QQ.zero, QQ.one])]

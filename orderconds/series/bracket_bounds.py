@@ -1,12 +1,13 @@
 """A lower bound for the number of brackets, computed by linear algebra. The bound holds for every program
-that computes given arguments of exponentials (:class:`orderconds.series.brackets.BracketProgram`).
+that computes given arguments u_1, ..., u_s and u of exponentials
+(:class:`orderconds.series.brackets.BracketProgram`).
 
 The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i is computed
 before the stage value k_i. Hence brackets in u_i contain only the letters q_1, ..., q_(i-1). For a fixed m <
-i, call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets with new letters in any program for
-u_1, ..., u_i. In each argument, consider the terms whose words have two or more letters and contain a new
-letter. Brackets without new letters, and single letters, contribute nothing to these terms. Form the sum of
-these terms for each argument. N is at least the dimension of the space that these sums span.
+i, call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets with new letters in a program for
+u_1, ..., u_i. In each argument, consider the sum of the terms whose words have two or more letters and
+contain a new letter. Brackets without new letters, and single letters, contribute nothing to this sum.
+Therefore N is at least the dimension of the space that these sums span.
 
 The first bracket with new letters is [x + sum c_n q_n, y + sum d_n q_n], where x and y contain no new
 letters. The sum of those terms of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where
@@ -28,10 +29,10 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return P_n for all n >= ``first``. For a combination x of brackets, the sum over n of ad_(P_n) q_n is
-    the part of x whose words contain exactly one letter with an index of at least ``first``.
+    """Return the factors P_n of a combination x of brackets, for all n >= ``first``.
 
-    P_n is computed from those words of this part that end in q_n.
+    Consider the part of x whose words contain exactly one letter with an index of at least ``first``. This
+    part is the sum over n of ad_(P_n) q_n. The words of this part that end in q_n determine P_n.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -44,8 +45,8 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return x - y, where y is a Lie element that is computed from x. The polynomial x must have no constant
-    term. The result is zero if and only if x is a Lie element.
+    """Return the difference between x and a Lie element y that is computed from x. The result is zero if and
+    only if x is a Lie element. The polynomial x must have no constant term.
 
     To compute y, each word of x is replaced by the right-normed bracket of its letters, divided by the number
     of letters. By Dynkin's theorem, y = x if x is a Lie element.
@@ -65,7 +66,7 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 
 
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
-    """Return a lower bound for the number of brackets in any program that computes ``arguments``: u_1, ...,
+    """Return a lower bound for the number of brackets in every program that computes ``arguments``: u_1, ...,
     u_s for the stages and u for the step.
 
     Terms of the largest grade of the algebra are omitted in u_1, ..., u_s, but not in u.
@@ -78,8 +79,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # In the arguments of stages, terms of the largest grade are omitted. Only the last argument, that of
-        # the step, is also used with these terms.
+        # In the arguments of stages, terms of the largest grade are omitted. Only the argument of the step is
+        # also used with these terms.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))
@@ -87,8 +88,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return a lower bound for the number of brackets in any program that computes the elements of ``span``.
-    Only brackets that contain a letter with index ``first`` or higher are counted."""
+    """Return a lower bound for the number of brackets in every program that computes the elements of
+    ``span``. Only brackets that contain a letter with index ``first`` or higher are counted."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

@@ -1,9 +1,9 @@
-"""Reduce the number of terms of a :class:`orderconds.series.brackets.BracketProgram` without additional
-brackets. Multiples of a bracket are added to another bracket with the same left factor.
+"""Reduction of the number of terms of a :class:`orderconds.series.brackets.BracketProgram`, without
+additional brackets. Multiples of a bracket are added to another bracket with the same left factor.
 
 Let B = [x, y] and C = [x, z] be brackets, and let t be a number. Then D = C + t B = [x, z + t y] is also one
-bracket, and the program may compute D in place of C. All rows (linear combinations) of the program that
-contain C are rewritten with C = D - t B. The number of brackets does not change.
+bracket, and the program may compute D in place of C. In all rows (linear combinations) of the program, D - t
+B replaces C. The number of brackets does not change.
 """
 
 from __future__ import annotations
@@ -17,10 +17,11 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 
 
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
-    """Return a program that computes the same arguments, if possible with fewer terms. Multiples of a bracket
-    are added to another bracket as long as this reduces the number of terms.
+    """Return a program that computes the same arguments, if possible with fewer terms.
 
-    The ring must be able to decide whether an element is zero, and to divide.
+    Multiples of a bracket are added to another bracket as long as this reduces the number of terms. The ring
+    must be able to decide whether an element is zero, and to divide. In the example, the term k2 is removed
+    from the second bracket.
 
     >>> from orderconds.ring import QQ
     >>> half, k1, k2, k4 = QQ.rational(1, 2), ("k", 0), ("k", 1), ("k", 3)
@@ -52,7 +53,7 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
     """Yield programs that add a multiple of one bracket to a later bracket with the same left factor.
 
     The multiple is chosen so that a term vanishes, either in the later bracket or in a row that contains both
-    of these brackets.
+    brackets.
     """
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
@@ -70,8 +71,8 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
 def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
-    """Return the program that computes D = B_r + t B_q in place of the bracket B_r. In all rows that contain
-    B_r, this bracket is replaced by D - t B_q. ``names`` contains the names of B_q and B_r."""
+    """Return the program that computes D = B_r + t B_q in place of the bracket B_r. In all rows, D - t B_q
+    replaces B_r. ``names`` contains the names of B_q and B_r."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:

@@ -1,5 +1,4 @@
-"""The Lie-Butcher series of a step whose arguments contain brackets, computed from the definition of the
-step.
+"""The Lie-Butcher series of a step in which the arguments of exponentials contain brackets.
 
 The first letter of a word acts first. In the product x y, the factor y acts first. Hence, in a word, the
 letters of y precede the letters of x.
@@ -36,7 +35,8 @@ class BracketedSeries:
         return self.stage(len(self._rows) - 1, forest)
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value of exp(u_i) on a forest. Stages are counted from 0, and i = s denotes the step."""
+        """Return the value of exp(u_i) on a forest, where u_i is the argument of stage i. Stages are counted
+        from 0. If i is the number of stages, u_i is the argument of the step."""
         result = self._ring.zero if forest else self._ring.one
         for n in range(1, forest.count(0) + 1):
             result = result + self._power(i, n, forest) * self._ring.rational(1, factorial(n))

@@ -1,14 +1,16 @@
 """Runge-Kutta-Munthe-Kaas methods with few brackets. The arguments of the exponentials are simplified in a
 graded free Lie algebra.
 
-A linear combination of the stage values k_1, ..., k_s of an explicit method has grade g if h times the
-combination is of order h^g. Let q_j be the sum of k_j and that combination of earlier stage values for which
-the grade of the sum is highest. For order p, the arguments of the stages are required up to grade p - 1, and
-the argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas
-and Owren, BIT 43 (2003) 723). One argument after another is then expressed by stage values, earlier brackets,
-and as few new brackets as possible. If a combination of two arguments needs fewer brackets than each of the
-two, the combination is computed first. For example, in Butcher's method of order 6, u_7 then needs no
-additional bracket.
+Let h be the step size. A linear combination of the stage values k_1, ..., k_s of an explicit method has grade
+g if h times the combination is of order h^g. Let q_j be k_j plus the combination of earlier stage values that
+gives the highest grade. For order p, the arguments of the stages are required up to grade p - 1, and the
+argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and
+Owren, BIT 43 (2003) 723).
+
+One argument after another is then expressed by stage values, earlier brackets, and as few new brackets as
+possible. If a combination of two arguments needs fewer brackets than each of the two arguments, the
+combination is computed first. For example, in Butcher's method of order 6, u_7 then needs no additional
+bracket.
 """
 
 from __future__ import annotations
@@ -27,7 +29,7 @@ from orderconds.trees.levels import branches
 from orderconds.trees.ordered import ordered_trees
 
 Name = tuple[str, int]
-"""A stage value ``("k", j)`` or a bracket ``("B", r)`` in a linear combination. Both indices are counted from
+"""The name of a stage value ``("k", j)`` or of a bracket ``("B", r)``. The indices j and r are counted from
 0."""
 
 Row = dict[Name, Element]
@@ -41,8 +43,8 @@ class BracketProgram:
     Stage i is k_i = f(exp(u_i) y0), and the step is exp(u) y0. A row is a linear combination of the elements
     h k_j and of earlier brackets. ``brackets[r]`` contains the rows of x and y in B_r = [x, y], ``stages``
     contains the rows of u_1, ..., u_s, and ``update`` is the row of u. ``least`` is a lower bound for the
-    number of brackets in any program for these arguments. ``grades[j]`` is the highest g, at most the order
-    of the method, for which h times a sum of k_j and multiples of earlier stage values is of order h^g.
+    number of brackets in every program for these arguments. ``grades[j]`` is the highest g such that h times
+    a sum of k_j and multiples of earlier stage values is of order h^g. It is at most the order of the method.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -70,14 +72,15 @@ class BracketProgram:
 def fewest_brackets(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int, attempts: int = 4
 ) -> BracketProgram:
-    """Return a program with few brackets that has the same order as RKMK with an explicit tableau (A, b).
+    """Return a program with few brackets that has the same order as the Runge-Kutta-Munthe-Kaas method of an
+    explicit tableau (A, b).
 
     The tableau must have the order ``order``. The ring must be able to decide whether an element is zero, and
-    to divide. The equations of the search may leave some coefficients free. First, the search sets these
-    coefficients to zero. If no program is found, it makes ``attempts`` further attempts, in which some of
-    these coefficients are small pseudorandom numbers. The limit for the number of brackets is at first the
-    lower bound ``least``. It is raised by one whenever all attempts have failed. Raises
-    :class:`~orderconds.errors.InputError` for an implicit tableau.
+    to divide. The equations of the search may leave some coefficients free. The first attempt sets these
+    coefficients to zero. In ``attempts`` further attempts, some of the free coefficients are small
+    pseudorandom numbers. The limit for the number of brackets is at first the lower bound ``least``. When all
+    attempts have failed, the limit is raised by one. Raises :class:`~orderconds.errors.InputError` for an
+    implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -118,8 +121,8 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return, for each j, the grade g of q_j (h q_j is of order h^g), and the coefficients of k_1, ..., k_j
-    in q_j."""
+    """Return, for each j, a pair: the grade g of q_j (h q_j is of order h^g), and the coefficients of k_1,
+    ..., k_j in q_j."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -158,13 +161,13 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return, for each stage i, the combinations u_j + c u_i that are computed before u_i. Here stage j is
-    later than stage i, c is a number, and stage values that are not known before u_i are omitted.
+    """Return, for each stage i, the combinations u_j + c u_i that the program computes before u_i. Here stage
+    j is later than stage i, c is a number, and stage values that are not known before u_i are omitted.
 
     Let q be the latest letter in the brackets of u_i. It must also be the latest letter in the brackets of
-    u_j. In u_i, and likewise in u_j, the terms with exactly one q need more than one bracket. In the
-    combination, these terms need only the bracket [P, q], where P is a Lie element. The program later
-    computes u_j from the combination and u_i.
+    u_j. In u_i and in u_j, the terms with exactly one q need more than one bracket. In the combination, these
+    terms need only the bracket [P, q], where P is a Lie element. The program later computes u_j from the
+    combination and u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -185,10 +188,10 @@ class _Shape:
     """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e] with C_n = [q_1, z_n
     + C_(n+1)].
 
-    The pool is the list of known elements; q_1 is its first element. The unknowns x, y, z_n and w_e are
+    The pool is the list of known elements, and q_1 is its first element. The unknowns x, y, z_n and w_e are
     linear combinations of elements of the pool. ``inner`` is the number of brackets C_n. If ``outer`` is
     true, the bracket [q_1 + x, y + C_1] occurs. If ``leading`` is true, the second pool element has the
-    coefficient one in y. Otherwise x is zero. Each left factor e is an element of the pool; ``extra``
+    coefficient one in y; otherwise x is zero. Each left factor e is an element of the pool, and ``extra``
     contains the indices of these elements.
     """
 
@@ -204,8 +207,8 @@ class _Shape:
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
-    """Yield shapes without end, in order of increasing number of brackets. ``pool`` is the number of known
-    elements."""
+    """Yield infinitely many shapes, in order of increasing number of brackets. ``pool`` is the number of
+    known elements."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -215,10 +218,10 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """A search for a program. It expresses one argument after another by known elements and new brackets.
+    """A search for a program, which expresses one argument after another by known elements and new brackets.
 
     ``pool`` contains the known elements and their rows. ``most`` is the limit on the number of brackets in
-    the program. The search fails if it needs more brackets.
+    the program. If the search needs more brackets, it fails.
     """
 
     def __init__(
@@ -233,8 +236,7 @@ class _Search:
         self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
     ) -> BracketProgram | None:
         """Return a program for ``arguments``, or None if the limit on brackets is exceeded. The program
-        computes the elements ``before[i]`` immediately before u_i. Its attribute ``least`` is the given
-        number."""
+        computes the elements ``before[i]`` immediately before u_i. ``least`` is stored in the program."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -262,11 +264,11 @@ class _Search:
         """Express an argument, up to grade ``limit``, by the pool and by new brackets of this shape. Add the
         new brackets to the pool and return the row of the argument. Return None if no brackets are found.
 
-        The symbols x and y are those of :class:`_Shape`. The equations are linear, except for products of an
-        unknown in x and an unknown in y. The method is therefore iterative. Each iteration fixes one of the
-        two factors and solves the resulting linear equations. The fixed factor is either y from the previous
-        iteration, or the part of x that the equations of lower grade determine. The iteration ends when all
-        equations hold.
+        The symbols x and y are those of :class:`_Shape`. The equations contain products of an unknown in x
+        and an unknown in y, and are otherwise linear. The method is therefore iterative. Each iteration fixes
+        one of the two factors and solves the resulting linear equations. The fixed factor is either y from
+        the previous iteration, or the part of x that the equations of lower grade determine. The iteration
+        ends when all equations hold.
         """
         if shape.leading and len(self.pool) < 3:
             return None
@@ -294,8 +296,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices of those pool elements that have the least grade. The first two elements of the
-        pool are excluded."""
+        """Return the indices of the pool elements of least grade. The first two elements of the pool are
+        excluded."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -316,8 +318,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there are none. If there are
-        several solutions and the search has a random generator, the choice may be random."""
+        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If
+        there are several solutions and the search has a random generator, the choice may be random."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -358,7 +360,7 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Add the brackets of a shape to the pool; ``numbers`` contains the values of the unknowns. Return
+        """Add the brackets of a shape to the pool. ``numbers`` contains the values of the unknowns. Return
         three values: the row of the argument, the argument as a polynomial, and y (:class:`_Shape`)."""
         one, size = self.ring.one, len(self.pool)
 

@@ -1,8 +1,11 @@
 """Composition, inverse and adjoint of steps, given as B-series or Lie-Butcher series.
 
 A step is a character: its value on a forest of several components is the product of its values on the
-components, and its value on the empty forest is 1. A B-series is a function of canonical rooted trees: y1 =
-y0 + sum h^|t| a(t)/sigma(t) F(t) with a(t) = sum_i b_i tau_t(i). A Lie-Butcher series is a function of
+components, and its value on the empty forest is 1.
+
+A B-series is a function a of canonical rooted trees: y1 = y0 + sum h^|t| a(t)/sigma(t) F(t). Here y0 and y1
+are the values before and after a step of size h, |t| is the number of vertices, sigma(t) is the order of the
+symmetry group, and F(t) is the elementary differential of the tree t. A Lie-Butcher series is a function of
 ordered forests (:mod:`orderconds.series.lie_butcher`).
 """
 
@@ -22,8 +25,8 @@ Value = Callable[[bytes], Element]
 
 @dataclass(frozen=True)
 class TreeAlgebra:
-    """An algebra of trees or forests. It is defined by two functions: one returns the cuts, the other returns
-    the values of the exact flow.
+    """An algebra of trees or forests. ``cuts`` returns the admissible cuts of a tree or forest. ``exact``
+    returns the value of the exact flow.
 
     >>> str(ROOTED.exact(bytes((0, 1, 1)))), len(ORDERED.cuts(bytes((0, 1, 1))))
     ('1/3', 4)
@@ -34,15 +37,15 @@ class TreeAlgebra:
 
 
 ROOTED = TreeAlgebra(tree_cuts, lambda tree: Fraction(1, density(tree)))
-"""B-series: canonical unordered rooted trees; the values of the exact flow are 1/gamma (HLW III.1, Theorem
-1.5)."""
+"""B-series: canonical rooted trees. The value of the exact flow on a tree of density gamma is 1/gamma (HLW
+III.1, Theorem 1.5)."""
 
 ORDERED = TreeAlgebra(left_cuts, exact_value)
 """Lie-Butcher series: ordered forests, in which the first tree acts first."""
 
 
 class Character:
-    """A step of size h. It is defined by its values on trees or forests, which are elements of ``ring``.
+    """A step of size h, defined by its values on trees or forests. The values are elements of ``ring``.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -65,7 +68,7 @@ class Character:
         """Return the composition: this step, followed by the step ``other``, both of size h (HLW III.1.4,
         Theorem 1.10).
 
-        For ordered forests the cuts are left admissible (Munthe-Kaas and Wright 2008, Theorem 5).
+        For ordered forests, left admissible cuts are used (Munthe-Kaas and Wright 2008, Theorem 5).
         """
 
         def value(forest: bytes) -> Element:
