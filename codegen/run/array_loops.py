@@ -326,7 +326,7 @@ def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ..
 
 
 def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
-    """Yield the statements for all columns, in groups; the last group may be smaller."""
+    """Yield the statements for all columns, in groups. The last group may be smaller."""
     groups, rest = divmod(columns, GROUP)
     if groups == 1:
         yield from group(None, GROUP)
@@ -373,8 +373,7 @@ def _is_whole(matrix: Matrix) -> bool:
 
 
 def _covers(c: ConstantMatrix) -> bool:
-    """Return True if the first diagonal has an entry in every row: it is the main diagonal of a square
-    matrix."""
+    """Return True if every row has an entry on the first diagonal, the main diagonal of a square matrix."""
     return c.rows == c.columns and c.diagonals[0].offset == 0
 
 
@@ -385,8 +384,10 @@ def _sign(c: Expr) -> int:
 
 
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
-    """Return ``total`` plus ``weight`` times ``entry``, or minus if the coefficient of the term is -1. A
-    total of None counts as 0, and a weight of None as 1."""
+    """Return ``total`` plus ``weight`` times ``entry``, or minus if the coefficient of the term is -1.
+
+    A total of None counts as 0, and a weight of None as 1.
+    """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry
     if total is None:

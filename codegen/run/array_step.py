@@ -53,8 +53,9 @@ RECIPROCALS = "reciprocal"
 """The name of the table of 1/(j + 2)."""
 
 MOST_PARTS = 2**20
-"""The largest number of equal factors into which an exponential is split. Their number is doubled until the
-exponent of each factor has a norm of at most 1."""
+"""The largest number of equal factors into which an exponential is split.
+
+This number is doubled until the exponent of each factor has a norm of at most 1."""
 
 _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 
@@ -74,8 +75,10 @@ def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function for a move. The name contains the sizes of the arrays, because a
-    function works on arrays of fixed sizes only."""
+    """Return the name of the function for a move.
+
+    The name contains the sizes of the arrays, because a function works on arrays of fixed sizes only.
+    """
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
 
@@ -121,8 +124,8 @@ def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
-        # A statement may use only a block of the basis or of the Gram matrix. The size of an array follows
-        # from the last entry of its largest block.
+        # A statement may use only a block of the basis or of the Gram matrix. The last entry of the largest
+        # block determines the size of an array.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -148,7 +151,7 @@ class _Exponential:
         """Return the function that computes D + S phi(G S) G C, in the notation of
         :mod:`codegen.ir.array_step`.
 
-        If the norm of the exponent exceeds 1, the exponential is split into equal factors, which are applied
+        If the norm of the exponent exceeds 1, the exponential is split into equal factors. They are applied
         one after another.
         """
         move, k = self.move, self.move.target.columns
@@ -182,14 +185,13 @@ class _Exponential:
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
         # Each product of entries off the diagonal occurs twice in the trace, so only the part below the
-        # diagonal is summed. Each row has its own sum, so that the sums of different rows do not depend on
-        # each other.
+        # diagonal is summed. Each row has its own sum, so that the sums of different rows are independent.
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
         # The exponent is the skew matrix E = B S B^T, and G = B^T B. The square of the Frobenius norm of E is
-        # -trace((G S)^2). The eigenvalues of E are pairs with equal absolute values, so half of this square
-        # bounds the square of the spectral norm of E.
+        # -trace((G S)^2). The eigenvalues of E are pairs with equal absolute values. Therefore half of this
+        # square bounds the square of the spectral norm of E.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
@@ -207,8 +209,8 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that compute how many terms of the series of phi are added to its first
-        term."""
+        """Yield the statements that compute the number of terms that follow the first term in the series of
+        phi."""
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
@@ -221,8 +223,8 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set the result to the displacement of the start point, or to zero if no
-        start is given."""
+        """Yield the statements that set the result to the displacement of the start point, or to zero without
+        one."""
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))
@@ -240,7 +242,7 @@ class _Exponential:
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # If no start is given, the displacement before the first factor is zero, so these statements are
+        # If no start is given, the displacement before the first factor is zero. These statements are then
         # skipped for the first factor.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)

@@ -1,15 +1,15 @@
 """Steps of many independent systems: a batch, whose systems are called lanes.
 
 Every lane has its own state, parameters, inputs and status. All lanes have the same time and step size. The
-arrays are structures of arrays: component k of lane i is ``state[k stride + i]``, and parameters and inputs
-have the same layout.
+arrays are structures of arrays: component k of lane i is ``state[k stride + i]``. Parameters and inputs have
+the same layout.
 
 An explicit kernel is evaluated for many lanes by one loop without branches, which compilers turn into vector
 instructions. Assignments that read only t and h are before the loop. In the loop, sines, cosines and Stumpff
-functions are computed only for arguments near zero; for other arguments they return NaN. A lane whose new
-state is not finite is left unchanged by the loop, and the scalar step is called for it. The scalar step
-accepts all arguments, and finds the status if the step fails. Where the loop succeeds, it has the same
-roundings as the scalar step.
+functions are computed only for arguments near zero. For all other arguments they return NaN. If the new state
+of a lane is not finite, the loop leaves the lane unchanged, and the scalar step is called for this lane. The
+scalar step accepts all arguments, and finds the status if the step fails. Where the loop succeeds, it has the
+same roundings as the scalar step.
 
 Kernels with equations, and kernels that call other functions, run lane after lane. An explicit step with
 outlined functions is translated again without them (:func:`codegen.emitter.with_batch`).
@@ -62,11 +62,12 @@ from codegen.run.trajectory import Rows
 from codegen.run.values import simple
 
 BATCH, LANES = "run_batch", "advance_lanes"
-"""The names of the public function, and of the function with the loop over lanes."""
+"""The names of the public function and of the function with the loop over lanes."""
 
 BLOCK = 128
-"""The number of lanes that make all their steps before the next lanes begin. Their states then stay in the
-cache."""
+"""The number of lanes that make all their steps before the next lanes begin. With few lanes, their states
+stay
+in the cache."""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """The functions, besides the Stumpff functions, that can be computed without branches."""
@@ -130,8 +131,10 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of the variant that accepts all arguments. For arguments that the variant without
-    branches (:func:`near`) accepts, too, both variants have the same roundings.
+    """Return the name of the variant that accepts all arguments.
+
+    For arguments that the variant without branches (:func:`near`) also accepts, both variants have the same
+    roundings.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')
@@ -140,12 +143,12 @@ def complete(name: str) -> str:
 
 
 def _entry(array: Term, row: int, place: Term) -> Term:
-    """Return entry ``place`` of a row of an array with rows of ``stride`` numbers."""
+    """Return an entry of an array whose rows have ``stride`` numbers each: entry ``place`` of row ``row``."""
     return array[row * STRIDE + place] if row else array[place]
 
 
 def _advance_lanes(plan: Plan) -> Function:
-    """Return the function that makes one step of many lanes without branches."""
+    """Return the function that makes one step of many lanes, without branches."""
     stopped, failed = real(_STOPPED, 0), real(_FAILED, 0)
     before, inside = _split(plan)
     loaded = [Assign(own(s), _entry(_STATE, k, _PLACE)) for k, s in enumerate(plan.symbols)]
@@ -202,7 +205,7 @@ def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
 
 
 def _batch(plan: Plan, work: list[Statement]) -> Function:
-    """Return the public function, which makes the steps of all lanes by the statements ``work``."""
+    """Return the public function. The statements ``work`` make the steps of all lanes."""
     statuses, ended = _statuses(), count("completed", 0)
     bad = count("bad")
     flag = Term("name", (), Kind.FLAG, bad.text)
@@ -213,8 +216,8 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
         If(flag, (Return(code(BAD_STEP)),)),
         *work,
         Assign(STATUS, code(OK)),
-        # Each lane that failed overwrites the status. The loop runs backwards, so the result is the status of
-        # the first lane that failed.
+        # Each lane that failed overwrites the status. The loop runs backwards, so the first lane that failed
+        # determines the result.
         For(
             _LANE,
             _TOTAL,

@@ -1,11 +1,12 @@
 """Continuation in h: if the equations of a step do not converge, follow the solution from shorter steps.
 
-The first attempt repeats the whole step without the solutions of earlier steps, which are bad initial guesses
-if the motion has changed. Then the step is halved until its equations converge. From there on, each solution
-is the initial guess for a longer step. The factor between consecutive step sizes grows on success and shrinks
-on failure. The equations of a long step may have several solutions; the result is on the branch of solutions
-that tends to the exact motion as h tends to zero. A step with h = 0 is the identity, so it needs no
-continuation.
+The first attempt repeats the whole step without the solutions of earlier steps. These solutions are bad
+initial guesses if the motion has changed. Then the step is halved until its equations converge. From there
+on, each solution is the initial guess for a longer step. The factor between consecutive step sizes grows on
+success and shrinks on failure.
+
+The equations of a long step may have several solutions. The result is on the branch of solutions that tends
+to the exact motion as h tends to zero. A step with h = 0 is the identity and needs no continuation.
 """
 
 from __future__ import annotations
@@ -48,29 +49,28 @@ LARGEST_FACTOR = 4.0
 
 
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statement that calls the continuation if a step fails; no statement for a kernel without a
-    warm start."""
+    """Return the statement that calls the continuation if a step fails; an empty list without a warm
+    start."""
     # Continuation begins each step at the stored solution of a shorter step, so it needs a memory for
     # solutions.
     if plan.start is None:
         return []
-    # A diverging iteration may overflow before it reaches its limit of sweeps, and a singular matrix may be
+    # A diverging iteration may overflow before it reaches its limit of sweeps. A singular matrix may be
     # regular at another initial guess. Therefore the step is repeated after every failure of its equations.
     failed = both(STATUS.differs(code(OK)), STATUS.differs(code(BAD_STEP)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
 
 def continued(plan: Plan, core: str) -> Function:
-    """Return the function that computes, by continuation in h, a step or substep for which the function
-    ``core`` fails."""
+    """Return the function that repeats, by continuation in h, a step or substep that failed in ``core``."""
     return _Continuation(plan, core).function()
 
 
 class _Continuation:
-    """Builds the emitted function that repeats a failed step; attributes of type Term are its variables."""
+    """Builds the emitted function that repeats a failed step. Attributes of type Term are its variables."""
 
-    # Two steps as fractions of h: the longest step that succeeded, and the step that is tried now. The factor
-    # is the ratio of consecutive fractions.
+    # ``solved`` is the longest step that succeeded, and ``part`` is the step that is tried now, both as
+    # fractions of h. ``factor`` is the ratio of consecutive fractions.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")
 
@@ -78,7 +78,7 @@ class _Continuation:
         assert plan.start is not None
         self.plan, self.core, self.n = plan, core, len(plan.start.unknowns)
         self.guess, self.trial = real("known_solution", self.n), plan.state("trial")
-        # Every attempt overwrites STATUS, so the failure that is returned is stored in another variable.
+        # Every attempt overwrites STATUS. The failure that is returned is stored in another variable.
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
@@ -91,8 +91,8 @@ class _Continuation:
         # A step of length zero is the identity, and there is no shorter step to try.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
         # After the first success, each failure reduces the factor. If the factor is near 1, there is no
-        # progress, and the loop ends. Probably the branch of solutions ends before the full length of the
-        # step.
+        # progress, and the loop ends. The branch of solutions then probably ends before the full length of
+        # the step.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -112,16 +112,16 @@ class _Continuation:
             Assign(self.tries, whole(0)),
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.cause()),)),
-            # Only the step of full length changes the state; shorter steps only provide initial guesses.
+            # Only the step of full length changes the state. Shorter steps only provide initial guesses.
             Assign(state, self.trial),
-            # The earlier solutions belong to steps of other lengths, so a polynomial through these solutions
+            # The earlier solutions belong to steps of other lengths. A polynomial through these solutions
             # would be a bad initial guess.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
         )
         part = "part of a step" if plan.parts else "step"
-        # The emitted comment names a step or a substep: with substeps, only the failed substep is repeated.
+        # The emitted comment names a step or a substep. With substeps, only the failed substep is repeated.
         about = (
             f"Repeat a {part} whose equations did not converge: first without the earlier solutions, which "
             "are bad initial guesses if the motion has changed, then by continuation in h from shorter steps."
@@ -132,22 +132,22 @@ class _Continuation:
         """Return the status of a step that cannot be computed.
 
         If the failed step computed a number that is not finite, but a shorter step from the same state
-        succeeded, then the failed step was too long, and the status is TOO_FAR.
+        succeeded, then the failed step was too long. The status is then TOO_FAR.
         """
-        # A shorter step samples other values of run-time inputs. Such a step may succeed because of these
-        # values and not because it is shorter, so the status is not changed to TOO_FAR.
+        # A shorter step samples other values of run-time inputs. It may succeed because of these values and
+        # not because it is shorter, so the status is not changed to TOO_FAR.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
         return select(too_far, code(TOO_FAR), self.failure)
 
     def attempt(self) -> list[Statement]:
-        """Return the statements that try one step; its initial guess is the solution of the last successful
-        step."""
+        """Return the statements that try one step from the solution of the last successful step."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # The last successful step was shorter, and the rate of convergence of that step does not apply here.
-        # The rate is set to 1, so that the stopping rule requires a second sweep.
+        # The last successful step was shorter, so its rate of convergence does not apply here. The rate is
+        # set
+        # to 1, so that the stopping rule requires a second sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -155,22 +155,22 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # No error estimate is computed: only step control reads it, and runs with step control use no
+        # No error estimate is computed. Only step control reads it, and runs with step control use no
         # continuation in h.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
-            # Each attempt starts at the original state, because continuation varies the step size h and does
-            # not advance the time.
+            # Each attempt starts at the original state. Continuation varies the step size h and does not
+            # advance the time.
             Assign(self.trial, plan.state()),
-            # The memory is cleared: its solutions and matrices belong to another step size. The first attempt
-            # is then independent of earlier steps, whose solutions may be bad initial guesses.
+            # The memory is cleared, because its solutions and matrices belong to another step size. The first
+            # attempt is then independent of earlier steps.
             Assign(memory, fresh(memory)),
             If(self.solved > 0.0, tuple(from_guess)),
             Call(self.core, (self.trial, *arguments), (STATUS,)),
         ]
 
     def adapted(self) -> list[Statement]:
-        """Return the statements that choose the next step, unless the whole step is done."""
+        """Return the statements that choose the next step, or end the loop if the whole step is done."""
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
@@ -184,9 +184,8 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # The step is halved until its equations converge. For a sufficiently short step they converge,
-            # because the iteration is a contraction. After that, the last successful length is multiplied by
-            # the factor.
+            # Before the first success, the step is halved. A sufficiently short step converges, because its
+            # iteration is a contraction. After that, the last successful length is multiplied by the factor.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
             Assign(part, select(part < 1.0, part, 1.0)),
         )

@@ -6,7 +6,7 @@ all other flows are applied once for many steps.
 Both changes are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only
 after the deferred flows have been applied. They are applied before a state is written to the trajectory,
 after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. A NaN remains in the state in all
-later steps, so it is found in the next complete state. The run is then repeated with the deferred flows
+later steps, so the test of the next complete state finds it. The run is then repeated with the deferred flows
 applied in every step, to find the last good state.
 """
 
@@ -56,15 +56,17 @@ from codegen.run.terms import (
 from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
-"""The names of three functions: for the first flow of a sequence of steps, for the flows that commute with
-all other flows, and for one step with all its flows."""
+"""The names of three functions.
+
+They apply the first flow of a sequence of steps, the flows that commute with all other flows, and one step
+with all its flows."""
 
 LATE = count("late")
 """The number of steps since the deferred flows were last applied."""
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return all functions of a unit with deferred flows; the public functions come last."""
+    """Return all functions of a unit with deferred flows. The public functions come last."""
     deferred = plan.kernel.deferred
     assert deferred is not None
     sequence = [_core(plan, ADVANCE, "One step without the deferred flows.")]
@@ -86,7 +88,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _plan(plan: Plan, kernel: Kernel) -> Plan:
-    # The kernels of deferred flows are explicit, so no continuation is emitted, and the limit of its attempts
+    # The kernels of deferred flows are explicit, so no continuation is emitted. The limit of its attempts
     # (``tries``) is not needed.
     return Plan(kernel, plan.format)
 
@@ -95,25 +97,24 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies a kernel to the state, without checks."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # This function does not test for finiteness, because NaNs and infinities persist, and the run tests
-    # complete states.
+    # This function does not test for finite results. NaNs and infinities persist, and the run tests complete
+    # states.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
 
 def _scalars(plan: Plan) -> Sequence[str]:
-    # Durations are the last arguments, so that all functions of the unit have their arguments in the same
-    # order.
+    # Durations are the last arguments. Then all functions of the unit have their arguments in the same order.
     return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
 
 
 def _read(plan: Plan) -> tuple[Term, ...]:
-    """Return those scalar arguments (time, step size, parameters, durations) that a kernel reads."""
+    """Return the scalar arguments (time, step size, parameters, durations) that a kernel reads."""
     return plan.read(_scalars(plan))
 
 
 class _Deferring:
-    """Builds the public functions; the attributes are variables of these functions."""
+    """Builds the public functions. The attributes are variables of these functions."""
 
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
     shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
@@ -122,16 +123,16 @@ class _Deferring:
     def __init__(self, plan: Plan, deferred: Deferred) -> None:
         self.plan, self.deferred = plan, deferred
         self.moving, self.complete = plan.state("next"), plan.state("complete")
-        # The durations are rounded once from exact numbers: in single precision, arithmetic on rounded
+        # The durations are rounded once from exact numbers. In single precision, arithmetic on rounded
         # doubles would round twice.
         rounded = plan.format.round
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
     def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
-        """Return the call of the function of a kernel; no statement if ``kernel`` is None."""
+        """Return the call of the function of a kernel; an empty list if ``kernel`` is None."""
         if kernel is None:
             return []
-        # The scalars t, LEAD and ELAPSED get the values of this call; all other scalars are passed unchanged.
+        # The scalars t, LEAD and ELAPSED get the values of this call. All other scalars are passed unchanged.
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
         plan = _plan(self.plan, kernel)
         passed = tuple(known.get(x.text, x) for x in _read(plan))
@@ -150,8 +151,8 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # A single step joins no flows, so the duration of its last flow does not include the first flow
-            # of a next step.
+            # A single step joins no flows. The duration of its last flow does not include the first flow of a
+            # next step.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -160,7 +161,7 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
-            # A single step defers no flow, because its caller reads the state, which must be complete.
+            # A single step defers no flow. Its caller reads the state, so the state must be complete.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
@@ -186,8 +187,8 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
-            # There are at most three attempts: a fast attempt; after a failure, a careful attempt that counts
-            # the good steps; and an attempt that makes only these steps.
+            # There are at most three attempts. The first is fast. After a failure, the second applies all
+            # flows in every step and counts the good steps. The third makes only these steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
@@ -221,9 +222,8 @@ class _Deferring:
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
-            # The fast attempt only shows that some state is not finite. The careful attempt applies the
-            # deferred flows in every step and stops at the first bad state. The caller gets the state before
-            # the bad state.
+            # The fast attempt only shows that some state is not finite. The careful attempt finds the first
+            # bad state. The caller gets the state before the bad state.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -234,21 +234,22 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # The elapsed time is one product and not a sum over steps, because a product makes a single rounding
-        # error, however many steps were deferred.
+        # The elapsed time is one product and not a sum over steps. A product has a single rounding error,
+        # however many steps were deferred.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
             # After LONGEST steps the deferred flows are applied. This bounds the angle of a deferred
-            # rotation, and so the loss of digits in its sine and cosine.
+            # rotation,
+            # and thus the loss of digits in its sine and cosine.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
                 # If the run continues, the last flow of this step and the first flow of the next step are one
-                # flow, whose duration is the sum of both durations.
+                # flow. Its duration is the sum of both durations.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),
@@ -264,7 +265,6 @@ class _Deferring:
             Assign(self.good, all_finite(self.moving)),
             If(self.good, taken),
         ]
-        # If flows stay deferred, the state is incomplete, so it is not tested, and ``good`` keeps its
-        # value.
+        # If flows stay deferred, the state is incomplete. It is not tested, and ``good`` keeps its value.
         sequence += [If(self.stop, tuple(ended)), If(self.good, (Assign(DONE, DONE + 1),))]
         return tuple(sequence)

@@ -14,7 +14,7 @@ from codegen.run.terms import Term, count, real, value, whole
 
 EXTEND, MOVED, EXTENDED = "extend", "moved_by", "extended_state"
 """The names of the functions that compute the coefficients of a step, apply an exponential to a state, and
-evaluate the extension."""
+evaluate the continuous extension."""
 
 
 class DenseOutput:
@@ -71,12 +71,16 @@ class DenseOutput:
         return Function(EXTENDED, about, parameters, body)
 
     def coefficients(self, state: Term, t: Term, h: Term) -> Call:
-        """Return the call that computes the coefficients of the extension of one step. The step begins at the
-        time ``t`` with ``state`` and has the size ``h``."""
+        """Return the call that computes the coefficients of the extension of one step.
+
+        The step begins at the time ``t`` with ``state`` and has the size ``h``.
+        """
         own = self.own
         return Call(EXTEND, (state, *own.moment(t, h), *own.parameters, *own.sampled(), self.powers))
 
     def state_at(self, state: Term, theta: Term) -> Call:
-        """Return the call that computes the state at the fraction ``theta`` of the step that begins with
-        ``state``. The coefficients of this step must have been computed."""
+        """Return the call that computes the state at the fraction ``theta`` of a step.
+
+        The step begins with ``state``, and its coefficients must have been computed.
+        """
         return Call(EXTENDED, (state, self.powers, theta, self.inner))

@@ -1,7 +1,7 @@
 """An executor of the run representation over any ordered scalars, for example floats or a ring.
 
-It executes the same statements as emitted code, so it makes the same steps and sweeps and computes the same
-matrices. Only the arithmetic differs, because the scalars belong to a domain (:mod:`codegen.ir.domain`). Each
+It executes the same statements as emitted code. Therefore it makes the same steps and sweeps and computes the
+same matrices. Only the arithmetic differs: the scalars belong to a domain (:mod:`codegen.ir.domain`). Each
 function is compiled to closures once, so that a run of many steps does not traverse the statements again.
 
 >>> from codegen.ir.domain import FloatDomain
@@ -54,7 +54,7 @@ Action = Callable[[Environment], bool]
 """An action executes a statement. Its result is True if a Return was executed and the function ended."""
 
 RESULT = "result of the function"
-"""The key of the result in an environment; no identifier equals it, because it contains spaces."""
+"""The key of the result in an environment. It contains spaces, so it differs from every identifier."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -75,8 +75,8 @@ _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
 class Machine:
     """A unit that is ready to be executed over a domain.
 
-    Arrays are lists, arrays of rows are lists of lists, and cells, which return a value through an argument,
-    are lists of one entry. :meth:`record` returns records. Absent arguments are None. The signal of run-time
+    Arrays are lists, and arrays of rows are lists of lists. A cell, through which a function returns a value,
+    is a list of one entry. :meth:`record` returns records. Absent arguments are None. The signal of run-time
     inputs is a function from the time to a sequence.
     """
 
@@ -84,12 +84,12 @@ class Machine:
         self.unit, self.domain = unit, domain
         self.tables: Environment = {}
         for table in unit.tables:
-            # The entries of tables are converted to scalars once. If they were converted at each access, this
-            # would take most of the time of a run.
+            # The entries of tables are converted to scalars once. A conversion at each access would take most
+            # of the time of a run.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
-        # No word is reserved, because the executor uses identifiers as keys of a dictionary and not as names
-        # of a language.
+        # No word is reserved. The executor uses identifiers as keys of a dictionary and not as names in a
+        # language.
         identifiers = identify(unit, ())
         self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
@@ -119,14 +119,13 @@ class Machine:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
             return self.record(record)
-        # Counts and flags stay Python integers, because a ring element can neither index a list nor end a
-        # loop.
+        # Counts and flags stay Python integers. A ring element can neither index a list nor end a loop.
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
-        """Call a function and return its result; arrays and records among the arguments may be changed."""
+        """Call a function and return its result. The function may change its arrays and records."""
         function = self.unit.parts[name]
-        # Arrays are passed by reference: a callee changes the caller's list, as a C function changes the
+        # Arrays are passed by reference. A callee changes the caller's list, as a C function changes the
         # array.
         environment = dict(zip(self.parameters[name], arguments, strict=True)) | self.tables
         if not function.guard:
@@ -139,8 +138,8 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of a function after an arithmetic error: the status NOT_FINITE or, depending on
-        the guard, NaN. In the second case the arrays that the function changes are filled with NaNs."""
+        """Return the result of a function after an arithmetic error: NOT_FINITE or, depending on the guard,
+        NaN. In the second case the arrays that the function changes are filled with NaNs."""
         # Exact numbers and mpmath numbers raise an exception where IEEE arithmetic computes an infinity or a
         # NaN.
         if function.guard == RAISES_STATUS:
@@ -170,7 +169,7 @@ class _Compiler:
         actions = [self.statement(s) for s in body if not isinstance(s, Note)]
 
         def run(env: Environment) -> bool:
-            # ``any`` stops at the first action that executes a Return; the statements after it are skipped.
+            # ``any`` stops at the first action that executes a Return. Later statements are skipped.
             return any(action(env) for action in actions)
 
         return run
@@ -274,7 +273,7 @@ class _Compiler:
         array, n = self.term(target.args[0] if target.op == "part" else target), target.shape[0]
 
         def run(env: Environment) -> bool:
-            # A slice assignment copies the entries; a plain assignment would alias the two arrays.
+            # A slice assignment copies the entries. A plain assignment would alias the two arrays.
             array(env)[start : start + n] = value(env)
             return False
 
@@ -308,13 +307,13 @@ class _Compiler:
                 return False
 
             return sample
-        # The function is found when the closure is built, so that calls during a run compare no names.
+        # The function is found when the closure is built. Calls during a run then compare no names.
         library = _library(function, machine.domain)
 
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
             results = library(*passed) if library is not None else [machine.call(function, *passed)]
-            # zip is not strict, because a function without a result returns None, which has no target.
+            # zip is not strict. A function without a result returns None, for which there is no target.
             for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False
@@ -347,7 +346,7 @@ class _Compiler:
         return lambda env: env[identifier]
 
     def constant(self, term: Term) -> Value:
-        """Return the function whose value is a constant; a flag or count is a Python integer."""
+        """Return the function whose value is a constant. A flag or count is a Python integer."""
         value: Any = None
         if term.op == "status":
             value = STATUSES.index(term.text)
@@ -414,8 +413,8 @@ class _Compiler:
                 return lambda env: domain.call("sqrt", first(env))
             case "copysign":
                 second = args[1]
-                # Exact rings have no negative zero, so the sign of the second argument is found by comparing
-                # it with zero.
+                # Exact rings have no negative zero. The comparison with zero therefore gives the sign of the
+                # second argument.
                 return lambda env: abs(first(env)) if second(env) >= 0 else -abs(first(env))
             case _:
                 assert name == "power"
@@ -448,7 +447,7 @@ class _Compiler:
 
 
 def _power(x: Any, exponent: Any) -> Any:
-    """Return a power as C does: a negative power of zero is infinite."""
+    """Return a power as C does. A negative power of zero is infinite."""
     if not x:
         return math.inf if exponent < 0 else x
     return x**exponent

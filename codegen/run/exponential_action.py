@@ -1,7 +1,7 @@
 """The emitted function that computes the product of a matrix exponential and a vector.
 
 In double precision the function executes the same operations in the same order as
-:mod:`codegen.ir.exponential_action`, so the results are equal.
+:mod:`codegen.ir.exponential_action`. The results are therefore equal.
 """
 
 from __future__ import annotations
@@ -72,8 +72,7 @@ def _entries(function: ExponentialAction) -> str:
 
 
 def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
-    """Return the statements that compute the norm of a: for each row the absolute values of the entries are
-    added, and the norm is the largest of these sums."""
+    """Return the statements that compute the norm of a: the largest sum of absolute values in a row."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
     if function.n > SPARSE:

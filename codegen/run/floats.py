@@ -1,9 +1,9 @@
-"""Arithmetic in doubles as in emitted code: Stumpff functions are computed by the same polynomials and closed
-forms.
+"""Arithmetic in doubles with the same roundings as emitted code.
 
-The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last
-place. Near the end of an iteration, this may lead to one sweep more or less. To count the sweeps of emitted
-code exactly, the executor therefore uses the functions of this module.
+Stumpff functions are computed by the same polynomials and closed forms as in emitted code. The Stumpff
+functions of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last place. Near the
+end of an iteration, this difference may lead to one sweep more or less. The executor uses the functions of
+this module to count the sweeps of emitted code exactly.
 """
 
 from __future__ import annotations
@@ -18,21 +18,22 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures,
 
 
 class EmittedFloats(FloatDomain):
-    """Doubles as in emitted code; ``chain`` is the largest number of nested Stumpff functions in a kernel.
+    """Doubles as in emitted code.
 
-    See :mod:`codegen.ir.angle_depth`.
+    ``chain`` is the largest number of nested Stumpff functions in a kernel (:mod:`codegen.ir.angle_depth`).
     """
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
         super().__init__(h)
-        # For arguments above this limit the functions return NaN. The limit is computed once, because it
-        # depends only on the kernel.
+        # For arguments above this limit the functions return NaN. The limit depends only on the kernel, so it
+        # is computed once.
         self.limit = limit(DOUBLE, chain)
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
-        """Return the Stumpff functions c_k(z) for the indices ``orders``; common values are computed once."""
-        # The branches are the same as in the emitted functions, because the result of another polynomial
-        # would differ in the last bit.
+        """Return the Stumpff functions c_k(z) for the indices k in ``orders``; common values are computed
+        once."""
+        # The branches are the same as in the emitted functions. The result of another polynomial would differ
+        # in the last bit.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -42,7 +43,7 @@ class EmittedFloats(FloatDomain):
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
-        # For angles above the limit the result is NaN, so the test for finite results rejects the step.
+        # For angles above the limit the result is NaN. The test for finite results then rejects the step.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
@@ -53,8 +54,8 @@ class EmittedFloats(FloatDomain):
         ratio = sine / half
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
-            # c_3 needs its polynomial up to a larger z than c_0, c_1 and c_2, because 1 - c_1 still cancels
-            # there.
+            # c_3 needs its polynomial up to a larger z than c_0, c_1 and c_2. In the closed form of c_3, the
+            # difference 1 - c_1 still loses digits there.
             closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio * cosine) / z
         return [closed[k] for k in orders]
 
@@ -65,7 +66,7 @@ class EmittedFloats(FloatDomain):
             closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio) / z
         return [closed[k] for k in orders]
 
-    # A single c_k is computed by ``together``, too, so that the branches are written only once.
+    # A single c_k is also computed by ``together``, so that the branches are written only once.
     def call(self, function: str, *args: float) -> float:
         """Return the value of a function, with the same roundings as in emitted code."""
         (z, *_) = args
@@ -90,8 +91,8 @@ class EmittedFloats(FloatDomain):
         return total
 
     def _slope(self, k: int, z: float, *, signed: bool) -> float:
-        # The derivative of c_k is the difference c_(k-1) - k c_k divided by 2 z. For small z the difference
-        # loses digits by cancellation, so the Taylor series of the derivative is used.
+        # The derivative of c_k is (c_(k-1) - k c_k)/(2 z). For small z the difference loses digits by
+        # cancellation, so the Taylor series of the derivative is used.
         if abs(z) > 1.0:
             if signed:
                 before, c = (self.call(f"signed_stumpff{i}", z) for i in (k - 1, k))
@@ -128,12 +129,13 @@ def _terms(k: int, name: str) -> tuple[float, ...]:
 
 
 def _short(k: int, z: float, name: str) -> float:
-    """Return the Stumpff function c_k(z) for small z by a short polynomial. Its terms are added in pairs, and
-    the pairs from left to right."""
+    """Return the Stumpff function c_k(z) for small z by a short polynomial.
+
+    The terms are added in pairs, and the pairs are added from left to right.
+    """
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
-    # Terms are grouped in pairs as in the template ``stumpff_small``, because the grouping determines the
-    # roundings.
+    # Terms are grouped in pairs as in the template ``stumpff_small``. The grouping determines the roundings.
     for place in range(0, len(terms), 2):
         pair = terms[place] + z * terms[place + 1] if place + 1 < len(terms) else terms[place]
         total = pair if place == 0 else total + factor * pair
@@ -142,8 +144,10 @@ def _short(k: int, z: float, name: str) -> float:
 
 
 def _series(k: int, z: float) -> float:
-    """Return the Taylor polynomial of the Stumpff function c_k at z. The constant term is added last. In the
-    rest, even and odd powers are summed separately, each in pairs of terms."""
+    """Return the Taylor polynomial of the Stumpff function c_k at z.
+
+    The constant term is added last. Of all other terms, even and odd powers are summed separately, in pairs.
+    """
     first, *rest = _terms(k, "series")
     w = z * z
     even, odd = _chain(rest[::2], w), _chain(rest[1::2], w)

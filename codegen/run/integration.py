@@ -42,14 +42,15 @@ INTEGRATE = "integrate"
 """The name of the public function for a run to a given end time."""
 
 NEARLY = 1e-9
-"""If the rest of the interval is longer than the step size by at most this fraction of the step size, one
-step covers the rest. Without this tolerance, rounding errors in the times could leave a tiny last step."""
+"""If the rest of the interval exceeds the step size by at most this fraction of it, one step covers the rest.
+
+Without this tolerance, rounding errors in the times could leave a tiny last step."""
 
 LEAST, GREATEST = real("least"), real("greatest")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the public run and the functions that it calls; no functions if the run was not requested."""
+    """Return the public run and the functions that it calls; an empty tuple if no such run was requested."""
     if plan.kernel.observed is None:
         return ()
     own = _Constant(plan) if plan.kernel.estimate is None else _Adaptive(plan)
@@ -57,8 +58,10 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _checked(observation: Observation) -> tuple[Statement, ...]:
-    """Return the statement that sets the status BAD_EVENT if the buffer is too short for one event of each
-    event function."""
+    """Return the statement that sets the status BAD_EVENT if the buffer for events is too short.
+
+    The buffer must have room for one event of each event function.
+    """
     if not observation.events:
         return ()
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
@@ -66,7 +69,7 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
 
 
 class _Constant:
-    """Builds the run with steps of constant size; the attributes are variables of the run."""
+    """Builds the run with steps of constant size. The attributes are variables of the run."""
 
     t, h, completed = real("t", 1, cell=True), real("h"), count("completed", 1, optional=True, cell=True)
     now, end, limit = real("now"), real("end"), count("limit")
@@ -110,8 +113,8 @@ class _Constant:
     def own_step(self) -> bool:
         """True if the run calls the function of a step directly and passes it a memory of earlier steps."""
         plan = self.plan
-        # In the other cases the function ``run`` is called for one step, because ``run`` contains the
-        # deferred flows, the conversions of the momentum, or the kernel itself.
+        # In the other cases the function ``run`` is called for one step. It contains the deferred flows, the
+        # conversions of the momentum, or the kernel itself.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:
@@ -153,11 +156,11 @@ class _Constant:
         return [*copied, Call("run", passed, (STATUS,))]
 
     def observed(self) -> Statement:
-        """Return the call that searches the step for events and computes the states at its output times."""
+        """Return the call that searches a step for events and computes the states at its output times."""
         return self.observation.observe(self.plan.state(), self.trial, self.now, self.following, self.stop)
 
     def accept(self) -> tuple[Statement, ...]:
-        """Return the statements that accept a step: the run continues from its result."""
+        """Return the statements that accept a step. The run then continues from the result of the step."""
         return (
             Assign(self.plan.state(), self.trial),
             Assign(self.now, self.stop[0]),
@@ -166,7 +169,7 @@ class _Constant:
 
 
 class _Adaptive(Controlled):
-    """Builds the run with step control; every accepted step is observed."""
+    """Builds the run with step control. Every accepted step is observed."""
 
     stop = real("reached_time", 1)
 

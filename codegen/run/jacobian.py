@@ -1,8 +1,8 @@
 """The derivative of a step: each column is the image of a unit vector under the linearised step.
 
 The kernel of variations computes the step and its linearisation. A variation is a tangent vector, to which
-the linearised step is applied. Implicit equations, and the linear equations for the variations of their
-unknowns, are solved by fixed-point iteration. If this iteration does not converge, the call fails, even if
+the linearised step is applied. Implicit equations are solved by fixed-point iteration, and so are the linear
+equations for the variations of their unknowns. If this iteration does not converge, the call fails, even if
 Newton's method would converge.
 """
 
@@ -47,10 +47,11 @@ from codegen.run.terms import (
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions that compute the derivative; no functions if the derivative was not requested."""
+    """Return the functions that compute the derivative; an empty tuple if it was not requested."""
     if plan.kernel.vary is None:
         return ()
-    # The derivative is computed by its own kernel, the kernel of variations. This kernel has other inputs,
+    # The derivative is computed by a kernel of its own, the kernel of variations. This kernel has other
+    # inputs,
     # outputs and loops than the step, so it has its own plan.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
@@ -70,11 +71,10 @@ def vary(plan: Plan, varying: Plan) -> Function:
         *sampled(varying),
         *loaded(symbols[:n], state, read),
         *loaded(symbols[n:], vector, read),
-        # Sweeps for a derivative are not counted, because the statistics describe the integration only.
+        # Sweeps for a derivative are not counted. The statistics describe the integration only.
         *computed(varying, counting=False),
         *ends,
-        # The result is tested before ``vector`` is overwritten, so that ``vector`` is unchanged after a
-        # failure.
+        # The result is tested before ``vector`` is overwritten. After a failure ``vector`` is then unchanged.
         If(negated(all_finite(*new)), (Return(code(NOT_FINITE)),)),
         *stored(vector, new),
         Return(code(OK)),
@@ -85,7 +85,7 @@ def vary(plan: Plan, varying: Plan) -> Function:
 
 
 class _Jacobian:
-    """Builds the public function ``jacobian``; the attributes are variables of the function."""
+    """Builds the public function ``jacobian``. The attributes are variables of the function."""
 
     column, row = count("column"), count("row")
 
@@ -105,7 +105,7 @@ class _Jacobian:
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
-            # The linearised step is linear in the variation, so it maps a unit vector to a column of the
+            # The linearised step is linear in the variation. It maps a unit vector to a column of the
             # derivative.
             Assign(self.vector[self.column], number(1.0)),
             *(self.composed() if plan.parts else self.single()),
@@ -114,8 +114,8 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # The caller's array of inputs is ``const`` in C. The context of a signal is a pointer to data
-            # that is not ``const``, so C requires a copy of the inputs.
+            # C requires a copy of the inputs. The caller's array of inputs is ``const``, but the context of a
+            # signal is a pointer to data that is not ``const``.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),
@@ -133,8 +133,7 @@ class _Jacobian:
         return [Call("vary", (plan.state(), self.vector, *arguments), (STATUS,))]
 
     def composed(self) -> list[Statement]:
-        """Return the loop over the substeps; each substep advances the variation first, and then the
-        state."""
+        """Return the loop over the substeps. Each substep advances first the variation and then the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
         # Each substep has its own memory, because substeps have different lengths and solutions.
         memories = record("memory", "memory", plan.parts)
@@ -152,16 +151,16 @@ class _Jacobian:
                 If(STATUS.equals(code(OK)), (Call(LEAVE, (moving, before, point), (STATUS,)),)),
             ]
         inner: tuple[Statement, ...] = (
-            # The variation is advanced first, because the linearised substep is evaluated at the state before
-            # the substep.
+            # The variation is advanced first. The linearised substep is evaluated at the state before the
+            # substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
-            # The index of the substep is increased even after a failure, because the status then ends the
-            # loop, and the index is not read again.
+            # The index of the substep is increased even after a failure. The status then ends the loop, and
+            # the index is not read again.
             Assign(part, part + 1),
         )
         return [
-            # The state of the caller stays unchanged; the substeps advance a copy of it.
+            # The state of the caller stays unchanged. The substeps advance a copy.
             Array(point),
             Assign(point, plan.state()),
             *([Array(memories, zero=True)] if plan.remembers else []),

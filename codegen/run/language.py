@@ -1,15 +1,15 @@
 """The run representation: the code around a kernel as a small imperative program.
 
 Stopping rules, warm starts, continuation, runs and step control are written once in this representation, one
-file for each concern. Printers translate it to a target; :mod:`codegen.run.execute` executes it over any
-scalars.
+file for each concern. Printers translate the representation to a target, and :mod:`codegen.run.execute`
+executes it over any scalars.
 
 The body of a :class:`Function` consists of comments (:class:`Note`) and seven kinds of statement:
 :class:`Assign`, :class:`Array`, :class:`For`, :class:`While`, :class:`If`, :class:`Call` and :class:`Return`.
-The rules of the representation suit array languages, in which a loop is a ``while_loop`` and a branch is a
+The rules of the representation suit array languages. There a loop is a ``while_loop``, and a branch is a
 ``select``:
 
-- A loop is never left from its middle; a status or flag in its test ends it.
+- A loop is never left from its middle. A status or flag in its test ends the loop.
 - Return is at the end of a function, or alone in an If of the outermost block. Such an If is called a guard.
   A target may compute the statements after a guard and then discard their results.
 - A function returns its status as a value. There are no pointers, but a function may change the arrays that
@@ -29,8 +29,7 @@ from codegen.run.terms import Kind, Term, names
 
 @dataclass(frozen=True)
 class Assign:
-    """An assignment: target = value. If the target is an array or a record, all its entries or fields are
-    assigned."""
+    """An assignment: target = value. For an array or a record, all entries or fields are assigned."""
 
     target: Term
     value: Term
@@ -38,8 +37,11 @@ class Assign:
 
 @dataclass(frozen=True)
 class Array:
-    """The declaration of an array or record. Its entries are set to ``values`` if these are given, and to
-    zero if ``zero`` is true; otherwise they are undefined."""
+    """The declaration of an array or record.
+
+    Its entries are set to ``values`` if these are given, and to zero if ``zero`` is True. Otherwise they are
+    undefined.
+    """
 
     name: Term
     values: tuple[Term, ...] = ()
@@ -50,11 +52,11 @@ class Array:
 class For:
     """A loop: the body is executed for index = 0, ..., count - 1, or in ``reverse`` order.
 
-    The passes through an ``independent`` or ``parallel`` loop may be executed in any order. A compiler should
-    execute those of an independent loop with vector instructions, and those of a parallel loop on several
-    processors. A parallel loop changes no variable from outside the loop, except the ``reductions``: each is
-    an operation, ``+`` or ``max``, and the variable to which every pass applies the operation. If ``when`` is
-    given, the loop is parallel only if this test holds.
+    The iterations of an ``independent`` or ``parallel`` loop may be executed in any order. A compiler should
+    execute the iterations of an independent loop with vector instructions, and those of a parallel loop on
+    several processors. A parallel loop changes no variable from outside the loop, except the ``reductions``.
+    A reduction consists of an operation, ``+`` or ``max``, and a variable. Every iteration applies the
+    operation to the variable. If ``when`` is given, the loop is parallel only if this test holds.
     """
 
     index: Term
@@ -90,8 +92,11 @@ class If:
 
 @dataclass(frozen=True)
 class Call:
-    """A call: results = function(arguments). ``function`` is the name of a function of the unit, of the
-    target's library, or of the caller of the unit (:data:`LANGUAGE`)."""
+    """A call: results = function(arguments).
+
+    ``function`` is the name of a function of the unit, of the target's library, or of the caller of the unit
+    (:data:`LANGUAGE`).
+    """
 
     function: str
     arguments: tuple[Term, ...]
@@ -113,14 +118,16 @@ class Note:
 
 
 LANGUAGE = frozenset({"sample", "measure"})
-"""The functions that the caller of the unit supplies, by their names in a :class:`Call`: ``sample`` computes
-the run-time inputs, and ``measure`` the values of the event functions."""
+"""The functions that the caller of the unit supplies, by their names in a :class:`Call`.
+
+``sample`` computes the run-time inputs, and ``measure`` computes the values of the event functions."""
 
 Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
-# After a division by zero, for example, Python raises an exception, and C continues with an infinity or a
-# NaN. A function with a guard returns the same result in both targets.
+# Python raises an exception where C continues with an infinity or a NaN, for example after a division by
+# zero.
+# A function with a guard returns the same result in both targets.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
 """The values of ``Function.guard``. After an arithmetic error, a function with RAISES_STATUS returns the
 status NOT_FINITE. With RAISES_NAN, its result and the arrays that it changes are filled with NaNs."""
@@ -128,10 +135,13 @@ status NOT_FINITE. With RAISES_NAN, its result and the arrays that it changes ar
 
 @dataclass(frozen=True)
 class Function:
-    """A function of the unit. ``about`` is its comment, and ``returns`` is the kind of its result (None if it
-    returns nothing). ``public`` functions can be called from outside the unit. Functions marked ``often``
-    should be inlined. In a function marked ``near``, sines, cosines and Stumpff functions have no branches.
-    They return NaN for arguments that are not near zero (:mod:`codegen.run.batch`)."""
+    """A function of the unit.
+
+    ``about`` is the comment of the function, and ``returns`` is the kind of its result (None if it returns
+    nothing). ``public`` functions can be called from outside the unit. Functions marked ``often`` should be
+    inlined. In a function marked ``near``, sines, cosines and Stumpff functions have no branches. They return
+    NaN for arguments that are not near zero (:mod:`codegen.run.batch`).
+    """
 
     name: str
     about: str
@@ -146,8 +156,10 @@ class Function:
 
 @dataclass(frozen=True)
 class Record:
-    """A record type: values that functions keep from one call to the next, each with its name and a comment.
-    Records of a public type belong to the caller of the unit."""
+    """A record type: values that functions store from one call to the next.
+
+    ``fields`` contains each value with a comment. Records of a public type belong to the caller of the unit.
+    """
 
     name: str
     about: str
@@ -157,7 +169,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Table:
-    """A constant array; an array of two dimensions is stored by rows."""
+    """A constant array. An array of two dimensions is stored by rows."""
 
     name: Term
     rows: tuple[tuple[float, ...], ...]
@@ -188,7 +200,8 @@ class Unit:
 
 
 def blocks(statement: Statement) -> tuple[Body, ...]:
-    """Return the bodies that a statement contains: one for a loop, two for a branch, otherwise none."""
+    """Return the bodies inside a statement: one for a loop, two for a branch, none for any other
+    statement."""
     match statement:
         case For(body=body) | While(body=body):
             return (body,)
@@ -199,8 +212,10 @@ def blocks(statement: Statement) -> tuple[Body, ...]:
 
 
 def direct(statement: Statement) -> tuple[Term, ...]:
-    """Return the terms of a statement, without the terms in the bodies of a loop or branch. Terms that the
-    statement assigns come first."""
+    """Return the terms of a statement, without the terms in the bodies of a loop or branch.
+
+    Terms that the statement assigns come first.
+    """
     match statement:
         case Assign(target, term):
             return (target, term)
@@ -239,15 +254,14 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
 
 def root(target: Term) -> Term:
     """Return the name that an assignment changes, for example ``memory`` for ``memory.values[3]``."""
-    # The first argument of an entry, part or field is the array or record to which it belongs.
+    # The first argument of an entry, part or field is the array or record that contains it.
     while target.args:
         target = target.args[0]
     return target
 
 
 def assigned(statement: Statement) -> tuple[Term, ...]:
-    """Return the terms that a statement assigns. Assignments in the bodies of a loop or branch do not
-    count."""
+    """Return the terms that a statement assigns, without assignments in the bodies of a loop or branch."""
     match statement:
         case Assign(target):
             return (target,)
@@ -264,10 +278,12 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 
 
 def reads(statement: Statement) -> Iterator[Term]:
-    """Yield the names that a statement reads, without the bodies of a loop or branch. Changing an entry of an
-    array counts as reading the array."""
+    """Yield the names that a statement reads, without the bodies of a loop or branch.
+
+    Changing an entry of an array counts as reading the array.
+    """
     given = assigned(statement)
-    # An assignment to an entry keeps the other entries, so it depends on the old array.
+    # An assignment to an entry keeps all other entries, so it depends on the old array.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:

@@ -1,11 +1,12 @@
 """The emitted functions for a step of a large linear problem (:mod:`codegen.ir.linear_array_step`).
 
-The exponential of an exponent X is applied to y as in :mod:`codegen.ir.exponential_action`: X is halved s
-times, until a bound of its largest row sum is small. Then a Taylor polynomial of exp(2^-s X) of degree m is
+The exponential of a matrix X is applied to a vector y as in :mod:`codegen.ir.exponential_action`. X is halved
+s times, until a bound of its largest row sum is small. Then a Taylor polynomial of exp(2^-s X) of degree m is
 applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The remainder of each
-polynomial is below 2^-10 times the unit roundoff, relative to y. The bound of a row sum follows two rules:
-the bound of a sum is the sum of the bounds of its terms, and the bound of a commutator [X, Y] is twice the
-product of the bounds of X and Y.
+polynomial is below 2^-10 times the unit roundoff, relative to y.
+
+The bound of a row sum follows two rules. The bound of a sum is the sum of the bounds of its terms. The bound
+of a commutator [X, Y] is twice the product of the bounds of X and Y.
 """
 
 from __future__ import annotations
@@ -58,13 +59,15 @@ from codegen.run.terms import (
 )
 
 HALVINGS = 16
-"""The largest number of halvings of an exponent. A step that needs more halvings fails with the status
-TOO_FAR, because it would take too long: applying 2^16 polynomials of degree 22 takes seconds for a
-tridiagonal matrix with 1000 rows."""
+"""The largest number of halvings of an exponent.
+
+A step that needs more halvings fails with the status TOO_FAR, because it would take too long. Applying 2^16
+polynomials of degree 22 takes seconds for a tridiagonal matrix with 1000 rows."""
 
 EXPONENTIAL = "exponential"
-"""The name of the function that applies the exponential of a letter, which is a linear combination of the
-matrices h A(t_i)."""
+"""The name of the function that applies the exponential of a letter.
+
+A letter is a linear combination of the matrices h A(t_i)."""
 
 _PLACE, _PART = count("place"), count("part")
 
@@ -75,15 +78,17 @@ def linear_array_functions(plan: Plan, step: LinearArrayStep) -> tuple[Function,
 
 
 def linear_array_tables(step: LinearArrayStep, precision: Precision) -> tuple[Table, ...]:
-    """Return the tables of a step. They contain those entries of matrices that are given as numbers and not
-    by formulas."""
+    """Return the tables of a step: the entries of matrices that are given as numbers and not by formulas."""
     return tuple(tables(step.matrix.constants(), precision))
 
 
 @dataclass
 class _Step:
-    """Builds the functions of one step. A letter is a linear combination of the matrices h A(t_i); an element
-    is a sum of at most one letter and of multiples of commutators."""
+    """Builds the functions of one step.
+
+    A letter is a linear combination of the matrices h A(t_i). An element is a sum of at most one letter and
+    of multiples of commutators.
+    """
 
     plan: Plan
     step: LinearArrayStep
@@ -130,7 +135,7 @@ class _Step:
         return numbers
 
     def name(self, element: Element) -> str:
-        """Return the name of the function that multiplies a vector by ``element``, which contains
+        """Return the name of the function that multiplies a vector by ``element``, an element with
         commutators."""
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
@@ -199,7 +204,8 @@ class _Step:
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
         # Horner's rule uses the integers m!/j!, which have no rounding errors. Rounded coefficients would
-        # have the same errors in every step, and the length of the state would change systematically.
+        # have
+        # the same errors in every step and would change the length of the state systematically.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
@@ -290,8 +296,7 @@ class _Step:
         return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS, often=True)
 
     def takes(self, x: Term) -> bool:
-        """Return True if the function that evaluates A has the argument ``x``, which is the time or the step
-        size."""
+        """Return True if the function that evaluates A has the argument ``x`` (the time or the step size)."""
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:

@@ -1,9 +1,9 @@
-"""The emitted functions that compute vector functions: the matrix exponential with its derivatives, and the
-inverse.
+"""The emitted functions that compute the matrix exponential with its derivatives, and the inverse.
 
-The statements compute exactly what :mod:`codegen.ir.matrix_exponential` and :mod:`codegen.ir.matrix_inverse`
-compute in doubles. Matrices are stored in arrays row by row. A jet consists of a matrix and its derivatives,
-which are stored one after the other. The length of the emitted text does not depend on the number of rows.
+The statements execute the same operations as :mod:`codegen.ir.matrix_exponential` and
+:mod:`codegen.ir.matrix_inverse` in doubles. Matrices are stored in arrays row by row. A jet consists of a
+matrix and its derivatives, which are stored one after the other. The length of the emitted text does not
+depend on the number of rows.
 """
 
 from __future__ import annotations
@@ -60,8 +60,7 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 
 
 def used(functions: Iterable[Function]) -> list[VectorFunction]:
-    """Return the vector functions, such as the matrix exponential, that ``functions`` call, sorted by
-    name."""
+    """Return the vector functions that ``functions`` call, such as the matrix exponential, sorted by name."""
     called = {s.function for f in functions for s in statements(f.body) if isinstance(s, Call)}
     functions_called = map(vector_function, sorted(called))
     return [function for function in functions_called if function is not None]
@@ -85,15 +84,15 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Each name is listed once, because all exponentials of matrices of the same size call the same
-        # function for the norm.
+        # Each name is listed once. All exponentials of matrices of one size call the same function for the
+        # norm.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
 
 def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> tuple[Table, ...]:
-    """Return the table of the coefficients 1/k! of Taylor polynomials, or no table if no function is an
-    exponential that reads it."""
+    """Return the table of the coefficients 1/k! of Taylor polynomials; no table if no exponential reads
+    it."""
     if not any(isinstance(f, MatrixExponential | SpecialUnitaryExponential) for f in functions):
         return ()
     row = tuple(precision.round(Fraction(1, factorial(k))) for k in range(DEGREES[-1] + 1))
@@ -111,8 +110,10 @@ def _is_lost(array: Term) -> For:
 
 
 class _Exponential:
-    """Builds the functions for the exponential of jets of one size and one level; both are defined in
-    :mod:`codegen.ir.matrix_exponential`."""
+    """Builds the functions for the exponential of jets of one size and one level.
+
+    :mod:`codegen.ir.matrix_exponential` defines jets and levels.
+    """
 
     def __init__(self, function: MatrixExponential, precision: Precision) -> None:
         self.name, self.n, self.level = function.name, function.n, function.level
@@ -126,7 +127,7 @@ class _Exponential:
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
-        """Return an entry of one matrix of a jet: of the matrix itself if ``part`` is 0, otherwise of a
+        """Return an entry of one matrix of a jet: of the matrix itself if ``part`` is 0, else of a
         derivative."""
         place = self.n * row + column
         return array[place + self.one * part if part else place]
@@ -163,8 +164,11 @@ class _Exponential:
     def _sum(
         self, a: Term, b: Term, factors: Sequence[tuple[int, int]], entry: Term, part: int
     ) -> list[Statement]:
-        """Return the statements that compute ``entry`` of a product of two jets a and b. The entry belongs to
-        the sum of a_p b_q over all pairs (p, q) in ``factors``, where a_p is matrix number p of a."""
+        """Return the statements that compute ``entry`` of a product of two jets a and b.
+
+        The entry belongs to the sum of a_p b_q over all pairs (p, q) in ``factors``, where a_p is matrix
+        number p of the jet a.
+        """
 
         def terms(k: Term) -> list[Term]:
             return [self.entry(a, _ROW, k, p) * self.entry(b, k, _COLUMN, q) for p, q in factors]
@@ -217,8 +221,11 @@ class _Exponential:
         )
 
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
-        """Return the statements that evaluate a Taylor polynomial of the exponential. Its degree is the
-        lowest one whose remainder is below rounding level for matrices of this norm."""
+        """Return the statements that evaluate a Taylor polynomial of the exponential.
+
+        The polynomial has the lowest degree whose remainder is below rounding level for a matrix of this
+        norm.
+        """
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
         first, second, third, _ = self.norms
@@ -254,8 +261,10 @@ class _Exponential:
         ]
 
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
-        """Return the statements that compute a bound of the spectral norm of exp(scale a). This exponential
-        is computed first, and then squared repeatedly until it is exp(a)."""
+        """Return the statements that compute a bound of the spectral norm of exp(scale a).
+
+        The exponential exp(scale a) is computed first, and then squared repeatedly until it is exp(a).
+        """
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
@@ -272,8 +281,10 @@ class _Exponential:
         ]
 
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
-        """Return the statements that square the result repeatedly and bound its error. If the bound is too
-        large, the result is filled with NaNs."""
+        """Return the statements that square the result repeatedly and bound its error.
+
+        If the bound is too large, the result is filled with NaNs.
+        """
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")
         body = (
@@ -328,7 +339,7 @@ def _inverse(function: MatrixInverse) -> Function:
     column = (
         Assign(pivot, k),
         For(i, whole(n), (If(i > k, (search,)),)),
-        # If the matrix is singular, a pivot is zero, and all entries of the result become infinite or NaN.
+        # A singular matrix leads to a zero pivot. Then all entries of the result become infinite or NaN.
         Assign(order[k], pivot),
         For(j, whole(n), exchanged),
         Assign(factor, 1.0 / b[at]),

@@ -34,8 +34,7 @@ class Names:
                 self.identifiers[name] = self.fresh(name)
 
     def fresh(self, proposal: str) -> str:
-        """Return an identifier that is not used yet: the proposal, changed only as far as it is illegal or
-        taken."""
+        """Return an identifier that is not used yet: the proposal, changed only if it is illegal or taken."""
         # Only ASCII letters are kept, because compilers differ in the other letters that they allow in
         # identifiers.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
@@ -43,7 +42,8 @@ class Names:
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
         # An underscore is appended to a name that is taken. An appended number could be mistaken for an
-        # index, because xi_1 and xi_2 are components of one vector.
+        # index:
+        # xi_1 and xi_2 are components of one vector.
         while name in self._taken:
             name += "_"
         self._taken[name] = True

@@ -9,12 +9,14 @@ from codegen.run.language import Array, Call, Function, Unit, assigned, statemen
 from codegen.run.terms import Kind, Term
 
 REGISTERS = 8
-"""The number of arguments that a call passes in registers; further arguments are on the stack."""
+"""The number of arguments that a call passes in registers. Further arguments are on the stack."""
 
 
 def numbers_held(unit: Unit) -> int:
-    """Return a bound of the number of scalars that one call of a public function keeps on the stack: the sum
-    over all private functions, plus the largest number in a public function."""
+    """Return a bound of the number of scalars that one call of a public function keeps on the stack.
+
+    The bound is the sum over all private functions, plus the largest number in a public function.
+    """
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
     # A public function that a private function calls is counted like a private function.
@@ -22,7 +24,7 @@ def numbers_held(unit: Unit) -> int:
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
     # All private functions may be inlined into one stack frame, so their scalars are added. Only one public
-    # function runs at a time, so the largest number is taken.
+    # function runs at a time, so only the largest number is added.
     return sum(held.values()) - sum(public) + max(public)
 
 
@@ -30,8 +32,8 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
     arrays, passed, scalars = 0, 0, set()
     for statement in statements(function.body):
         if isinstance(statement, Call):
-            # Compilers that do not optimise reserve a separate place on the stack for each argument of each
-            # call with many arguments.
+            # Compilers that do not optimise reserve separate stack space for each argument of a call, if the
+            # call has many arguments.
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):

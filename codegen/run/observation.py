@@ -54,20 +54,21 @@ INSIDE, ORDERED, CROSSED, LOCATE, EVENTS, OBSERVE = (
 """The names of the private functions of this module."""
 
 PARTS = 4
-"""Each step is divided into this number of equal parts. The signs of event functions are compared at the ends
-of each part."""
+"""Each step is divided into this number of equal parts.
+
+The signs of event functions are compared at the ends of each part."""
 
 TRIALS = 200
 """The largest number of trials for the time of one event. Every third trial halves the interval, so 200
 trials shorten it to rounding level."""
 
 CLOSE = 4
-"""The search for an event in a step from t to t' ends when the enclosing interval is at most 2 CLOSE u
-max(|t|, |t'|) long. Here u is the unit roundoff."""
+"""The search for an event in a step from t to t' ends when the enclosing interval has at most the length
+2 CLOSE u max(|t|, |t'|), where u is the unit roundoff."""
 
 RISING, FALLING = 1, 2
-"""Values of ``stops``: the run ends where the event function crosses zero from below (RISING), from above
-(FALLING), or in either direction (RISING + FALLING)."""
+"""Values of ``stops``: the run ends where the event function crosses zero from below (RISING) or from above
+(FALLING). The sum RISING + FALLING stands for both directions."""
 
 
 class Observation:
@@ -103,8 +104,10 @@ class Observation:
 
     @property
     def sound(self) -> Term:
-        """The test that the observation of a step has succeeded: the status is OK, or EVENT if an event ends
-        the run."""
+        """The test that the observation of a step has succeeded.
+
+        The status is then OK, or EVENT if an event ends the run.
+        """
         good = STATUS.equals(code(OK))
         return either(good, STATUS.equals(code(EVENT))) if self.events else good
 
@@ -115,7 +118,7 @@ class Observation:
 
     @property
     def buffers(self) -> tuple[Term, ...]:
-        """The arguments for events; none if there are no event functions."""
+        """The arguments for events; an empty tuple if there are no event functions."""
         if not self.events:
             return ()
         return (
@@ -125,13 +128,18 @@ class Observation:
 
     @property
     def memory(self) -> tuple[Term, ...]:
-        """The arrays with the signs and values of the event functions at the time up to which events have
-        been searched; none if there are no event functions."""
+        """The arrays with the signs and values of the event functions where the search for events has
+        arrived.
+
+        The tuple is empty if there are no event functions.
+        """
         return (self.signs, self.values) if self.events else ()
 
     def begin(self, state: Term, now: Term, end: Term) -> tuple[Statement, ...]:
-        """Return the statements at the beginning of a run. They test the output times, write the output at
-        the initial time, and evaluate the event functions."""
+        """Return the statements at the beginning of a run.
+
+        They test the output times, write the output at the initial time, and evaluate the event functions.
+        """
         ordered = flag("ordered")
         place = self.written[0]
         first = (Assign(self.rows[place], state), Assign(place, place + 1))
@@ -140,8 +148,8 @@ class Observation:
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
         events: tuple[Statement, ...] = ()
         if self.events:
-            # The arrays are cleared, because some compilers cannot prove that all entries are assigned, and
-            # would warn.
+            # The arrays are cleared. Some compilers cannot prove that all entries are assigned, and would
+            # warn.
             arrays = tuple(Array(x, zero=True) for x in (*self.memory, self.measured))
             measured = (*self.measure(now, state), Assign(self.values, self.measured), *self.signed())
             events = (Assign(self.event_count[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))
@@ -154,8 +162,11 @@ class Observation:
         )
 
     def observe(self, state: Term, trial: Term, now: Term, following: Term, stop: Term) -> Call:
-        """Return the call that observes the step from ``state`` to ``trial``. The status is EVENT if an event
-        ends the run; ``trial`` is then the state at this event, and ``stop`` the time."""
+        """Return the call that observes the step from ``state`` to ``trial``.
+
+        The status is EVENT if an event ends the run. Then ``trial`` is the state at this event, and ``stop``
+        is the time of this event.
+        """
         passed = (*self.plan.parameters, *self.plan.sampled(), *self.outputs, *self.buffers, *self.memory)
         return Call(OBSERVE, (state, trial, now, following, *passed, stop), (STATUS,))
 
@@ -163,8 +174,9 @@ class Observation:
         """Return the functions, callees first."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
-        # If there are no events and a continuous extension was requested, the extension computes all states
-        # inside steps, and the function ``inside`` is not needed.
+        # The function ``inside`` is not needed if there are no events and a continuous extension was
+        # requested.
+        # The extension then computes all states inside steps.
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -181,14 +193,14 @@ class Observation:
         return Function(INSIDE, about, parameters, body, Kind.STATUS)
 
     def state_at(self, state: Term, elapsed: Term) -> tuple[Statement, ...]:
-        """Return the call of ``inside`` that computes the state when the time ``elapsed`` has passed since
-        the beginning of the step."""
+        """Return the call of ``inside`` for the state when ``elapsed`` has passed since the start of the
+        step."""
         plan = self.plan
         moment = plan.moment(self.now, elapsed)
         return (Call(INSIDE, (state, *moment, *plan.parameters, *plan.sampled(), self.inner), (STATUS,)),)
 
     def in_order(self) -> Function:
-        """Return the function that tests whether the output times are in order and within the interval of the
+        """Return the function that tests whether the output times are in order and in the interval of the
         run."""
         k, ordered, last = count("k"), flag("ordered"), real("last_time")
         time = self.times[k]
@@ -201,7 +213,7 @@ class Observation:
             While(
                 both(ordered, k < self.amount),
                 (
-                    # All comparisons with a NaN are false, so an output time that is a NaN fails the test.
+                    # Comparisons with a NaN are false, so an output time that is a NaN fails the test.
                     Assign(ordered, both(either(forward, backward), is_finite(time))),
                     Assign(last, time),
                     Assign(k, k + 1),
@@ -213,25 +225,26 @@ class Observation:
         return Function(ORDERED, about, (self.now, self.end, self.times, self.amount), body, Kind.FLAG)
 
     def measure(self, time: Term, state: Term) -> tuple[Statement, ...]:
-        """Return the statements that evaluate the event functions. If a value is not finite, the status
-        becomes BAD_EVENT."""
+        """Return the statements that evaluate the event functions.
+
+        If a value is not finite, the status becomes BAD_EVENT.
+        """
         return (
             Call("measure", (EVENT_FUNCTIONS, time, state), (self.measured,)),
             If(negated(all_finite(self.measured)), (Assign(STATUS, code(BAD_EVENT)),)),
         )
 
     def signed(self) -> tuple[Statement, ...]:
-        """Return the statements that store the signs of the values; the sign of a zero is zero."""
+        """Return the statements that store the signs of the values. The sign of a zero is zero."""
         i = count("i")
         value = self.measured[i]
         sign = select(value > 0.0, number(1.0), select(value < 0.0, number(-1.0), number(0.0)))
         return (For(i, whole(self.events), (Assign(self.signs[i], sign),)),)
 
     def changed(self, i: Term, values: Term) -> Term:
-        """Return the test that event function ``i`` has changed its sign; ``values`` are the new values of
-        all event functions."""
-        # If the stored sign is zero, the last value was exactly zero: it was the first value of the run, or
-        # it was recorded as an event. A nonzero value after this zero does not count as a change of sign.
+        """Return the test that event function ``i`` has changed its sign; ``values`` are the new values."""
+        # A stored sign of zero means that the last value was exactly zero. It was the first value of the run,
+        # or it was recorded as an event. A nonzero value after this zero is no change of sign.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -248,8 +261,8 @@ class Observation:
         return Function(CROSSED, about, (self.signs, self.measured), body, Kind.FLAG)
 
     def locate(self) -> Function:
-        """Return the function that searches a part of a step for its first event, and encloses the time of
-        the event in a short interval."""
+        """Return the function that encloses the time of the first event in a part of a step in a short
+        interval."""
         plan, state, high, ahead = self.plan, self.plan.state(), self.high[0], self.ahead
         trials, side, change = count("trials"), real("side"), flag("change")
         width, longer = real("width"), real("longer")
@@ -270,7 +283,7 @@ class Observation:
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # The width has a lower bound, because fractions of a step have rounding errors, too. The bound is
+            # The width has a lower bound, because fractions of a step also have rounding errors. The bound is
             # needed near the time zero, where the formula above gives a smaller width.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
@@ -299,7 +312,7 @@ class Observation:
         """Return the statements that choose the next time inside the interval."""
         i, estimate = count("i"), real("estimate")
         # For each function with a change of sign, the secant through its values at both ends gives a time.
-        # The earliest of these times is the guess; every third guess is the middle of the interval instead.
+        # The guess is the earliest of these times. Every third guess is the middle of the interval instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         candidate = (
             Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
@@ -319,10 +332,11 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return the statements that move the upper end of the interval to the middle, and those that move
-        the lower end."""
-        # If the same end moves in two successive trials, the weight of the values at the other end is halved
-        # (Illinois).
+        """Return two lists of statements: one moves the upper end of the interval to the middle, the other
+        the
+        lower end."""
+        # If the same end moves in two successive trials, the weight of the values at the other end is halved,
+        # as in the Illinois method.
         moved_high: tuple[Statement, ...] = (
             Assign(high, self.middle),
             Assign(self.ahead, self.measured),
@@ -341,8 +355,8 @@ class Observation:
         return moved_high, moved_low
 
     def time_at(self, fraction: Term) -> Term:
-        """Return the time at a fraction of the step. For the end of the step it is ``following``, without a
-        rounding error."""
+        """Return the time at a fraction of the step. The end of the step is ``following``, without
+        rounding."""
         inner = self.now + fraction * self.length
         return select(fraction >= 1.0, self.following, inner)
 
@@ -397,8 +411,8 @@ class Observation:
         stopped = (Assign(self.stop[0], self.time_at(self.high[0])), Assign(self.after, self.inner))
         return (
             For(i, whole(self.events), (If(self.changed(i, self.measured), stored),)),
-            # The run is interrupted unless the buffer has room for one more event of each function, because
-            # all functions may change sign at the next event.
+            # All functions may change sign at the next event. If the buffer has no room for one more event of
+            # each function, the run is interrupted.
             If(place + self.events > self.room, (Assign(STATUS, code(EVENT)),)),
             If(STATUS.equals(code(EVENT)), stopped),
         )
@@ -415,8 +429,7 @@ class Observation:
     known = flag("known")
 
     def begin_extension(self) -> tuple[Statement, ...]:
-        """Return the statements that prepare the continuous extension of a step; none without an
-        extension."""
+        """Return the statements that prepare the continuous extension of a step, if there is an extension."""
         if self.dense is None:
             return ()
         # The array is cleared, because compilers cannot prove that it is filled before it is read.
@@ -434,8 +447,11 @@ class Observation:
         )
 
     def observed(self) -> Function:
-        """Return the function that observes one step. First it searches for events. Then it computes the
-        states at output times, up to the first event that ends the run."""
+        """Return the function that observes one step.
+
+        First it searches for events. Then it computes the states at output times, up to the first event that
+        ends the run.
+        """
         plan, state, place = self.plan, self.plan.state(), self.written[0]
         outcome, due, stop = Term("name", (), Kind.STATUS, "outcome"), flag("due"), self.stop[0]
         time = self.times[place]

@@ -1,5 +1,4 @@
-"""A plan for the functions around one kernel: their common arguments, and the features that the kernel
-needs."""
+"""A plan for the functions around one kernel: common arguments, and features that the kernel needs."""
 
 from __future__ import annotations
 
@@ -35,14 +34,14 @@ class Plan:
 
     kernel: Kernel
     format: Precision
-    # The choice of a solver sets ``tries`` to one in its trial steps. With more attempts, the continuation in
-    # h could make a trial succeed although the solver fails.
+    # When a solver is chosen, trial steps have ``tries`` = 1. With more attempts, the continuation in h could
+    # make a trial succeed although the solver fails.
     tries: int | None = None
 
     @cached_property
     def arrangement(self) -> Arrangement:
         """The statements of the kernel."""
-        # The statements are cached, because every function of a unit reads them, and scheduling rewrites all
+        # The statements are cached. Every function of a unit reads them, and scheduling rewrites all
         # expressions.
         return arrange(self.kernel)
 
@@ -58,8 +57,8 @@ class Plan:
 
     @cached_property
     def _used(self) -> tuple[str, ...]:
-        # The result is cached, because nearly every property below reads it, and computing it walks through
-        # the whole kernel.
+        # The result is cached. Nearly every property below reads it, and computing it walks through the whole
+        # kernel.
         return self.kernel.used_scalars()
 
     @property
@@ -74,13 +73,13 @@ class Plan:
 
     @property
     def counting(self) -> bool:
-        """True if there are implicit blocks; their sweeps are counted."""
+        """True if there are implicit blocks. The statistics count their sweeps."""
         return bool(self.kernel.loops)
 
     @property
     def newton(self) -> bool:
-        """True if matrices of Newton's method are kept from step to step."""
-        # Simplified Newton computes its matrix in each step and keeps nothing.
+        """True if matrices of Newton's method are stored from step to step."""
+        # Simplified Newton computes its matrix in each step and stores nothing.
         return any(loop.solver == NEWTON for loop in self.kernel.loops)
 
     @property
@@ -90,14 +89,13 @@ class Plan:
 
     @property
     def remembers(self) -> bool:
-        """True if a step stores data for the next step: solutions of equations, or matrices of Newton's
-        method."""
-        # Kernels without implicit equations store nothing, so their steps have no argument for a memory.
+        """True if a step stores solutions of equations, or matrices of Newton's method, for the next step."""
+        # Kernels without implicit equations store nothing. Their steps have no argument for a memory.
         return self.start is not None or self.newton
 
     @property
     def parts(self) -> int:
-        """The number of substeps of a step, 0 if it has none."""
+        """The number of substeps of a step; 0 if there are none."""
         return len(self.kernel.substeps)
 
     @property
@@ -107,10 +105,10 @@ class Plan:
 
     @property
     def memories(self) -> Term:
-        """An array with the memory of each substep. If there are no substeps, it is the memory of the
-        step."""
-        # Substeps differ in length, so the solutions of one substep cannot be extrapolated to the next
-        # substep. Each substep has its own memory.
+        """An array with the memory of each substep. Without substeps it is the memory of the step."""
+        # Substeps differ in length. The solutions of one substep cannot be extrapolated to the next substep,
+        # so
+        # each substep has its own memory.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
 
     @property
@@ -139,12 +137,11 @@ class Plan:
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:
         """Return the arguments for the time and the step size. The time is omitted if a step does not read
         it."""
-        # An unused argument would cause a warning of C compilers, and the time would be computed in vain in
-        # each step.
+        # C compilers would warn about an unused argument, and each step would compute the time in vain.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
-        """Return a tuple with the argument for run-time inputs. It is empty if the kernel has none."""
+        """Return a tuple with the argument for run-time inputs. It is empty if the kernel has no inputs."""
         return (inputs,) if self.kernel.inputs else ()
 
     @property
@@ -153,9 +150,9 @@ class Plan:
         return (real("held", len(self.kernel.inputs)),) if self.kernel.inputs else ()
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
-        """Return the names of those ``scalars`` that the statements of the kernel read."""
-        # Only the scheduled statements are searched, because scheduling may have removed all statements that
-        # read a scalar.
+        """Return the names in ``scalars`` that the statements of the kernel read."""
+        # Only the scheduled statements are searched. Scheduling may have removed all statements that read a
+        # scalar.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

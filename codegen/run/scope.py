@@ -1,5 +1,5 @@
-"""Scopes for target languages with declarations: each variable is declared in the innermost possible block,
-as late as possible.
+"""Scopes for target languages with declarations: variables are declared in the innermost block, as late as
+possible.
 
 A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign
 the variable before they read it, it belongs to each of these blocks. The first assignment declares the
@@ -32,8 +32,7 @@ from codegen.run.terms import Term, names
 
 @dataclass
 class Declarations:
-    """The variables that are declared before each statement, and the variables that the statement itself
-    declares.
+    """The variables that are declared before each statement, and those that the statement itself declares.
 
     Keys are ``id(statement)``. A value of ``by`` maps the name of each variable that the statement declares
     to True if the variable is constant, and to False otherwise.
@@ -60,7 +59,7 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
                 for target in assigned(statement):
                     if target.op == "name" and not target.shape and not target.record:
                         result.setdefault(identifiers.variable(target), target)
-            # Inner blocks are included, because a variable may be assigned only there.
+            # Inner blocks are included. A variable may be assigned only there.
             for inner in blocks(statement):
                 collect(inner)
 
@@ -76,8 +75,8 @@ class _Scopes:
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
-        # The keys are identities: equal statements at different places have separate scopes. Each statement
-        # is analysed once, and the result is stored, because it is needed for many variables.
+        # The keys are identities, because equal statements at different places have separate scopes. The
+        # result for each statement is stored, because it is needed for many variables.
         self.known: dict[int, frozenset[str]] = {}
         self.known_own: dict[int, frozenset[str]] = {}
         self.counts: dict[int, Counter[str]] = {}
@@ -85,8 +84,9 @@ class _Scopes:
     def place(self, body: Body, variables: dict[str, Term]) -> None:
         """Declare variables that no statement outside the body mentions."""
         inside: dict[int, dict[str, Term]] = {}
-        # One pass over the body finds the uses of all variables: a pass for each variable would take
-        # quadratic time.
+        # One pass over the body finds the uses of all variables. A pass for each variable would take
+        # quadratic
+        # time.
         holders: dict[str, list[int]] = {name: [] for name in variables}
         for k, statement in enumerate(body):
             for name in self.mentioned(statement):
@@ -96,8 +96,9 @@ class _Scopes:
             places = holders[name]
             if not places:
                 continue
-            # Variables are declared in the innermost block, because a small scope shows readers and compilers
-            # how long a value is needed.
+            # Variables are declared in the innermost block. A small scope shows readers and compilers how
+            # long
+            # a value is needed.
             deeper = self.deeper(body, places, name)
             if not deeper:
                 self.declare(body, places, name, variable)
@@ -109,7 +110,7 @@ class _Scopes:
                     self.place(block, inside[id(block)])
 
     def deeper(self, body: Body, places: list[int], name: str) -> list[Body]:
-        """Return the inner blocks to which a variable belongs; none if the variable belongs to ``body``."""
+        """Return the inner blocks to which a variable belongs; an empty list if it belongs to ``body``."""
         result: list[Body] = []
         # Only statements that mention the variable can contain a block to which the variable belongs.
         for k in places:
@@ -117,21 +118,21 @@ class _Scopes:
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # If a block reads the variable before it assigns it, the value comes from an earlier block, and the
+        # If a block reads the variable before assigning it, the value comes from an earlier block. Then the
         # variable belongs to ``body``.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
 
     def begins(self, body: Body, name: str) -> bool:
-        """Return True if a body assigns a variable before it reads it."""
+        """Return True if a body assigns the variable ``name`` before reading it."""
         for statement in body:
             if name not in self.mentioned(statement):
                 continue
             if name in {self.identifiers.variable(x) for x in reads(statement)}:
                 return False
             if isinstance(statement, Assign | Call):
-                # A call with several results writes them through pointers; this counts as an assignment to
+                # A call with several results writes them through pointers. This counts as an assignment to
                 # each result.
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
@@ -144,10 +145,10 @@ class _Scopes:
         return False
 
     def declare(self, body: Body, places: list[int], name: str, variable: Term) -> None:
-        """Declare a variable in the block ``body``. ``places`` are the indices of the statements that mention
-        the variable."""
+        """Declare a variable in the block ``body``; statements with indices in ``places`` mention the
+        variable."""
         first = body[places[0]]
-        # Assignments in inner blocks are counted, too: a variable that an inner block assigns again is not
+        # Assignments in inner blocks are also counted. A variable that an inner block assigns again is not
         # constant.
         times = sum(self.assignments(body[k])[name] for k in places)
         # `x = x + 1` cannot be a declaration, because it reads x.

@@ -12,14 +12,14 @@ from codegen.run.solver_choice import Choice
 def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
     """Return the choice of a solver for each block of a lattice; ``name`` is the name of the scene.
 
-    MethodError is raised if the method is implicit and ``asked`` is ``newton``. Lattices have only
-    fixed-point iteration, and chains have simplified Newton, too.
+    MethodError is raised if the method is implicit and ``asked`` is ``newton``. Lattices can use only
+    fixed-point iteration. Chains can also use simplified Newton.
     """
     step = kernel.sites
     assert step is not None
     if step.blocks and asked == NEWTON:
         raise MethodError(
-            f"{METHODS[asked]} for a chain or lattice",
+            f"{METHODS[asked]} is not possible for a chain or lattice",
             where=name,
             expected=f"the solver {FIXED_POINT}, or {SIMPLIFIED_NEWTON} for a chain",
         )
