@@ -100,7 +100,7 @@ class Character:
         return self.inverse().scaled(self.ring.rational(-1))
 
     def scaled(self, factor: Element) -> Character:
-        """Return the step of this method with the step size ``factor`` times h."""
+        """Return the step of the same method with step size ``factor`` times h."""
 
         def value(forest: bytes) -> Element:
             power = self.ring.one
@@ -111,10 +111,10 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return a sum over all cuts. Each summand is the product of the values of this step on the
-        components and the value of ``other`` on the rest.
+        """Return a sum over all admissible cuts. Each summand is the product of the values of this step on
+        the components and the value of ``other`` on the rest.
 
-        If ``whole`` is false, the empty cut is omitted; it removes nothing, and its rest is the whole forest.
+        If ``whole`` is false, the empty cut, in which the rest is the whole forest, is omitted.
         """
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):

@@ -1,10 +1,12 @@
-"""The series of a Runge-Kutta-Munthe-Kaas method, from its definition in the free associative algebra.
+"""The series of a Runge-Kutta-Munthe-Kaas method (RKMK), computed from the definition of the method.
 
 The stage arguments are ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j`` with ``k_j = f(exp(u_j) y0)``. The step
-is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``, where dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with B_1 =
--1/2 (HLW IV.8.3). The letters of words are ordered trees. In a word the first letter acts first. In the
-product xy of two elements, the factor y acts first. Hence, in a word, the letters of y precede the letters of
-x.
+is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with the
+Bernoulli numbers B_k and B_1 = -1/2 (HLW IV.8.3).
+
+The computation takes place in the free associative algebra. The letters of words are ordered trees. In a word
+the first letter acts first. In the product xy of two elements, the factor y acts first. Hence, in a word, the
+letters of y precede the letters of x.
 """
 
 from __future__ import annotations
@@ -21,8 +23,8 @@ from orderconds.trees.levels import Forest, Tree, branches
 
 
 class DexpinvSeries:
-    """The Lie-Butcher series of RKMK with the tableau (A, b) over ``ring``. If ``cutoff`` is None, dexpinv is
-    not truncated.
+    """The Lie-Butcher series of the RKMK method of a tableau (A, b) over ``ring``. dexpinv is truncated after
+    the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
 
     The value on a forest depends only on the values on forests with fewer vertices. Hence implicit tableaux
     need no iteration. The coefficients of a word are computed for all stages together.
@@ -37,8 +39,8 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # The first entry of ``_rows`` sums over the rows of A, for the arguments of the stages. The second
-        # entry sums over b, for the argument of the step.
+        # The first entry of ``_rows`` computes the sums with the rows of A, for the arguments of the stages.
+        # The second entry computes the sum with b, for the argument of the step.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
@@ -56,7 +58,8 @@ class DexpinvSeries:
         return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:
-        """Return the coefficient of a word in u_i. Stages are counted from 0, and i = s denotes the step."""
+        """Return the coefficient of a word in u_i. Stages are counted from 0. If i is the number of stages,
+        u_i is the argument of the step."""
         if not word:
             return self._ring.zero
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
@@ -108,9 +111,9 @@ class DexpinvSeries:
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
         """Return one factor for each stage j, or None if all factors are zero.
 
-        Let t be a letter of k_j. The factor times the coefficient of t in k_j is the contribution of this
-        letter to the coefficient of the word ``start`` t ``end`` in dexpinv_{(r),u_j} k_j. ``before`` and
-        ``behind`` are the numbers of letters in ``start`` and ``end``.
+        Let t be a letter of k_j. The factor times the coefficient of t in k_j is the contribution of t to the
+        coefficient of the word ``start`` t ``end`` in dexpinv_{(r),u_j} k_j. ``before`` and ``behind`` are
+        the numbers of letters in ``start`` and ``end``.
         """
         values = None
         for q, m, n in self._present(before, behind):
@@ -125,11 +128,12 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms u^n k u^m of dexpinv that contribute to words in which ``before`` letters precede
-        the letter from k and ``behind`` letters follow it.
+        """Return the terms u^n x u^m of dexpinv_u x that contribute to a word with ``before`` letters before
+        the letter of x and ``behind`` letters after the letter of x.
 
-        ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and the rightmost factor u^m acts first. A word occurs
-        in u^m only if it has at least m letters; the empty word occurs in u^0 only.
+        By ad_u^k x = sum_m comb(k, m) (-1)^m u^(k-m) x u^m, all terms have this form. The rightmost factor
+        u^m acts first. A word occurs in u^m only if it has at least m letters. The empty word occurs only in
+        u^0.
         """
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
@@ -150,8 +154,10 @@ class DexpinvSeries:
 
 @lru_cache(maxsize=64)
 def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
-    """Return the triples (B_k/k! comb(k, m) (-1)^m, m, k - m) for all k <= ``longest`` with B_k != 0 and for
-    all m <= k. The first entry of a triple is the coefficient of the term u^(k-m) x u^m in dexpinv_u x.
+    """Return the terms q u^n x u^m of dexpinv_u x with m + n <= ``longest``, as triples (q, m, n).
+
+    For k = m + n, the coefficient q is B_k/k! comb(k, m) (-1)^m with the Bernoulli number B_k. Terms with B_k
+    = 0 are omitted.
 
     >>> [(str(q), m, n) for q, m, n in dexpinv_terms(1)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0)]
@@ -164,7 +170,7 @@ def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     )
 
 
-@cache  # The cache is unbounded, because each number depends on all earlier numbers.
+@cache  # The cache is unbounded, because each number is computed from all earlier numbers.
 def bernoulli(k: int) -> Fraction:
     """Return the Bernoulli number B_k, with B_1 = -1/2.
 
@@ -184,6 +190,7 @@ def _cuts(word: Forest) -> list[int]:
 
 
 def _pointed(word: Forest) -> list[tuple[int, Tree, int]]:
-    """Return a triple (start, letter, end) for each letter of a word, with its positions in the word."""
+    """Return a triple (start, letter, end) for each letter of a word. ``start`` and ``end`` are the positions
+    of the letter in the word."""
     cuts = [0, *_cuts(word), len(word)]
     return [(start, word[start:end], end) for start, end in pairwise(cuts)]

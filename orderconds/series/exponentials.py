@@ -1,7 +1,7 @@
-"""Coefficients of words in a product of exponentials, over any ring. One loop over the factors computes them.
+"""Coefficients of words in a product of exponentials, over any ring.
 
-In exp(X_m) ... exp(X_1) with X_J = sum_k x_J(k) k, the word k_1 ... k_n, in which k_1 acts first, has the
-coefficient
+Let X_J = sum_k x_J(k) k be a linear combination of letters k. In exp(X_m) ... exp(X_1), the word k_1 ... k_n,
+in which k_1 acts first, has the coefficient
 
 sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!
 
@@ -21,8 +21,7 @@ from orderconds.words.shuffle import Word
 class ProductOfExponentials:
     """The coefficients of words in the product exp(X_(count-1)) ... exp(X_0), where exp(X_0) acts first.
 
-    ``letter(J, k)`` returns the coefficient of letter k in X_J. The result None means that this coefficient
-    is zero for all coefficients of the method.
+    ``letter(J, k)`` returns the coefficient of letter k in X_J, or None if letter k never occurs in X_J.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]

@@ -1,8 +1,8 @@
 """Polynomials in non-commuting graded letters, truncated above a grade, and their brackets.
 
 A polynomial is a map from words of letters to coefficients. The letters are numbered from 0, and each letter
-has a grade. Words whose grade is greater than a given largest grade are set to zero. The product xy is the
-word xy; this module does not define which letter acts first.
+has a grade. The grade of a word is the sum of the grades of its letters. Words whose grade is greater than a
+given largest grade are set to zero. The product of two words x and y is the word xy.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ Key = TypeVar("Key", bound=Hashable)
 
 
 class GradedAlgebra:
-    """The algebra of polynomials in letters with the given ``grades``. A word whose grade is greater than
-    ``largest`` is dropped.
+    """The algebra of polynomials in letters with the given ``grades``. Words whose grade is greater than
+    ``largest`` are set to zero.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)
@@ -77,11 +77,10 @@ class GradedAlgebra:
 def solve(
     ring: Ring, columns: Sequence[Mapping[Key, Element]], target: Mapping[Key, Element]
 ) -> list[Element] | None:
-    """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If the
-    solution is not unique, pivot columns are chosen from the left, and x_n is zero for all other columns.
+    """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution.
 
-    The method is Gaussian elimination. The ring must be able to divide by every non-zero number that it
-    contains.
+    The method is Gaussian elimination. If the solution is not unique, pivot columns are chosen from the left,
+    and x_n is zero for all other columns. The ring must be able to divide by every non-zero element.
 
     >>> from orderconds.ring import QQ
     >>> [str(x) for x in solve(QQ, [{"a": QQ.rational(2)}, {"a": QQ.one}], {"a": QQ.one})]

@@ -6,8 +6,9 @@ is
 
 sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!
 
-where a run is a maximal sequence of equal indices J_l. Let k = f(g y0). This coefficient is also the value of
-the series of k on the tree whose branches form the word (Owren and Marthinsen, BIT 39 (1999) 116; HLW IV.8).
+where a run is a maximal sequence of equal indices J_l. This coefficient is also the value of the series of
+f(g y0) on the tree whose branches form the word. Here f is the vector field and y0 the initial value (Owren
+and Marthinsen, BIT 39 (1999) 116; HLW IV.8).
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.trees.ordered import ordered_forests
 
 SparseRow = Sequence[tuple[int, Element]]
-"""The argument of one exponential: pairs of the index of a stage and the coefficient of its stage value.
-Zero coefficients are omitted."""
+"""The argument of one exponential, as pairs (index of a stage, coefficient of the stage value). Zero
+coefficients are omitted."""
 
 
 class ForestSeries(Protocol):
@@ -40,9 +41,8 @@ class ExponentialsSeries:
     ``stages[i]`` contains the exponentials that lead from y0 to stage i, and ``update`` contains the
     exponentials of the step. Each exponential is a sparse row of coefficients over the stages. The first
     exponential acts first. Stages may depend on each other implicitly. Products that begin with the same rows
-    (identical coefficient objects) share partial products. Hence all partial products form one tree; in this
-    module, a node of this tree is called a place. The coefficient of a word at a place is the coefficient of
-    the word in the partial product.
+    (identical coefficient objects) share partial products. A partial product is called a place in this
+    module. The coefficient of a word at a place is the coefficient of the word in this partial product.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -121,7 +121,7 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a non-empty word, computed only at ``places``; the coefficients at all
+        """Return the coefficients of a non-empty word, computed only at ``places``. The coefficients at all
         other places are set to zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
@@ -164,7 +164,7 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the value of the exact flow on a forest, by left grafting.
 
-    Let g be the solution of g' = f(g y0) g, g(0) = 1. The value of its series on a word is the iterated
+    Let g be the solution of g' = f(g y0) g, g(0) = 1. The value of the series of g on a word is the iterated
     integral of the values of the letters, with the first letter at the earliest time. By homogeneity, the
     integral over [0, s] is e s^n, where n is the number of vertices and e is the value to be computed. The
     derivative with respect to s removes the last letter. The value of a letter is the value of the word of
@@ -182,10 +182,11 @@ def exact_value(forest: Forest) -> Fraction:
 def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     """Return the value a(w) of a series on every ordered forest w with ``order`` vertices.
 
-    These values determine the step. Let w = t_1 ... t_k, and let X_l differentiate along the fixed element
-    F(t_l) of the Lie algebra. These elements are defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Then
-    every function phi satisfies phi(y1) = sum_w h^|w| a(w) (X_1 ... X_k phi)(y0). For matrices, g1 = sum_w
-    h^|w| a(w) F(t_k) ... F(t_1).
+    These values determine the step from y0 to y1 = g1 y0. Let w = t_1 ... t_k be a forest, and let X_l
+    differentiate along the fixed element F(t_l) of the Lie algebra. These elements are defined by F([t_1 ...
+    t_k]) = (X_1 ... X_k f)(y0) for the vector field f. Then every function phi satisfies phi(y1) = sum_w
+    h^|w| a(w) (X_1 ... X_k phi)(y0), where |w| is the number of vertices. For matrices, g1 = sum_w h^|w| a(w)
+    F(t_k) ... F(t_1).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

@@ -1,13 +1,13 @@
 """Selection of independent conditions on ordered forests in a family. A matrix contains the values of the
 conditions for random methods of the family. The rank of this matrix shows which conditions are independent.
 
-A condition is superfluous if two requirements are satisfied. First, its left-hand side is a linear
-combination of simpler left-hand sides of the same order and of products of left-hand sides of lower order.
-The coefficients of this combination are the same for every method of the family. Second, the values of the
-exact flow satisfy this relation. The exact flow is therefore one of the samples. If the exact flow violates
-the relation, no method of the family satisfies the condition together with the simpler conditions. In this
-case the condition is not removed. An example is order 3 of Runge-Kutta-Munthe-Kaas methods without brackets
-(cutoff 0).
+A condition is superfluous if it satisfies two requirements. First, its left-hand side is a linear combination
+of simpler left-hand sides of the same order and of products of left-hand sides of lower order. The
+coefficients of this combination must be the same for every method of the family. Second, the values of the
+exact flow must satisfy the same relation. The exact flow is therefore one of the samples. If the exact flow
+violates the relation, no method of the family satisfies the condition together with the simpler conditions.
+In this case the condition is not removed. An example is order 3 of Runge-Kutta-Munthe-Kaas methods without
+brackets (cutoff 0).
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""A function that returns one series for many random methods of a family. Each value of the series contains
-one residue for each method (sample)."""
+"""A function that returns one series for many random methods of a family. Each value of the series is a
+vector with one residue for each method (sample)."""
 
 SPARE_SAMPLES = 20
 """The number of samples beyond the largest possible rank. These additional samples make accidental
@@ -35,12 +35,12 @@ dependences improbable."""
 def independent_forests(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], *, with_exact_flow: bool = True
 ) -> tuple[tuple[Forest, ...], ...]:
-    """Return those forests whose conditions are independent. ``candidates`` contains a sequence of forests
-    for each order 1, 2, .... Earlier forests of a sequence are preferred to later ones.
+    """Return the forests whose conditions are independent. ``candidates`` contains a sequence of forests for
+    each order 1, 2, .... Earlier forests of a sequence are preferred.
 
-    The rank is computed modulo two primes. A rank modulo a prime is at most the rank over Q. Hence the larger
-    of the two sets is returned. If the samples do not contain the exact flow, only the left-hand sides are
-    tested for independence.
+    The forests are selected modulo two primes. A rank modulo a prime is at most the rank over Q. Hence the
+    larger of the two sets is returned. If ``with_exact_flow`` is false, only the left-hand sides are tested
+    for independence.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries

@@ -1,7 +1,7 @@
 """Products of exponentials, or of Cayley transforms, whose exponents are given by their values on words.
 
-Letter k denotes X_k, the coefficient of t^(k-1) in the matrix A(t) of the equation Y' = A(t) Y, and has
-weight k. Words are in the order of action.
+Letter k denotes the coefficient of t^(k-1) in the matrix A(t) of the equation Y' = A(t) Y. Its weight is k.
+The first letter of a word acts first.
 """
 
 from __future__ import annotations
@@ -27,9 +27,8 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""For the exponential and for the Cayley transform: two functions that return the coefficients of a power
-series without its constant term. The first series is that of the transform, and the second is that of the
-inverse of the transform."""
+"""For the exponential and the Cayley transform: two functions that return the coefficients of a power series
+without the constant term. The first series is the transform, and the second series is its inverse."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:
