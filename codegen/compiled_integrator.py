@@ -150,9 +150,11 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield the arguments of the C call for the inputs, and its argument for the counts of iterations. At
-        the end of the block raise the error that the input function has raised in the C call; if there is
-        none, add the counts to the caller's statistics."""
+        """Yield the arguments of the C call for the run-time inputs and for the counts of iterations.
+
+        At the end of the block, an error that the input function has raised in the C call is raised again.
+        Otherwise the counts are added to the caller's statistics.
+        """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
         counted = [self._ffi.new(f"{prefix}statistics *")] if blocks else []
@@ -162,7 +164,9 @@ class CompiledIntegrator(Integrator):
         self._count(counted[0] if counted else None, begun.statistics)
 
     def _block(self, counted: list[Any]) -> str:
-        """Return the label of the implicit block that did not converge in the C call; '' if all converged."""
+        """Return the label of the system of equations whose iteration failed in the C call, or '' if none
+        failed.
+        """
         failed = counted[0].failed if counted else 0
         return self.interface.blocks[failed - 1] if failed else ""
 
@@ -180,8 +184,10 @@ class CompiledIntegrator(Integrator):
 
 
 class _Buffers:
-    """All event functions of a call, joined in one function that C can call, and the arrays in which C stores
-    the events that it finds."""
+    """The event functions of a call, combined into one function that C can call.
+
+    The arrays receive the events that the C code finds.
+    """
 
     ROOM = 1024
 
@@ -216,8 +222,10 @@ class _Buffers:
 
 
 class _Callback:
-    """The run-time inputs as a function of time that C can call. If the Python function raises an error, the
-    error is stored and C receives NaNs, so the step fails."""
+    """The run-time inputs as a function of time that C can call.
+
+    If the Python function raises an error, the error is stored. C then receives NaNs, so the step fails.
+    """
 
     def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:
         self.function, self.count = function, len(interface.inputs)

@@ -1,8 +1,8 @@
-"""Translate a scene and a method, or a kernel, to emitted files and a manifest entry.
+"""Compile a scene and a method to emitted files and a manifest entry.
 
 :func:`compile_method` runs the whole compiler. It lowers the method to a step program, optimises the program
-in passes, and translates it to a kernel, which consists of scalar assignments and loops. Emitted files depend
-on scene, method and options only, so the same arguments give the same bytes.
+in passes, and translates the program to a kernel, which consists of scalar assignments and loops. Emitted
+files depend only on the scene, the method and the options, so the same arguments give the same bytes.
 """
 
 from __future__ import annotations
@@ -60,10 +60,11 @@ Additions and products cost 1, and functions that are not listed cost 12."""
 
 @dataclass(frozen=True)
 class Optimised:
-    """A method on a scene, ready to be interpreted. ``lowered`` is its step program before the first pass of
-    the compiler, ``program`` the step program after the last pass. ``trace`` has a report of each pass.
+    """A method on a scene, ready to be interpreted.
 
-    ``problem`` is the scene in the form that the method's family requires.
+    ``lowered`` is the step program before the first compiler pass, and ``program`` the step program after the
+    last pass. ``trace`` contains a report of each pass. ``problem`` is the scene in the form that the family
+    of the method requires.
     """
 
     scene: Problem
@@ -78,9 +79,9 @@ class Optimised:
 class Compiled(Optimised):
     """A method on a scene, ready to be printed: the optimised program with its kernel.
 
-    ``solvers`` are the solvers of the implicit blocks; ``asked`` is the value of the option ``--solver``.
-    If a classical form of the equations was chosen, ``form`` is this form, and ``scene`` contains its
-    equations. Otherwise ``form`` is None.
+    ``solvers`` are the solvers of the implicit systems of equations. ``asked`` is the value of the option
+    ``--solver``. If a classical form of the equations was chosen, ``form`` is this form, and ``scene``
+    contains its equations. Otherwise ``form`` is None.
     """
 
     kernel: Kernel
@@ -92,8 +93,9 @@ class Compiled(Optimised):
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
-    """Return the optimised step program of a method on a scene. The group need not have closed forms of
-    its operations, because no kernel is built."""
+    """Return the optimised step program of a method on a scene. No kernel is built, so the group does not
+    need closed forms of its operations.
+    """
     scene.require_formulas()
     problem, lowered = problem_for(scene, method), lower(scene, method)
     program, trace = optimise(lowered, problem, composed=lower_composed(scene, method))
@@ -116,14 +118,13 @@ def compile_method(
 ) -> Compiled:
     """Return a method on a scene, lowered, optimised and translated to a kernel.
 
-    ``scene`` and ``method`` may be given by their names. ``parameters`` contains names of parameters that
-    stay run-time arguments (``alpha``), and parameters that become constants with a given value
-    (``alpha=1/2``). All other parameters become constants with the scene's values. ``inputs`` are signals
-    that become run-time inputs. ``frame`` is the frame of momenta
-    (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the solver of implicit blocks
-    (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an embedded method,
-    ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the scene
-    (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
+    ``scene`` and ``method`` may be given by their names. In ``parameters``, a name (``alpha``) makes a
+    parameter a run-time argument, and a name with a value (``alpha=1/2``) makes a parameter a constant. All
+    other parameters become constants with the scene's values. ``inputs`` are signals that become run-time
+    inputs. ``frame`` is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is
+    the solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of
+    an embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
+    scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
     times, ``events`` is the number of event functions of this run, and ``dense`` uses the continuous
     extension of the tableau at output times. ``compensate`` extends the state by the carries of compensated
@@ -163,8 +164,9 @@ def compile_method(
 
 
 def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[str]) -> Problem:
-    """Return a scene in which the listed signals, and the listed parameters without a value, are arguments at
-    run time. A parameter with a value (``alpha=1/2``) becomes a constant."""
+    """Make the listed signals and parameters of a scene run-time arguments. A parameter with a value
+    (``alpha=1/2``) becomes a constant.
+    """
     parameters = texts(parameters, "parameters", "alpha=1/2")
     inputs = texts(inputs, "inputs", "u")
     scene = with_runtime(scene, tuple(parameters)) if parameters else scene
@@ -172,8 +174,9 @@ def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[
 
 
 def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a compiled method with the requested additions: the carries of compensated summation, the
-    derivative of a step, and a run to an end time."""
+    """Add the requested features to a compiled method: compensated summation, the derivative of a step, and a
+    run to a given end time.
+    """
     method = compiled.method
     if request.compensate:
         others = {"jacobian": jacobian, "adaptive": method.adaptive, "dense": request.dense}
@@ -190,8 +193,9 @@ def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunReque
 
 
 def compensated(compiled: Compiled) -> Compiled:
-    """Return a compiled method with compensated summation; raise MethodError if the step adds no increment to
-    the state."""
+    """Return a compiled method with compensated summation. MethodError is raised if the step does not have
+    the form y + increment.
+    """
     kernel = add_carries(compiled.kernel, compiled.program, compiled.problem)
     return replace(compiled, kernel=kernel, compensated=True)
 
@@ -199,9 +203,9 @@ def compensated(compiled: Compiled) -> Compiled:
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module also has a function that steps many independent systems.
 
-    C compilers do not vectorise a loop over systems if its body calls a function. If the compiler has moved
-    repeated computations of an explicit step to functions, the step is translated again without functions.
-    MethodError is raised for a semilinear equation.
+    C compilers do not vectorise a loop over systems if its body calls a function. An explicit step that calls
+    outlined functions is therefore translated again without functions. MethodError is raised for a semilinear
+    equation.
     """
     kernel = compiled.kernel
     if kernel.modes is not None:
@@ -219,8 +223,10 @@ def with_batch(compiled: Compiled) -> Compiled:
 
 
 def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a compiled method on a scene whose field is given by formulas of large matrices; raise
-    MethodError for an option that such a scene does not support."""
+    """Return a compiled method on a scene whose field is given by formulas of large matrices.
+
+    MethodError is raised for an option that such a scene does not support.
+    """
     options = {
         "--jacobian": jacobian,
         "--compensate": request.compensate,
@@ -246,8 +252,11 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
 
 
 def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a compiled method on a chain or lattice, or on a semilinear equation; raise MethodError if an
-    error estimate, a Jacobian, compensated summation or a run to an end time is requested."""
+    """Return a compiled method on a chain, a lattice or a semilinear equation.
+
+    MethodError is raised if an error estimate, a Jacobian, compensated summation or a run to an end time is
+    requested.
+    """
     requests = {
         "an error estimate": method.adaptive,
         "a Jacobian": jacobian,
@@ -272,9 +281,11 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
 
 
 def work(kernel: Kernel) -> int:
-    """Estimate the cost of a step in units of one addition. All operations outside the implicit blocks are
-    counted once. The operations of a block are counted SWEEPS times in each substep, because a block is
-    iterated."""
+    """Estimate the cost of a step in units of one addition.
+
+    Operations outside the implicit systems of equations are counted once. The operations of such a system are
+    counted SWEEPS times in each substep, because the system is solved by iteration.
+    """
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in step_operations(kernel).items():
         cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())

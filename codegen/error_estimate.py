@@ -1,13 +1,13 @@
-"""The order of the error estimate of an embedded method, compared with the order of the error.
+"""The order of an embedded error estimate, compared with the order of the local error.
 
-The estimate is the difference between the results of the two rows of weights of a tableau: the weights of the
-method and of the embedded method. If both rows have the same leading error term, the estimate has a higher
-order than the local error. It is then called blind. RKMK methods with a small cut-off are an example: the
-same brackets are missing in both rows. If the rows have different orders, their results differ at the lower
-order, and the estimate is not blind. The exception is a field that depends on the time alone: both rows may
-then give the same result. In this case, and if the rows have the same order, very short steps are computed in
-100 digits. They give the orders of the estimate and of the local error. The local error is measured by the
-difference between one step of size h and two steps of size h/2.
+The estimate is the difference between the results of the method and of its embedded method. If both results
+have the same leading error term, the estimate has a higher order than the local error. Such an estimate is
+called blind. RKMK methods with a small cut-off are an example, because both results omit the same brackets.
+
+If the two methods have different orders, the estimate is not blind. The exception is a field that depends on
+the time alone: both methods may then give the same result. In this case, and if the orders are equal, very
+short steps are computed in 100 digits. They give the orders of the estimate and of the local error. The local
+error is measured as the difference between one step of size h and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -71,9 +71,10 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
     """Return True if the error estimate of an embedded pair has a higher order than the local error.
 
-    The estimate is the difference between the results of the method and of the embedded method. It is
-    compared with the local error in very short steps, whose size depends on the method's ``order``. An
-    estimate that is always zero is blind, too. If the steps cannot be computed, the result is False.
+    The estimate is the difference between the results of the method and of the embedded method. The function
+    compares this estimate with the local error in very short steps. The size of these steps depends on
+    ``order``, the order of the method. An estimate that is always zero is blind, too. If the steps cannot be
+    computed, the result is False.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))
@@ -93,8 +94,10 @@ def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bo
 
 
 def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], float, float], State]:
-    """Return a function that computes a step of a method in many digits. Its arguments are a state, the time
-    that has elapsed since the start of the span, and the step size."""
+    """Return a function that computes a step of a method in 100 digits.
+
+    The arguments of the function are a state, the time since the start of the span, and the step size.
+    """
     problem, program = problem_for(scene, method), lower(scene, method)
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:
@@ -120,8 +123,10 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 
 
 def _hint(method: Method, scene: Problem) -> str:
-    """Return a hint for the user: a method with a larger cut-off, whose estimate has the order of the local
-    error. The smallest such cut-off is chosen. If there is none, the hint is to use another tableau."""
+    """Return a hint for the user: the smallest larger cut-off with an error estimate of the right order.
+
+    If there is no such cut-off, the hint is to use another tableau.
+    """
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):
             longer = replace(method, cutoff=cutoff)

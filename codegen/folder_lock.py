@@ -1,4 +1,4 @@
-"""One writer at a time in a folder.
+"""A lock that admits one writer at a time to a folder.
 
 The lock is on the folder itself and ends with the process, so a killed process leaves no lock file.
 """
@@ -14,8 +14,8 @@ from pathlib import Path
 
 @contextmanager
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
-    """Lock an existing folder. Several readers may hold a ``shared`` lock at the same time; it excludes only
-    writers, whose lock is not shared.
+    """Lock an existing folder. Several readers may hold a ``shared`` lock at the same time. A lock that is
+    not shared excludes all other processes.
 
     Yields True if the lock was acquired, otherwise False. The lock is not acquired if the file system has no
     locks, or if ``wait`` is false and another process holds the lock.

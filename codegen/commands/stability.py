@@ -78,8 +78,7 @@ def command(
 
 
 def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTested]:
-    """Run the stress tests of a job and return their results; ``progress`` is called with texts on the
-    progress."""
+    """Run the stress tests of a job and return their results. ``progress`` receives progress messages."""
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
     from codegen.lab.stability.stability_study import stability
@@ -90,8 +89,9 @@ def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTes
 
 
 def _alone(job: Job) -> list[Stability | NotTested]:
-    """Return the results of a job without showing progress, because this function runs in a separate
-    process."""
+    """Return the results of a job without progress messages, because this function runs in a separate
+    process.
+    """
     return _run(job, str)
 
 

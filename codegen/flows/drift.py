@@ -15,7 +15,11 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Drift(Flow):
-    """H = T(mu) on an abelian group. In the time tau, q moves by tau xi with xi = dT/dmu; mu is constant."""
+    """The kinetic energy H = T(mu) on an abelian group, where mu is the momentum.
+
+    In the time tau, the group element q moves by tau xi with the velocity xi = dT/dmu. The momentum is
+    constant.
+    """
 
     velocity: tuple[Expr, ...]
 
@@ -38,7 +42,7 @@ class Drift(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a drift if the group is abelian and the part depends on mu alone, else None."""
+    """Return a drift if the group is abelian and the part depends on the momentum mu alone, else None."""
     if formula.timed or not formula.problem.group.abelian or not formula.orbit.vanish(formula.by_q):
         return None
     return formula.whole(Drift(tuple(formula.by_mu)))

@@ -1,9 +1,10 @@
 """The field of a Hamiltonian as the sum of the fields of its parts, if the sum needs fewer operations.
 
-Differentiation of the Hamiltonian gives a formula for the field that contains many entries of q. For a part
-with a known exact flow there is a shorter formula. Both formulas have equal values, because q is an element
-of the group. For the symmetric top the shorter formula is xi = mu/I_1 + s (mu.d) d, with the axis d of the
-top and a number s. The only entries of q that it contains are the components of d.
+Differentiation of the Hamiltonian gives a formula for the field that contains many entries of the group
+element q. For a part with a known exact flow there is a shorter formula. Both formulas have equal values on
+the group. An example is the symmetric top, with the momentum mu, the axis d of the top and a number s. The
+shorter formula for the angular velocity is xi = mu/I_1 + s (mu.d) d. The components of d are the only entries
+of q in this formula.
 """
 
 from __future__ import annotations
@@ -20,8 +21,11 @@ from codegen.scene.problem import TIME, Problem
 
 
 def with_field_by_parts(problem: Problem) -> Problem:
-    """Return the problem with its field written as the sum of the fields of the parts, if the flows of all
-    parts are known and the sum needs fewer operations. Otherwise return the problem unchanged."""
+    """Write the field of a problem as the sum of the fields of the parts.
+
+    The problem is returned unchanged if the flow of a part is unknown, or if the sum does not need fewer
+    operations.
+    """
     if problem.hamiltonian is None or not problem.parts:
         return problem
     if problem.stated or problem.inputs or problem.forced:

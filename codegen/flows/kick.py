@@ -16,8 +16,10 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Kick(Flow):
-    """H = V(q): q is constant, and mu increases by tau n in the time tau. The components of the force n are
-    n_a = -<dV, e_a.q> for the basis e_a of the Lie algebra."""
+    """A potential H = V(q): q is constant, and the momentum mu increases by tau n in the time tau.
+
+    The components of the force n are n_a = -<dV, e_a.q> for the basis e_a of the Lie algebra.
+    """
 
     force: tuple[Expr, ...]
     timed: bool = False
@@ -41,7 +43,7 @@ class Kick(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a kick for a part that does not depend on mu, else None."""
+    """Return a kick if the part does not depend on the momentum mu, else None."""
     if not formula.orbit.vanish(formula.by_mu):
         return None
     n = force(formula.root.space, formula.problem.group, formula.qs, formula.by_q)

@@ -17,11 +17,11 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Linear(Flow):
-    """A quadratic H on T*R^n: z' = L z + c for z = (q, mu), where L^2 = -diag(w) and no entry of w is
-    negative.
+    """A quadratic Hamiltonian on T*R^n with the equation z' = L z + c for z = (q, mu).
 
-    The flow is z -> (C_0 + tau C_1 L) z + (tau C_1 + tau^2 C_2 L) c, where C_k is the diagonal matrix of the
-    values c_k(w tau^2) of the Stumpff function c_k.
+    L^2 = -diag(w), and no entry of w is negative. The flow is z -> (C_0 + tau C_1 L) z + (tau C_1 + tau^2 C_2
+    L) c. C_k is the diagonal matrix of the values c_k(w tau^2) of the Stumpff function c_k, with c_k(x) =
+    sum_i (-x)^i/(2i+k)!.
     """
 
     matrix: tuple[tuple[Fraction, ...], ...]
@@ -65,9 +65,11 @@ class Linear(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part with its linear flow z' = L z + c if the group is R^n, else None. L is J times the
-    Hessian of the part, where J = (0, 1; -1, 0). If the part is not quadratic, or if L^2 is not diagonal or
-    has a positive entry, the part is returned without a flow."""
+    """Return the part with its linear flow z' = L z + c if the group is R^n, else None.
+
+    L is J times the Hessian of the part, where z = (q, mu) and J = (0, 1; -1, 0). If the part is not
+    quadratic, or if L^2 is not diagonal or has a positive entry, the part is returned without a flow.
+    """
     if not formula.problem.group.abelian:
         return None
     origin = (CONSTANTS.rational(0),) * len(formula.qs)
@@ -91,9 +93,7 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequence[str]) -> Expr:
-    """Return row.z + constant as an expression of the space to which ``s`` belongs; ``names`` are the symbols
-    of z.
-    """
+    """Return row.z + constant in the expression space of ``s``. ``names`` are the symbols of z."""
     space = s.space
     total = space.const(Number.rational(*constant.as_integer_ratio()))
     for x, name in zip(row, names, strict=True):
@@ -102,7 +102,9 @@ def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequenc
 
 
 def _times_stumpff(d: Domain, factor: S, k: int, argument: S | None) -> S:
-    """Return factor times c_k(argument). The argument None means zero, where c_k = 1/k!."""
+    """Return factor times c_k(argument) for the Stumpff function c_k. The argument None means zero: c_k(0) =
+    1/k!.
+    """
     value: S = d.rational(1, max(k, 1)) if argument is None else d.call(f"stumpff{k}", argument)
     return factor * value
 

@@ -26,8 +26,7 @@ CONSTANTS = SeriesDomain(QQ, 0)
 
 @dataclass(frozen=True)
 class Summand:
-    """A part of a Hamiltonian, or a summand of a part, whose exact flow is the composition of the ``flows``.
-    These flows commute, and each has a name."""
+    """A part or summand of a Hamiltonian whose exact flow is the composition of commuting named flows."""
 
     flows: tuple[tuple[str, Flow], ...]
 
@@ -56,7 +55,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Formula:
-    """The formula of one part, with the derivatives and values by which a kind of flow is recognised."""
+    """The formula of one part, with the derivatives that are needed to recognise its flow."""
 
     problem: Problem
     name: str
@@ -97,8 +96,7 @@ class Formula:
 
     @cached_property
     def orbit(self) -> Orbit:
-        """The problem with sample points. Two formulas count as equal if their values agree at these
-        points."""
+        """The problem with sample points. Two formulas count as equal if they agree at these points."""
         return orbit_of(self.problem)
 
     def constants(self, roots: Sequence[Expr], q: Vector[Element]) -> list[Fraction] | None:
@@ -115,7 +113,10 @@ class Formula:
         return [Number(QQ, x.coefficients[0]).fraction() for x in values]
 
     def matrix(self, slopes: Sequence[Expr], names: Sequence[str], q: Vector[Element]) -> Matrix | None:
-        """Return the derivatives of the formulas ``slopes`` with respect to the symbols ``names``, at q and
-        mu = 0; None if :meth:`constants` returns None for them."""
+        """Return the matrix of derivatives of ``slopes`` with respect to the symbols ``names``, at q and mu =
+        0.
+
+        The result is None if :meth:`constants` returns None for a row.
+        """
         rows = [self.constants(gradient(slope, names), q) for slope in slopes]
         return None if any(row is None for row in rows) else [row for row in rows if row is not None]

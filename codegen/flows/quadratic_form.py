@@ -47,7 +47,7 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 
 
 def isotropic_part(B: Matrix) -> Fraction:
-    """Return a number a such that B - a I is the sum of few squares with small coefficients.
+    """Return a number a such that B - a I is a sum of few squares, where I is the identity matrix.
 
     For a diagonal B, a is a diagonal entry that occurs more than once, or the middle entry if there is no
     such entry. For other matrices several candidates are compared, and a is the candidate for which B - a I

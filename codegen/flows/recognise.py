@@ -1,10 +1,12 @@
 """Recognition: the exact flows of the parts of a Hamiltonian, found from the formulas of the parts.
 
-Each kind of flow has a function that examines the formula of a part. The result is one of three: the part
-with its flows, the part with the reason why no flow is known, or None if another kind of flow may apply. V(q)
-is a kick. On T*R^n a function of the momentum alone is a drift. A quadratic function of q and mu is a linear
-flow if the square of its matrix is diagonal without positive entries. On other groups a quadratic function of
-the momentum, in the body frame or in the space frame, is a sum of rotations (:mod:`codegen.flows.top`).
+Each kind of flow has a function that examines the formula of a part. The function returns the part with its
+flows, or the part with the reason why no flow is known. It returns None if another kind of flow may apply.
+
+A potential V(q) is a kick. On T*R^n a function of the momentum alone is a drift. A quadratic function of q
+and the momentum mu gives a linear flow if the square of its matrix is diagonal without positive entries. On
+other groups a quadratic function of the momentum, in the body frame or in the space frame, is a sum of
+rotations (:mod:`codegen.flows.top`).
 """
 
 from __future__ import annotations
@@ -19,8 +21,9 @@ from codegen.scene.problem import Problem
 def _timed(formula: Formula) -> Part | None:
     """Return a part that depends on the time without flows; return None for any other part.
 
-    Kicks, and flows that the scene gives as formulas, may depend on the time. Their functions are called
-    before this function."""
+    Kicks and flows stated by the scene may depend on the time. They are recognised before this function is
+    called.
+    """
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 
@@ -37,8 +40,9 @@ other than None is used."""
 
 
 def recognise(problem: Problem) -> tuple[Part, ...]:
-    """Return the parts of a Hamiltonian problem with their exact flows; a part without a known flow has no
-    flows, but the reason."""
+    """Return the parts of a Hamiltonian problem with their exact flows. A part without a known flow contains
+    the reason.
+    """
     return tuple(_part(Formula(problem, name, root)) for name, root in problem.parts.items())
 
 

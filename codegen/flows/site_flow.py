@@ -1,5 +1,6 @@
-"""Exact flows of the parts of a lattice. A flow moves all sites, so no formula for the state of a single site
-exists."""
+"""Exact flows of the parts of a lattice. A flow moves all sites, so a single site has no formula for the
+flow.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ momenta: the energies of the bonds, and those parts of a site's Hamiltonian that
 @dataclass(frozen=True)
 class SiteFlow(Flow):
     """The flow of part number ``part`` of a lattice. ``colour`` is the index in :data:`COLOURS` of the set of
-    pairs that move; it is 0 for a part that couples no sites."""
+    pairs that move, or 0 for a part that couples no sites.
+    """
 
     part: int
     colour: int

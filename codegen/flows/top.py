@@ -1,11 +1,13 @@
 """Tops: quadratic functions of the momentum in the body frame or in the space frame, split into rotations.
 
 P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. The quadratic function P.BP/2 is
-equal to the sum of a P.P/2 and the terms d_k (e_k.P)^2/2, with numbers a and d_k and fixed vectors e_k. If Ad
-does not preserve the dot product, a is zero. If Ad preserves it, the flow of a P.P/2 is a rotation about the
-momentum, which commutes with the flows of all other terms. The flow of each other term is a turn about its
-fixed axis e_k. With at most one turn, as for a symmetric top, the exact flow of the part is known. With more
-turns, as for an asymmetric top, the part is a sum of summands whose flows do not commute.
+equal to the sum of a P.P/2 and the terms d_k (e_k.P)^2/2, with numbers a and d_k and fixed vectors e_k. If
+the adjoint action Ad does not preserve the dot product, a is zero. Otherwise the flow of a P.P/2 is a
+rotation about the momentum. This flow commutes with the flows of all other terms. The flow of each other term
+is a turn, a rotation about the fixed axis e_k.
+
+With at most one turn, as for a symmetric top, the exact flow of the part is known. With more turns, as for an
+asymmetric top, the flows of the terms do not commute.
 """
 
 from __future__ import annotations
@@ -24,8 +26,11 @@ from orderconds.ring.protocol import Element
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a part that is a quadratic function of the momentum as a sum of rotations; return None if the
-    group is abelian. Any other part is returned without flows."""
+    """Return a part that is a quadratic function of the momentum as a sum of rotations.
+
+    None is returned if the group is abelian. A part that is not a quadratic function is returned without
+    flows.
+    """
     if formula.problem.group.abelian:
         return None
     identity: Vector[Element] = formula.problem.group.identity(CONSTANTS)
@@ -40,8 +45,10 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool:
-    """Return True if the part is a constant plus P.BP/2 + w.P, where P is the momentum: P = Ad*_q mu with
-    ``body``, otherwise P = mu."""
+    """Return True if the part is a constant plus P.BP/2 + w.P, where P is the momentum.
+
+    P = Ad*_q mu if ``body`` is true, otherwise P = mu.
+    """
     orbit, group = formula.orbit, formula.problem.group.require(Coadjoint)
     d = orbit.domain
     base = None
@@ -91,7 +98,7 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Add w.P to the turn whose axis is parallel to w; if there is none, add a separate turn for w.P."""
+    """Add w.P to a turn with an axis parallel to w. If there is no such turn, add a turn for w.P."""
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)
         ratio = w[i] / turn.axis[i]

@@ -14,12 +14,11 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Turn(Flow):
-    """H = rate (e.P)^2/2 + offset e.P, where P is the momentum in the body or in space: a turn about the
-    fixed axis e.
+    """A turn about the fixed axis e: the flow of H = rate (e.P)^2/2 + offset e.P.
 
-    The component e.P is conserved, so the turn has the angle tau (rate e.P + offset). In the body P = Ad*_q
-    mu: the turn multiplies q from the right, and mu is constant. In space P = mu: the turn acts on q and mu
-    from the left.
+    P is the momentum in the body frame or in the space frame. The component e.P is conserved, so the angle
+    after the time tau is tau (rate e.P + offset). In the body frame P = Ad*_q mu: the turn multiplies q from
+    the right, and mu is constant. In the space frame P = mu: the turn acts on q and mu from the left.
     """
 
     axis: tuple[Fraction, ...]
@@ -30,8 +29,10 @@ class Turn(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (q g, mu) for an axis in the body, else (g q, Ad*_{g^-1} mu). Here g is the exponential of
-        the axis times the angle of the turn in the time tau."""
+        """Return (q g, mu) for an axis in the body, else (g q, Ad*_{g^-1} mu).
+
+        g is the exponential of the axis times the angle of the turn in the time tau.
+        """
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         angle = tau * self._speed(d, self._axis(d, group, q), mu)
         g = group.exp(d, tuple(angle * x for x in axis))
@@ -42,8 +43,11 @@ class Turn(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the field (xi, n). With s = rate e.P + offset, xi = s e and n = 0 for an axis in space. For
-        an axis in the body xi = s Ad_q e, and n is such that mu is constant."""
+        """Return the field (xi, n), with the speed s = rate e.P + offset.
+
+        For an axis in space, xi = s e and n = 0. For an axis in the body, xi = s Ad_q e, and n is such that
+        mu is constant.
+        """
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)
         zero: Vector[S] = (d.rational(0),) * group.dim
@@ -56,7 +60,7 @@ class Turn(Flow):
         return group.Ad(d, q, axis) if self.body else axis
 
     def _speed(self, d: Domain, axis: Vector[S], mu: Vector[S]) -> S:
-        """Return rate e.P + offset; e.P is computed as the pairing of mu with the axis in the space frame."""
+        """Return rate e.P + offset. The number e.P is the pairing of mu with the axis in the space frame."""
         rate: S = d.rational(self.rate.numerator, self.rate.denominator)
         speed = rate * dot(mu, axis)
         if self.offset:

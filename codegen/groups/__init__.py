@@ -1,8 +1,8 @@
 """Lie groups and their actions, each implemented once for all domains (:mod:`codegen.ir.domain`).
 
-One file defines one group, one file in ``actions`` one action. You can define a group or an action elsewhere:
-inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, use the class in a scene, and
-call :func:`register` to list it.
+One file defines one group, one file in ``actions`` one action. You can define a group or an action elsewhere.
+Inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, and use the class in a scene.
+Call :func:`register` to list the class.
 """
 
 from __future__ import annotations
@@ -111,11 +111,9 @@ Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 def register(cls: Registered) -> Registered:
     """Add a group or an action defined elsewhere to the listings, and return the class unchanged.
 
-    Because it returns the class, this function may also be used as a decorator.
-
-    A scene may use a class that is not registered. A second class of the same name replaces the first.
-    :class:`SceneError` is raised for a class that is no group or action, for a class with missing methods,
-    and for a class with the name of a class of this package.
+    The function may also be used as a decorator. A scene may use a class that is not registered. A second
+    class of the same name replaces the first. :class:`SceneError` is raised for a class that is no group or
+    action, for a class with missing methods, and for a class with the name of a class of this package.
     """
     from codegen.groups.actions import ACTIONS, Action
     from codegen.groups.base import LieGroup
@@ -141,7 +139,7 @@ def unregister(cls: type[LieGroup] | type[Action]) -> None:
 
 
 def listing() -> list[dict[str, str]]:
-    """Return name and first docstring paragraph of every group, for ``orderconds list groups``."""
+    """Return the name and the first docstring paragraph of every group, for ``orderconds list groups``."""
     return GROUPS.listing()
 
 

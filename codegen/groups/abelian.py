@@ -1,4 +1,4 @@
-"""Abelian groups: brackets vanish, and the adjoint action is trivial."""
+"""Abelian groups: Lie brackets vanish, and the adjoint action is trivial."""
 
 from __future__ import annotations
 

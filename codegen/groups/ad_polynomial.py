@@ -1,8 +1,9 @@
 """Functions of ad_x as quadratic polynomials in ad_x, on a Lie algebra with ad_x^3 = -z ad_x.
 
 On such an algebra each power series in ad_x with the constant term 1 is equal to 1 + b ad_x + c ad_x^2, where
-b and c are functions of z. Products and inverses of such series also have this form. On so(3), z = x.x. On
-sl(2), z = 4 det x has either sign. The Stumpff functions c_k of z give the coefficients of exponentials.
+b and c are functions of the number z. Products and inverses of such series also have this form. On so(3), z =
+x.x is positive. On sl(2), z = 4 det x has either sign. The Stumpff functions c_k of z give the coefficients
+of exponentials.
 """
 
 from __future__ import annotations
@@ -17,13 +18,12 @@ from codegen.ir.domain import Domain
 
 
 def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = False) -> tuple[S, S]:
-    """Return b and c such that the word equals 1 + b t + c t^2, where t^3 = -z t.
+    """Return b and c such that ``word``, a product of functions of t, equals 1 + b t + c t^2, where t^3 = -z
+    t.
 
-    A word is a product of functions of t (:mod:`codegen.ir.ad_series`). If ``signed`` is true, z may be
-    negative.
-
-    All exponentials and the first factor dexp are combined: exp(a t) dexp(s t) is computed as
-    (exp((a + s) t) - exp(a t))/(s t). The other factors are multiplied one after the other.
+    :mod:`codegen.ir.ad_series` describes the factors of a word. If ``signed`` is true, z may be negative. All
+    exponentials and the first factor dexp are combined: exp(a t) dexp(s t) is computed as (exp((a + s) t) -
+    exp(a t))/(s t). The other factors are multiplied one after the other.
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -52,8 +52,11 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return the coefficients b of t and c of t^2 of the sum of r exp(k t)/t^j over the pairs (k, r) in
-    ``terms``. Higher powers are reduced by t^3 = -z t; the powers t^0, 1/t, ... of the sum are ignored."""
+    """Return the coefficients b of t and c of t^2 in the sum of r exp(k t)/t^j over the pairs (k, r) in
+    ``terms``.
+
+    Higher powers are reduced by t^3 = -z t. The powers t^0, 1/t, ... of the sum are ignored.
+    """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"
     for power in (1 + j, 2 + j):
@@ -72,12 +75,15 @@ def _exponentials(
 
 
 def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
-    """Return b and c such that a factor dexp or truncated dexpinv equals 1 + b t + c t^2; the exponent
-    ``power`` of the factor is ignored."""
+    """Return b and c such that a factor dexp or truncated dexpinv equals 1 + b t + c t^2, where t^3 = -z t.
+
+    The exponent ``power`` of the factor is ignored.
+    """
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
-    # Horner's rule goes down from the highest power: t^k is a multiple of t for odd k and of t^2 for even k.
+    # Horner's rule from the highest power down. By t^3 = -z t, t^k is a multiple of t for odd k and of t^2
+    # for even k.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
         weight = bernoulli_over_factorial(k) * s**k
@@ -87,11 +93,10 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
 
 
 def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
-    """Return b and c of 1/dexp(s t) = 1 - s t/2 + (c_2 - c_3)/(4 c_1) s^2 t^2. Here c_k are the values of the
-    Stumpff functions at s^2 z/4.
+    """Return b and c of 1/dexp(s t) = 1 + b t + c t^2: b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1).
 
-    This formula has no cancellation for negative z. For these z :func:`_inverted` would subtract numbers of
-    the size exp(2 sqrt(-z)).
+    c_k are the values of the Stumpff functions at s^2 z/4, where t^3 = -z t. This formula has no cancellation
+    for negative z. For these z :func:`_inverted` would subtract numbers of the size exp(2 sqrt(-z)).
     """
     argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
     c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))
@@ -100,10 +105,10 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
 
 
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
-    """Return b and c of the inverse of 1 + b t + c t^2.
+    """Return the coefficients of t and t^2 in the inverse of 1 + b t + c t^2, where t^3 = -z t.
 
-    On so(3), t = ad_x satisfies t^2 = -z on the plane orthogonal to x. On this plane t is therefore
-    multiplication by i sqrt(z), and 1 + b t + c t^2 is multiplication by 1 - c z + i b sqrt(z). The inverse
+    On so(3), t = ad_x satisfies t^2 = -z on the plane orthogonal to x. Thus t acts on this plane as
+    multiplication by i sqrt(z), and 1 + b t + c t^2 as multiplication by 1 - c z + i b sqrt(z). The inverse
     of this complex number gives the result.
     """
     one: S = d.rational(1)

@@ -1,18 +1,18 @@
 """The base class of Lie groups: the operations that every group has.
 
-An element of the group is a flat tuple of ``size`` scalars, an element of the Lie algebra or of its dual is a
-flat tuple of ``dim`` scalars. The docstring of each group class describes these coordinates. Conventions:
-left action, right trivialisation, [A, B] = AB - BA (see :mod:`orderconds`).
+An element of the group is a flat tuple of ``size`` scalars. An element of the Lie algebra or of its dual is a
+flat tuple of ``dim`` scalars. The docstring of each group class describes these coordinates. The conventions
+are left actions, right trivialisation, and [A, B] = AB - BA (see :mod:`orderconds`).
 
 The first argument of each operation is a domain d (:mod:`codegen.ir.domain`). An operation uses ``+ - * /``
-on the scalars, constants from ``d.rational(p, q)`` and functions from ``d.call``. One implementation is then
-valid for floats, 40-digit numbers, power series in h, and expressions, from which code is emitted.
+on the scalars, constants from ``d.rational(p, q)`` and functions from ``d.call``. One implementation then
+works for floats, 40-digit numbers, power series in h, and the expressions from which code is emitted.
 
-To define a group, inherit :class:`LieGroup` and write the five abstract methods. They are enough for field
-scenes, with all families of field methods, emitted code and convergence tests. A Hamiltonian needs the
-coadjoint action as well (:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities make emitted
-code shorter or permit further measurements. :func:`codegen.groups.register` adds the class to the list of
-groups.
+To define a group, inherit :class:`LieGroup` and write the five abstract methods. These methods are enough for
+scenes with a vector field, all methods for such scenes, emitted code and convergence tests. A scene with a
+Hamiltonian needs the coadjoint action as well (:class:`codegen.groups.capabilities.Coadjoint`). The other
+capabilities make emitted code shorter or permit further measurements. :func:`codegen.groups.register` adds
+the class to the list of groups.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ C = TypeVar("C", bound="LieGroup")
 class LieGroup(ABC):
     """A Lie group in coordinates.
 
-    ``name`` is printed in messages and headers, ``dim`` is the dimension of the algebra, ``size`` is the
+    ``name`` is printed in messages and headers. ``dim`` is the dimension of the algebra, and ``size`` the
     number of coordinates of an element. ``abelian`` is true only if all brackets vanish. ``layout`` describes
-    the order of the coordinates, for example ``, row by row``. It is printed after the name in the
-    description of the state.
+    the order of the coordinates, for example ``, row by row``. The description of the state prints ``layout``
+    after the name.
     """
 
     name: str
@@ -47,18 +47,18 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element. It is part of the names of classical forms of a scene."""
+    """A noun for the coordinates of an element, used in the names of the classical forms of a scene."""
     provides: ClassVar[str] = "group operations"
-    """A noun for the operations that a capability adds. It is part of the error message for a group without
-    the capability."""
+    """A noun for the operations that a capability adds, used in the error message for a group without them.
+    """
 
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:
-        """Return the neutral element e, ``size`` scalars: e g = g e = g."""
+        """Return the neutral element e as ``size`` scalars: e g = g e = g."""
 
     @abstractmethod
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the product g k of two elements; it is associative."""
+        """Return the product g k of two elements."""
 
     @abstractmethod
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -87,12 +87,15 @@ class LieGroup(ABC):
         return ()
 
     def dexpinv(self, d: Domain, x: Vector[S], y: Vector[S], order: int) -> Vector[S]:
-        """Return the truncated series of dexp^{-1}_x y: the sum over k <= order of B_k/k! ad_x^k y."""
+        """Return the truncated series of dexp^{-1}_x y: the sum over k <= order of B_k/k! ad_x^k y.
+
+        B_k are the Bernoulli numbers with B_1 = -1/2.
+        """
         return bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)
 
     def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
-        """Return exp(t e_k) for the element e_k of the basis of the algebra; a subclass may have a shorter
-        formula."""
+        """Return exp(t e_k) for the basis element e_k of the algebra. A subclass may have a
+        shorter formula."""
         zero: S = d.rational(0)
         return self.exp(d, tuple(t if i == k else zero for i in range(self.dim)))
 
@@ -112,8 +115,9 @@ class LieGroup(ABC):
         return self if isinstance(self, capability) else None
 
     def require(self, capability: type[C], where: str = "") -> C:
-        """Return this group if it has the operations of the class ``capability``; otherwise raise
-        :class:`SceneError`."""
+        """Return this group if it has the operations of the class ``capability``, otherwise raise
+        :class:`SceneError`.
+        """
         offered = self.offers(capability)
         if offered is None:
             raise SceneError(

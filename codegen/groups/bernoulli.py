@@ -1,4 +1,4 @@
-"""Bernoulli sums: dexp^{-1} = sum over k of B_k/k! ad^k, truncated after a number of brackets."""
+"""Bernoulli sums: dexp^{-1} = sum over k of B_k/k! ad^k, truncated after a given power of ad."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from codegen.ir.domain import Domain
 
 @cache
 def bernoulli_over_factorial(k: int) -> Fraction:
-    """Return B_k/k! with B_1 = -1/2, the coefficients of dexp^{-1}.
+    """Return B_k/k! for the Bernoulli number B_k with B_1 = -1/2, the coefficient of ad^k in dexp^{-1}.
 
     >>> [str(bernoulli_over_factorial(k)) for k in range(5)]
     ['1', '-1/2', '1/12', '0', '-1/720']
@@ -36,8 +36,10 @@ def last_term(order: int) -> int:
 def bernoulli_sum(
     d: Domain, advance: Callable[[Vector[S]], Vector[S]], first: Vector[S], order: int
 ) -> Vector[S]:
-    """Return the sum over k <= order of B_k/k! advance^k(first), where advance^k is ``advance`` applied k
-    times."""
+    """Return the sum over k <= order of B_k/k! advance^k(first).
+
+    B_k are the Bernoulli numbers, and advance^k is ``advance`` applied k times.
+    """
     total, power = first, first
     for k in range(1, last_term(order) + 1):
         power = advance(power)

@@ -3,8 +3,8 @@
 A group declares a capability by inheriting its class. Code that needs a capability calls
 ``group.offers(Capability)``, which returns None for a group without the capability, or
 ``group.require(Capability)``, which raises an error with the name of the capability. Do not use
-``isinstance``: the class of direct products inherits several capabilities, but a product has such a
-capability only if all its factors have it.
+``isinstance``. The class of direct products inherits several capabilities, but a product has a capability
+only if all its factors have the capability.
 """
 
 from __future__ import annotations
@@ -26,13 +26,14 @@ if TYPE_CHECKING:
     import sympy
 
 Term = tuple[S, Sequence[Factor], Vector[S]]
-"""(f, W, v): the term f W(ad_x) v, where f is a scalar, and the word W is a product of functions of ad_x."""
+"""(f, W, v): the term f W(ad_x) v with a scalar f, a vector v, and a product W of functions of ad_x."""
 
 
 class Coadjoint(LieGroup):
     """The adjoint and coadjoint action, which Hamiltonians on T*G and variational methods need.
 
-    <mu, x> is the dot product of coordinates; g is an element, x in the algebra, mu in its dual.
+    g is an element of the group, x an element of the algebra, and mu an element of its dual. <mu, x> is the
+    dot product of coordinates.
     """
 
     provides: ClassVar[str] = "coadjoint action"
@@ -58,17 +59,17 @@ class Coadjoint(LieGroup):
         """Return dexp*_x mu = sum of (ad*_x)^k mu/(k+1)!: <dexp*_x mu, y> = <mu, dexp_x y>."""
 
     def dexpinvt(self, d: Domain, x: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Return the transpose of :meth:`dexpinv`, applied to mu: the sum over k <= order of B_k/k! (ad*_x)^k
-        mu."""
+        """Return the sum over k <= order of B_k/k! (ad*_x)^k mu, the transpose of :meth:`dexpinv` applied to
+        mu.
+        """
         return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
 
     def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Return the covector p with <p, z> = <mu, D z> for all z. Here D is the derivative of the map x ->
-        dexpinv(x, y, order) at x.
+        """Return the covector p with <p, z> = <mu, D z> for all z.
 
-        The result is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq.
-        3.16 of H. Marthinsen's thesis). Since ad*_v is linear in v, the elements ad_x^{k-1-i} y with the same
-        i are summed over k first.
+        D is the derivative of the map x -> dexpinv(x, y, order) at x. The result is -sum over 1 <= k <= order
+        of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq. 3.16 of H. Marthinsen's thesis). Since
+        ad*_v is linear in v, the elements ad_x^{k-1-i} y with the same i are summed over k first.
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -85,8 +86,7 @@ class Coadjoint(LieGroup):
         return total
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, which is the momentum of the product exp(x, n) (q, mu) in
-        T*G."""
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, the momentum of the product exp(x, n) (q, mu) in T*G."""
         turned = self.Adtinv(d, self.exp(d, x), mu)
         pushed = self.dexpt(d, tuple(-a for a in x), n)
         return tuple(a + b for a, b in zip(pushed, turned, strict=True))
@@ -94,13 +94,15 @@ class Coadjoint(LieGroup):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x, n) (q, mu) on T*G: exp(x) q, and the result of :meth:`transport`."""
+        """Return exp(x, n) (q, mu) on T*G. The first part is exp(x) q, the second the result of
+        :meth:`transport`.
+        """
         return self.expmul(d, x, q) + self.transport(d, x, n, mu)
 
 
 class RightTrivialisation(LieGroup):
-    """The conversion of tangent vectors to elements of the Lie algebra, which is required for the Jacobian of
-    a step.
+    """The conversion of tangent vectors to elements of the Lie algebra. The Jacobian of a step needs this
+    conversion.
     """
 
     provides: ClassVar[str] = "right trivialisation of tangent vectors"
@@ -111,15 +113,20 @@ class RightTrivialisation(LieGroup):
 
 
 class LeftTranslation(Coadjoint):
-    """Left translations, and the equations of the group as rules for replacement. Both are required for
-    velocities and momenta in the body frame."""
+    """Left translations, and the equations of the group as replacement rules.
+
+    Both are required for velocities and momenta in the body frame.
+    """
 
     provides: ClassVar[str] = "left translation of velocities"
 
     @abstractmethod
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the equations of the group as rules. Each rule replaces a product of two coordinates by a
-        polynomial that has the same value on the group. ``q`` contains the symbols of all coordinates."""
+        """Return the equations of the group as replacement rules.
+
+        Each rule replaces a product of two coordinates by a polynomial that has the same value on the group.
+        ``q`` contains the symbols of all coordinates.
+        """
 
     @abstractmethod
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -131,8 +138,10 @@ class LeftTranslation(Coadjoint):
 
 
 class BodyFrame(LeftTranslation):
-    """The product g exp(x): a step in the body frame multiplies g by exp(x) from the right. The passes of the
-    compiler that derive such steps need this capability."""
+    """The product g exp(x), which is a step in the body frame.
+
+    The compiler passes that derive such steps need this capability.
+    """
 
     provides: ClassVar[str] = "body frame"
 
@@ -143,15 +152,16 @@ class BodyFrame(LeftTranslation):
 
 
 class ClosedFormSeries(Coadjoint):
-    """Functions of ad_x in closed form: a product of dexp, exp and dexp^{-1} is a combination of a few
-    brackets."""
+    """Closed forms of functions of ad_x. A product of dexp, exp and dexp^{-1} is a combination of a few
+    brackets.
+    """
 
     provides: ClassVar[str] = "closed form of functions of ad"
 
     @abstractmethod
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of the functions of ad_x in ``word`` applied to v; with ``dual``, ad*_x replaces
-        ad_x.
+        """Return the product of the functions of ad_x in ``word`` applied to v. If ``dual`` is true, ad*_x
+        replaces ad_x.
         """
 
     @abstractmethod
@@ -163,8 +173,10 @@ class ClosedFormSeries(Coadjoint):
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over ``terms`` (f, W, v), with fewer brackets than one call of
-        :meth:`series` for each term.
+        """Return the sum of f W(ad_x) v over ``terms`` (f, W, v).
+
+        The computation needs fewer brackets than one call of :meth:`series` for each term. If ``dual`` is
+        true, ad*_x replaces ad_x.
 
         ``total(indices)`` returns the sum of f v over the terms with these indices. A caller that has a
         shorter formula for these sums may pass it as ``total``.
@@ -229,8 +241,10 @@ class CayleyMap(LieGroup):
         """
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x = 4 y - 2 [x, y] - 4 dcay^{-1}_x y. A subclass may override this method by a formula
-        without cancellation."""
+        """Return x y x = 4 y - 2 [x, y] - 4 dcay^{-1}_x y.
+
+        A subclass may override this method by a formula without cancellation.
+        """
         terms = zip(y, self.ad(d, x, y), self.dcayinv(d, x, y), strict=True)
         four, two = d.rational(4), d.rational(2)
         return tuple(four * (a - c) - two * b for a, b, c in terms)
@@ -287,8 +301,8 @@ class Covered(LieGroup):
     """The group is covered by another group, its ``cover``, whose elements have fewer coordinates.
 
     The covering map is a homomorphism and a local diffeomorphism, so the equations of the group lift to the
-    cover. ``covering_formula`` is the text of the covering map in the header of emitted code. In this text q
-    is an element of the cover, and g is the element of the group.
+    cover. ``covering_formula`` describes the covering map in the header of emitted code. In this text q is an
+    element of the cover, and g is the element of the group.
     """
 
     provides: ClassVar[str] = "covering group"
@@ -301,22 +315,26 @@ class Covered(LieGroup):
 
     @abstractmethod
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of q under the covering map. The result is computed by the shortest polynomials,
-        which are valid only if q satisfies the equations of the cover."""
+        """Return the image of q under the covering map.
+
+        The formula is the shortest polynomial, which is valid only if q satisfies the equations of the cover.
+        """
 
     @abstractmethod
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image under the covering map of q after a projection onto the cover. The result
-        satisfies the equations of the group exactly."""
+        """Return the image of q under the covering map, after a projection of q onto the cover.
+
+        The result satisfies the equations of the group exactly.
+        """
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element of the cover's algebra whose image is x under the derivative of the covering map
-        at e."""
+        """Return the element of the cover's algebra that the derivative of the covering map at e
+        maps to x."""
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return a number, the pivot, for each formula of :meth:`lift`. A formula is valid where its pivot is
+        """Return the pivot of each formula of :meth:`lift`, a number. A formula is valid where its pivot is
         positive.
 
         For every g at least one pivot is positive. The formula with the largest pivot has the smallest
@@ -325,8 +343,10 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return an element of the cover whose image under the covering map is g. It is computed by the
-        formula with the index ``formula``."""
+        """Return an element of the cover whose image under the covering map is g.
+
+        ``formula`` is the index of the formula that computes the element.
+        """
 
 
 class Rotations(MatrixElements):
@@ -378,13 +398,15 @@ class CotangentBundle(LieGroup):
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
         """Return the element of the algebra to which the canonical bivector at z maps a covector.
 
-        If the covector is the trivialised differential of a Hamiltonian, the result is the field f = (xi, n).
+        If the covector is the right-trivialised differential of a Hamiltonian, the result is the field f =
+        (xi, n).
         """
 
 
 class Projection(LieGroup):
-    """The group has a projection: it maps coordinates that nearly satisfy the equations of the group to
-    coordinates that satisfy them more accurately."""
+    """A projection onto the group. It maps coordinates that nearly satisfy the equations of the group to
+    coordinates that satisfy them more accurately.
+    """
 
     provides: ClassVar[str] = "projection onto the group"
 
@@ -396,7 +418,7 @@ class Projection(LieGroup):
 
 
 class DependentCoordinates(LieGroup):
-    """Some coordinates of an element are functions of its other coordinates."""
+    """Some coordinates of an element are functions of the other coordinates of the element."""
 
     provides: ClassVar[str] = "coordinates that its other coordinates determine"
 
@@ -407,12 +429,11 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g with new coordinates at the indices ``missing``. They are computed from all other
-        coordinates; their old values are not read."""
+        """Return g with new coordinates at the indices ``missing``, computed from the other coordinates."""
 
 
 def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:
-    """Return the sum of c x over terms (c, x); the empty tuple if there are no terms."""
+    """Return the sum of c x over the terms (c, x), or the empty tuple if there are no terms."""
     total: Vector[S] = ()
     for c, x in terms:
         factor: S = d.rational(c.numerator, c.denominator)

@@ -7,7 +7,7 @@ from codegen.groups.base import LieGroup
 
 
 def check_size(name: str, n: object, least: int) -> None:
-    """Raise :class:`SceneError` unless n is an integer of at least ``least``; ``name`` is the name of the
+    """Raise :class:`SceneError` if n is not an integer of at least ``least``. ``name`` is the name of the
     class.
 
     >>> check_size("SO", "3", 2)
@@ -23,8 +23,9 @@ def check_size(name: str, n: object, least: int) -> None:
 
 
 def check_factor(name: str, group: object) -> None:
-    """Raise :class:`SceneError` unless the argument is a group; ``name`` describes what the group is needed
-    for, such as "a product"."""
+    """Raise :class:`SceneError` if the argument is not a group. ``name`` says where the group is used, such
+    as "a product".
+    """
     if not isinstance(group, LieGroup):
         shown = group.__name__ if isinstance(group, type) else repr(group)
         raise SceneError(

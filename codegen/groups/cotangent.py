@@ -15,9 +15,10 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu); the coordinates of g come before the
     coordinates of mu.
 
-    With f(q, mu) = (xi, n) the flow is q' = xi.q, mu' = n - ad*_xi mu, that is z' = f(z).z (Arnold and Khesin
-    I.10.B; eq. 2.27 of H. Marthinsen's thesis). Hence exp(xi, n) = (exp xi, dexp*_{-xi} n) and [(x, m), (y,
-    n)] = ([x, y], ad*_y m - ad*_x n). :class:`SceneError` is raised if G has no coadjoint action.
+    A field f(q, mu) = (xi, n) gives the equations q' = xi.q and mu' = n - ad*_xi mu, that is z' = f(z).z
+    (Arnold and Khesin I.10.B; eq. 2.27 of H. Marthinsen's thesis). The exponential is exp(xi, n) = (exp xi,
+    dexp*_{-xi} n), and the bracket is [(x, m), (y, n)] = ([x, y], ad*_y m - ad*_x n). :class:`SceneError` is
+    raised if G has no coadjoint action.
     """
 
     def __init__(self, base: LieGroup) -> None:
@@ -31,8 +32,10 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         self.abelian = base.abelian
 
     def _split(self, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
-        """Return the two parts of an element of the group or of the algebra. The length of x decides whether
-        x is split as an element of the group or of the algebra."""
+        """Split an element of the group or of the algebra into its two parts.
+
+        The length of x decides whether x is an element of the group or of the algebra.
+        """
         at = self.base.size if len(x) == self.size else self.base.dim
         return tuple(x[:at]), tuple(x[at:])
 
@@ -68,10 +71,10 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.ad(d, a, b) + tuple(p - q for p, q in pairs)
 
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
-        """Return (b, ad*_b mu - a) for a covector (a, b): the right-trivialised canonical bivector (eq. 2.26
-        of Marthinsen's thesis).
+        """Return (b, ad*_b mu - a) for a covector (a, b).
 
-        If the covector is the differential (ad*_xi mu - n, xi) of a Hamiltonian, the result is f = (xi, n).
+        This map is the right-trivialised canonical bivector (eq. 2.26 of Marthinsen's thesis). If the
+        covector is the differential (ad*_xi mu - n, xi) of a Hamiltonian, the result is f = (xi, n).
         """
         mu = self._split(z)[1]
         a, b = tuple(covector[: self.base.dim]), tuple(covector[self.base.dim :])
@@ -79,8 +82,10 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return b + tuple(x - y for x, y in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group if it has the operations of the class ``capability``, otherwise None. It has a
-        projection, or inverses of elements, only if the base group has them."""
+        """Return this group if it has the operations of the class ``capability``, otherwise None.
+
+        The group has a projection, or inverses of elements, only if the base group has them.
+        """
         own = super().offers(capability)
         return None if capability in (Projection, Inverse) and self.base.offers(capability) is None else own
 

@@ -14,26 +14,28 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The word (a product of functions of ad_x) whose only factor is dexp_x. If ad*_x replaces ad_x, it is
-dexp*_x."""
+"""A product of functions of ad_x with the only factor dexp_x, or with dexp*_x if ad*_x replaces ad_x."""
 
 
 class CubicAd(ClosedFormSeries):
     """A group with ad_x^3 = -z ad_x for a quadratic form z of x.
 
-    dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2 with the Stumpff functions c_k. ``signed`` is true if z may be
-    negative.
+    On such a group dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2 with the Stumpff functions c_k. ``signed`` is
+    true if z may be negative.
     """
 
     signed: ClassVar[bool] = False
 
     @abstractmethod
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return the number z for which ad_x^3 = -z ad_x. The non-zero eigenvalues of ad_x are the square
-        roots of -z."""
+        """Return the number z with ad_x^3 = -z ad_x. The non-zero eigenvalues of ad_x are the square roots of
+        -z.
+        """
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of functions of ad_x, or of ad*_x, applied to v, by two brackets."""
+        """Apply the product of functions of ad_x in ``word`` to v, by two brackets. If ``dual`` is true,
+        ad*_x replaces ad_x.
+        """
         b, c = ad_polynomial(d, word, self.squared_rate(d, x), signed=self.signed)
         bracket = self.adt if dual else self.ad
         first = bracket(d, x, v)
@@ -48,8 +50,10 @@ class CubicAd(ClosedFormSeries):
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + ad_x (B + ad_x C), where A,
-        B and C are linear combinations of the vectors v."""
+        """Return the sum of f W(ad_x) v over terms (f, W, v) by two brackets.
+
+        The sum is A + ad_x (B + ad_x C), where A, B and C are linear combinations of the vectors v.
+        """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim
         inner, innermost, plain = none, none, none
@@ -65,5 +69,5 @@ class CubicAd(ClosedFormSeries):
         return tuple(p + q for p, q in zip(plain, bracket(d, x, inner), strict=True))
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu."""
+        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu with the Stumpff functions c_k at z."""
         return self.series(d, DEXP, True, x, mu)

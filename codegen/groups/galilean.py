@@ -15,10 +15,10 @@ from codegen.ir.domain import Domain
 class Galilean(Semidirect):
     """Maps (y, t) -> (R y + v t + p, t + s) of events: R row by row, then v, p and s.
 
-    The linear factor (R, v) is SE(3) with the velocity of a boost in place of the translation. It acts on R^4
-    by its 4 x 4 matrices. An element of the algebra is (w, b, u, r): rates of the rotation, of the boost, and
-    of the translations of space and time. Its exponential is (exp w, dexp_w b, dexp_w u + r psi(w) b, r) with
-    psi(w) = sum of w^k/(k+2)!.
+    The linear factor (R, v) is SE(3) with the velocity of a boost in place of the translation. This factor
+    acts on R^4 by its 4 x 4 matrices. An element (w, b, u, r) of the algebra contains the rates of the
+    rotation, of the boost, and of the translations of space and time. The exponential of this element is (exp
+    w, dexp_w b, dexp_w u + r psi(w) b, r) with psi(w) = sum of w^k/(k+2)!.
     """
 
     name = "Gal(3)"
@@ -42,9 +42,11 @@ class _Events(MatrixColumns):
         return (*(a for row in rows for a in row), zero, zero, zero, one)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return (dexp_w p + r psi(w) b, r) for x = (w, b) and u = (p, r), with
-        psi(w) = 1/2 + c_3 w + c_4 w^2. Here c_2 and c_3 are the Stumpff functions at w.w, c_2' is the
-        derivative of c_2, and c_4 = c_2' + c_3/2."""
+        """Return (dexp_w p + r psi(w) b, r) for x = (w, b) and u = (p, r), with psi(w) = 1/2 + c_3 w + c_4
+        w^2.
+
+        c_2 and c_3 are the Stumpff functions at w.w, c_2' is the derivative of c_2, and c_4 = c_2' + c_3/2.
+        """
         w, b, position, time = x[:3], x[3:], u[:3], u[3]
         z, half = dot(w, w), d.rational(1, 2)
         c3: S = d.call("stumpff3", z)

@@ -8,7 +8,9 @@ from codegen.groups.unit_matrices import elementary
 
 
 class GL(MatrixGroup):
-    """Invertible n x n matrices; the algebra has the elementary matrices E_ij as its basis, row by row."""
+    """Invertible n x n matrices. The basis of the algebra consists of the elementary matrices E_ij, row by
+    row.
+    """
 
     def __init__(self, n: int) -> None:
         check_size("GL", n, 1)

@@ -11,11 +11,11 @@ from codegen.ir.domain import Domain
 
 
 class LargeGroup(LieGroup):
-    """A group of large matrices, of which only the name and the dimensions are known: it has no operations.
+    """A group of large matrices. Only its name and its dimensions are known; the group has no operations.
 
-    The operations would need arrays with n^2 entries, so each of them raises
-    :class:`codegen.errors.SceneError`. ``families`` is a text with the names of the families whose methods
-    can be emitted. The message of the error contains this text.
+    The operations would need arrays with n^2 entries, so each operation raises
+    :class:`codegen.errors.SceneError`. ``families`` names the families whose methods can be emitted. The
+    error message contains this text.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:

@@ -39,5 +39,5 @@ ACTIONS: Registry[Action] = Registry("action", __name__, [n for n in __all__ if 
 
 
 def listing() -> list[dict[str, str]]:
-    """Return name and first docstring paragraph of every action, for ``orderconds list actions``."""
+    """Return the name and the first docstring paragraph of every action, for ``orderconds list actions``."""
     return ACTIONS.listing()

@@ -1,8 +1,8 @@
 """The base class of left actions of a group on a manifold.
 
-To define an action, inherit :class:`Action` and write ``name``, ``act`` and ``velocity``. These are enough
-for scenes, emitted code and convergence tests. The other members have defaults, which an action may override:
-the number of coordinates of a point, the equations of the manifold, a projection.
+To define an action, inherit :class:`Action` and write ``name``, ``act`` and ``velocity``. These members are
+enough for scenes, emitted code and convergence tests. An action may also override the number of coordinates
+of a point, the equations of the manifold and the projection.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from codegen.ir.domain import Domain
 
 
 class Action(ABC):
-    """A left action: e.y = y and (g k).y = g.(k.y).
+    """A left action of a group on a manifold: e.y = y for the neutral element e, and (g k).y = g.(k.y).
 
-    A point y of the manifold is a flat tuple of scalars; its length may depend on the group. ``name`` is
-    printed in messages and headers. ``needs`` is the class of the operations that the group must have for
-    this action (:mod:`codegen.groups.capabilities`). ``on_itself`` is true if the points are elements of the
-    group, in the coordinates of the group. :func:`codegen.groups.register` adds the class to the list of
-    actions.
+    A point y of the manifold is a flat tuple of scalars. The length of the tuple may depend on the group.
+    ``name`` is printed in messages and headers. ``needs`` is the class of the operations that the group must
+    have for this action (:mod:`codegen.groups.capabilities`). ``on_itself`` is true if the points are
+    elements of the group, in the coordinates of the group. :func:`codegen.groups.register` adds the class to
+    the list of actions.
     """
 
     name: str
@@ -62,15 +62,16 @@ class Action(ABC):
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x.y, the derivative of exp(eps x).y at eps = 0, for x in the algebra. It is a tuple as long
-        as y."""
+        """Return x.y, the derivative of exp(eps x).y at eps = 0, for x in the algebra. The result is as long
+        as y.
+        """
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return a point closer to the orbit of ``start`` than y. If y has the distance eps from the orbit,
-        the result has the distance O(eps^2).
+        """Return a point closer to the orbit of ``start`` than y.
 
-        By default y is returned. This is correct if the orbit is open, because a small error does not leave
-        an open set.
+        If y has the distance eps from the orbit, the result has the distance O(eps^2). By default y is
+        returned. This default is correct if the orbit is open, because a small error does not leave an open
+        set.
         """
         return y
 

@@ -13,8 +13,8 @@ class CoadjointAction(Action):
     """A group acting on the dual of its Lie algebra, g.mu = Ad*_{g^-1} mu: Lie-Poisson systems.
 
     The velocity is x.mu = -ad*_x mu. The Lie-Poisson equation mu' = -ad*_{dH} mu of a Hamiltonian H(mu) is
-    the scene with f = dH/dmu, and mu' = ad*_{dH} mu is the scene with f = -dH/dmu. Each orbit is a coadjoint
-    orbit, so all Casimir functions are conserved.
+    the scene with the field f = dH/dmu. The equation with the opposite sign is the scene with f = -dH/dmu.
+    The orbits are coadjoint orbits, so all Casimir functions are conserved.
     """
 
     name = "coadjoint action"

@@ -26,8 +26,10 @@ class DiagonalAction(Action):
         self.name = " and ".join(action.name for action in actions)
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if one of the actions is not possible for the group, or
-        does not determine the number of coordinates of its points."""
+        """Raise :class:`codegen.errors.SceneError` if the group does not admit one of the actions.
+
+        The error is also raised if an action does not determine the number of coordinates of its points.
+        """
         for action in self.actions:
             action.check(group, where)
         self._sizes(group, where)

@@ -33,8 +33,11 @@ class FactorwiseAction(Action):
         self.name = " x ".join(action.name for action in actions)
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` unless there is one action for each factor, each factor
-        can act in this way, and each action defines the number of coordinates of its points."""
+        """Raise :class:`codegen.errors.SceneError` if the actions do not fit the factors of the group.
+
+        There must be one action for each factor, each factor must admit its action, and each action must
+        determine the number of coordinates of its points.
+        """
         self.require(group, DirectProduct, where)
         factors = group.require(DirectProduct).factors
         if len(factors) != len(self.actions):
@@ -73,8 +76,9 @@ class FactorwiseAction(Action):
     def _each(
         self, group: LieGroup, operation: Callable[..., Vector[S]], x: Vector[S], y: Vector[S]
     ) -> Vector[S]:
-        """Call operation(action, factor, own part of x, own part of y) for each factor; return the results,
-        joined to one tuple."""
+        """Call operation(action, factor, part of x, part of y) for each factor, and join the results to one
+        tuple.
+        """
         parts = group.require(DirectProduct).parts(x)
         rows = zip(self._pairs(group), parts, self._split(group, y), strict=True)
         return tuple(

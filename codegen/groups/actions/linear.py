@@ -24,8 +24,7 @@ class Linear(Action):
         return matvec(g, y)
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y. Some groups compute this vector without the matrix exp(x), for example most groups
-        of large matrices."""
+        """Return exp(x) y. Some groups, such as groups of large matrices, do not compute exp(x)."""
         rotations = group.offers(Rotations)
         if rotations is None:
             return group.require(MatrixElements).exp_times(d, x, y)
@@ -40,7 +39,7 @@ class Linear(Action):
         if group.offers(Rotations) is None:
             return y
         squared = dot(start, start)
-        # If ``start`` is zero, the orbit is the origin alone, and the function ``quotient`` returns 0.
+        # If ``start`` is zero, the orbit is the origin alone. The function ``quotient`` then returns 0.
         defect = d.call("quotient", squared - dot(y, y), squared)
         return rescaled(d, y, defect)
 

@@ -19,8 +19,10 @@ class Stiefel(Columns):
     name = "rotation of orthonormal columns"
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` unless the elements of the algebra are skew matrices of at
-        least k rows."""
+        """Raise :class:`codegen.errors.SceneError` if the columns of a point cannot stay orthonormal.
+
+        The matrices of the algebra must be skew and have at least k rows.
+        """
         super().check(group, where)
         matrices, d = group.require(MatrixElements), FloatDomain(0.0)
         n = matrices.order
@@ -57,8 +59,11 @@ class Stiefel(Columns):
         )
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return Y (3 - Y^T Y)/2. If Y^T Y differs from the unit matrix by eps, the columns of the result are
-        orthonormal up to O(eps^2)."""
+        """Return Y (3 - Y^T Y)/2 for the matrix Y in y.
+
+        If Y^T Y differs from the unit matrix by eps, the columns of the result are orthonormal up to
+        O(eps^2).
+        """
         gram, half, k = self._gram(y), d.rational(1, 2), self.columns
         unit: tuple[Vector[S], ...] = units(d, k)
         # With E = 1 - Y^T Y the result is Y + Y E/2. This form adds a small correction to Y, so it avoids the

@@ -1,7 +1,7 @@
 """Coordinate maps for Runge-Kutta-Munthe-Kaas methods, one file for each map.
 
-The exponential map is the default of every scene: ``coordinates="exp"``. Its inverse differential is a series
-of brackets, which methods truncate.
+The exponential map is the default of every scene: ``coordinates="exp"``. The inverse differential of the
+exponential map is a series of brackets. Methods truncate this series.
 """
 
 from __future__ import annotations

@@ -13,10 +13,10 @@ from codegen.ir.domain import Domain
 class Cayley(CoordinateMap):
     """cay(x) = (1 - x/2)^-1 (1 + x/2), with dcay^{-1}_x y = (1 - x/2) y (1 + x/2).
 
-    x is a matrix, or a pure quaternion. Groups of matrices g with g^T J g = J have this map, and so have all
-    groups whose algebra contains x^3 for each of its elements x. On groups of orthogonal matrices the map is
-    defined for all x; on other groups 1 - x/2 may be singular for a long step, which then returns the status
-    TOO_FAR (only a shorter step has a finite result).
+    x is a matrix or a pure quaternion. Groups of matrices g with g^T J g = J for a fixed matrix J have this
+    map. More generally, the map exists on all groups whose algebra contains x^3 for each of its elements x.
+    On groups of orthogonal matrices the map is defined for all x. On other groups 1 - x/2 may be singular if
+    the step is long. The step then returns the status TOO_FAR: only a shorter step has a finite result.
     """
 
     name = "cayley"

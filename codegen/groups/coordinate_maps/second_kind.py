@@ -13,10 +13,9 @@ from codegen.ir.domain import Domain
 class SecondKind(CoordinateMap):
     """tau(x) = exp(x_1 e_1) exp(x_2 e_2) ... exp(x_d e_d) for the basis e_1, ..., e_d of the algebra.
 
-    dtau_x v = sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k with E_k = exp(x_k e_k) (Owren and Marthinsen 2001).
-    dtau^{-1}_x y is the solution v of the linear system dtau_x v = y. If the system is singular, or if a
-    pivot of the elimination is zero, the step returns the status TOO_FAR (only a shorter step has a finite
-    result).
+    The differential is dtau_x v = sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k with E_k = exp(x_k e_k) (Owren and
+    Marthinsen 2001). dtau^{-1}_x y is the solution v of the linear system dtau_x v = y. If a pivot of the
+    elimination is zero, the step returns the status TOO_FAR: only a shorter step has a finite result.
     """
 
     name = "second_kind"
@@ -43,7 +42,9 @@ class SecondKind(CoordinateMap):
         return g
 
     def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the solution v of sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k = y."""
+        """Return the solution v of the linear system sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k = y with E_k =
+        exp(x_k e_k).
+        """
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
         # Ad_{E_1}^-1 is applied to both sides. The columns are then e_1, e_2, Ad_{E_2} e_3, and so on, so the
