@@ -1,4 +1,4 @@
-"""Order conditions expanded for a fixed number of stages: polynomials in a_ij and b_i without index sums."""
+"""Order conditions for a fixed number of stages, written out as polynomials without sums over indices."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ if TYPE_CHECKING:
 
 
 MAX_COMPUTED = 5_000_000
-"""The largest estimated number of terms for which the expansion is computed. The computation then needs about
+"""The expansion is computed only if the estimated number of terms is at most this number. It then needs about
 500 MB."""
 
 MAX_TERMS = 500_000
-"""The largest number of terms for which the expansion is written. The text then has about 20 MB, and writing
-needs 1.5 GB of memory."""
+"""The expansion is returned only if it has at most this number of terms. Its text then has about 20 MB, and
+writing this text needs 1.5 GB of memory."""
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
-    """Return a derivation whose conditions are expanded: they are polynomials in the entries of a tableau
-    with ``stages`` stages.
+    """Expand the conditions of a derivation as polynomials in the coefficients of a method with ``stages``
+    stages.
 
-    If ``explicit`` is true, the tableau is strictly lower triangular. Otherwise all its entries are
-    variables. Raises :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered
-    by stages alone, and if there are more than :data:`MAX_TERMS` terms.
+    If ``explicit`` is true, only the strictly lower triangular entries of A are variables. Otherwise all
+    entries are variables. Raises :class:`~orderconds.errors.InputError` if the coefficients of the family
+    have other indices than stages, or if there are more than :data:`MAX_TERMS` terms.
 
     >>> from orderconds.derivation import derive
     >>> derivation = derive("rk", order=2)
@@ -60,10 +60,10 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
 
 
 def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> int:
-    """Return an upper bound of the number of terms.
+    """Return an upper bound for the number of terms.
 
-    A tree with n vertices gives one term for each choice of n indices. In an explicit method there are only
-    stages * (stages - 1)/2 possible pairs of indices for two neighbouring vertices, instead of stages^2.
+    A tree with n vertices gives one term for each choice of n stage indices. In an explicit method, two
+    neighbouring vertices have only stages * (stages - 1)/2 possible pairs of indices, instead of stages^2.
     """
     factor = Fraction(stages - 1, 2) if explicit else Fraction(stages)
     sizes = enumerate(derivation.counts)
@@ -83,11 +83,11 @@ def _refuse_more_terms(derivation: Derivation, terms: int, most: int) -> None:
 def polynomials(
     derivation: Derivation, stages: int, *, explicit: bool = False
 ) -> tuple[Polynomials | LaurentPolynomials, tuple[Name, ...], tuple[Element, ...]]:
-    """Return a ring of polynomials, its variables, and the left-hand sides as elements of the ring.
+    """Return a polynomial ring, its variables, and the left-hand sides of the conditions as elements of the
+    ring.
 
-    The family evaluates its conditions over this ring of polynomials, or of Laurent polynomials if the
-    formulas of the family divide by weights. Raises :class:`~orderconds.errors.InputError` for the same
-    families as :func:`expand_stages`.
+    If the formulas of the family divide by weights, the ring consists of Laurent polynomials. Raises
+    :class:`~orderconds.errors.InputError` for the same families as :func:`expand_stages`.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)
@@ -106,8 +106,8 @@ def polynomials(
 
 
 def _formula(symbols: list[Coefficient], terms: Iterable[tuple[tuple[int, ...], fmpq]]) -> Formula:
-    """Return the formula of a polynomial that is given by its terms. Entry k of a tuple of exponents is the
-    exponent of ``symbols[k]``."""
+    """Return a polynomial as a formula. Each term is a pair of exponents and a coefficient. Entry k of the
+    exponents belongs to ``symbols[k]``."""
     return Total(
         tuple(
             (

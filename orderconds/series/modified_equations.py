@@ -1,9 +1,10 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
-Let a be the values of the series of a step. The step is the flow, over the time h, of a vector field f~ = f +
-h f_2 + .... Let b be the values of the series of f~. Then a is the exponential of b with respect to
-composition: a = sum_j (1/j!) L^(j-1) b, where L is a sum over cuts with one component (HLW IX.9.1; on ordered
-forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+One step of a method with step size h equals the flow, over time h, of a modified vector field f~ = f + h f_2
++ .... Let a(t) and b(t) be the coefficients of the step and of f~ for the tree t. Then a = sum_(j >= 1)
+(1/j!) L^(j-1) b, the exponential of b. The linear map L acts on coefficients c: (L c)(t) is the sum of
+b(subtree) c(rest) over all ways to cut one subtree off t (HLW IX.9.1). On ordered forests, see Lundervold and
+Munthe-Kaas, Contemp. Math. 539 (2011) 295.
 """
 
 from __future__ import annotations
@@ -23,9 +24,11 @@ class VectorField:
     """A vector field f~, given by its value on each tree (B-series) or on each ordered forest (Lie-Butcher
     series).
 
-    B-series: f~ = sum h^(|t|-1) b(t)/sigma(t) F(t). Lie-Butcher series, for matrices: f~ = sum h^(|w|-1) b(w)
-    F(t_k) ... F(t_1) with w = t_1 ... t_k. This sum is an element of the Lie algebra, because b is zero on
-    shuffle products of non-empty words.
+    B-series: f~ is the sum of h^(|t|-1) b(t)/sigma(t) F(t) over all trees t. Here |t| is the number of
+    vertices, b(t) the value on t, sigma(t) the order of the symmetry group of t, and F(t) the elementary
+    differential. Lie-Butcher series, for matrices: f~ is the sum of h^(|w|-1) b(w) F(t_k) ... F(t_1) over all
+    words w = t_1 ... t_k of ordered trees. The value of this sum lies in the Lie algebra, because b is zero
+    on shuffle products of non-empty words.
 
     >>> from orderconds.ring import QQ
     >>> f = VectorField(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -68,8 +71,9 @@ class VectorField:
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of L^(n-1) b on a tree or forest, where b is this field. The value of L c is the
-        sum of b(component) c(rest) over all cuts with one component and a non-empty rest."""
+        """Return the value of L^(n-1) b on a tree or forest, where b contains the values of this field. The
+        value (L c)(forest) is the sum of b(component) c(rest) over all cuts with one component and a
+        non-empty rest."""
         if n == 1:
             return self(forest)
         if n > len(forest):
@@ -98,13 +102,16 @@ def modified_field(step: Character) -> VectorField:
 
 
 def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, Element], ...]:
-    """Return pairs of a tree t and its coefficient b(t)/sigma(t) in H~ = sum h^(|t|-1) b(t)/sigma(t) H(t).
+    """Return the trees t and coefficients b(t)/sigma(t) of the modified Hamiltonian.
 
-    For t = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). The sum is over free
-    trees with at most ``order`` vertices. Trees that an edge divides into two equal halves are omitted (HLW
-    IX.9.2). Raises :class:`~orderconds.errors.InputError` for a Lie-Butcher series. The same error is raised
-    if it cannot be proved that b(u o v) + b(v o u) = 0 for all u and v, where o is Butcher's product. Without
-    this proof, the field need not be Hamiltonian.
+    The modified Hamiltonian is the sum of h^(|t|-1) b(t)/sigma(t) H(t) over free trees with at most ``order``
+    vertices. Here b(t) is the value of the field and sigma(t) is the order of the symmetry group of t. For t
+    = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). Trees that an edge divides
+    into two equal halves are omitted (HLW IX.9.2).
+
+    The field is Hamiltonian if b(u o v) + b(v o u) = 0 for all trees u and v, where o is Butcher's product.
+    Raises :class:`~orderconds.errors.InputError` if these equations cannot be proved, or for a Lie-Butcher
+    series.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

@@ -1,5 +1,5 @@
-"""Products of graded generators. The generators are left-hand sides of conditions of lower order. If these
-conditions hold, each product has the same value for the method and for the exact flow."""
+"""Products of graded generators. The generators are left-hand sides of order conditions. If these conditions
+hold, each product has the same value for the method as for the exact flow."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from orderconds.ring.protocol import Element
 def products(generators: Sequence[tuple[int, Element]], degree: int) -> Iterator[Element]:
     """Yield every monomial of degree ``degree`` in the generators, which are given as pairs (degree, value).
 
-    >>> list(products([(1, 3), (2, 5)], 3))  # b^3, b bc with b = 3, bc = 5
+    >>> list(products([(1, 3), (2, 5)], 3))  # x^3 and x y, where x = 3 and y = 5
     [27, 15]
     """
     yield from _monomials(generators, degree, 0, None)

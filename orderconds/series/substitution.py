@@ -1,11 +1,11 @@
-"""Substitution: the series of a step if the vector field f is replaced by another vector field, which is
-itself a series in f.
+"""Substitution: the series of a step after the vector field f is replaced by another series in f.
 
-For B-series, the value on a tree is a sum over all divisions of the tree into connected components. Each
-summand is the product of the values of the field on the components and the value of the step on the quotient
-tree, in which each component becomes one vertex (Chartier, Hairer and Vilmart, Found. Comput. Math. 10 (2010)
-407, Theorem 3.2). For Lie-Butcher series, the substitution f -> f~ is extended to forests by concatenation
-and left grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+For B-series, the value on a tree is a sum over all partitions of the tree into connected components. Each
+partition has a quotient tree, in which each component becomes one vertex. The summand is the value of the
+step on the quotient tree, multiplied by the values of the field on the components (Chartier, Hairer and
+Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series, the substitution f -> f~ is
+extended to forests by concatenation and left grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011)
+295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ Combination = dict[Forest, Element]
 
 
 def substituted(field: VectorField, step: Character) -> Character:
-    """Return the series of ``step``, applied to ``field`` in place of f. The values of ``step`` and ``field``
-    must be elements of the same ring.
+    """Return the series of ``step`` after the vector field f is replaced by ``field``. The values of ``step``
+    and ``field`` must be elements of the same ring.
 
     For example, if ``step`` is the exact flow and ``field`` is the modified field of a method, the result is
     the series of the method.
@@ -59,10 +59,10 @@ def substituted(field: VectorField, step: Character) -> Character:
 def modifying_field(step: Character) -> VectorField:
     """Return the field to which ``step`` must be applied so that the result is the exact flow of f.
 
-    This field is called the modifying field. If ``step`` is applied to the modifying field, truncated after
-    the power h^(p-1), the result is a method of order at least p (Chartier, Hairer and Vilmart, Math. Comp.
-    76 (2007) 1941). Raises :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher series, or if
-    its weights are proved not to sum to 1.
+    This field is called the modifying field. Truncate the modifying field after the power h^(p-1) and apply
+    ``step`` to the truncated field. The result is a method of order at least p (Chartier, Hairer and Vilmart,
+    Math. Comp. 76 (2007) 1941). Raises :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher
+    series, or if the weights of ``step`` provably do not sum to 1.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -82,9 +82,9 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The sum over all partitions must be equal to ``flow(tree)``. The partition into one component
-        # contributes the value of the field on the whole tree, because the step has the value 1 on the tree
-        # of one vertex. The equation is solved for this value.
+        # The sum over all partitions must equal ``flow(tree)``. The partition into one component contributes
+        # the value of the field on the whole tree, because the step has the value 1 on the tree with one
+        # vertex. Solve the equation for this contribution.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -92,8 +92,8 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the sum that defines the substitution, with one term for each partition of a tree into
-    components. If ``whole`` is false, the term for the partition into one component is omitted."""
+    """Return the value of the substitution on a tree: a sum over the partitions of the tree into components.
+    If ``whole`` is false, omit the term of the partition into one component."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:
@@ -107,8 +107,9 @@ def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bo
 
 @lru_cache(maxsize=1 << 12)
 def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
-    r"""Return, for each set of edges of a canonical tree, the components that remain if these edges are cut,
-    and the skeleton. The skeleton is the quotient tree, in which each component becomes one vertex.
+    r"""Return all partitions of a canonical tree, one for each set of edges that are cut. A partition is a
+    pair of the remaining components and the skeleton. The skeleton is the quotient tree, in which each
+    component becomes one vertex.
 
     >>> partitions(b"\0\1")
     (((b'\x00\x01',), b'\x00'), ((b'\x00', b'\x00'), b'\x00\x01'))
@@ -122,8 +123,8 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
     """Return the component of the root, all other components, the skeleton (quotient tree), and the unused
-    flags. ``cut`` contains one flag for each edge of the tree, in preorder, followed by flags that are not
-    used. A flag is true if its edge is cut."""
+    flags of ``cut``. The first flags of ``cut`` belong to the edges of the tree, in preorder. A flag is true
+    if its edge is cut. All further flags are returned unused."""
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []
@@ -145,8 +146,8 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """The linear combinations of forests that result if ``field`` replaces every vertex of a word of trees.
-    Forests with more than a given number of vertices are omitted."""
+    """Images of words of ordered trees under the substitution of ``field`` for every vertex. Each image is a
+    linear combination of forests with at most a given number of vertices."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

@@ -1,10 +1,11 @@
-"""The series of schemes with two registers (2N), on a group and on a vector space.
+"""Series of two-register (2N) Runge-Kutta schemes, on a group and on a vector space.
 
-A stage computes k <- A_i k + h f(y), y <- exp(B_i k) y, from k = 0. On functions of (y, k) a step is a
-product of exponentials of two vector fields. The kick K is the derivative along dk = f(y). The drift D is the
-derivative along dy = k y. The step is therefore a sum over words in K and D. A word is an operator whose last
-letter acts first. At k = 0 a word contributes only if it contains as many letters K as letters D, and if no
-suffix of the word contains more letters K than D.
+The registers are y and k, with k = 0 at the start of a step. Stage i computes k <- A_i k + h f(y), then y <-
+exp(B_i k) y. On functions of (y, k), a step is a product of exponentials of two vector fields. The kick K is
+the derivative along k' = f(y). The drift D is the derivative along y' = k y. The step is therefore a sum over
+words in K and D. A word is an operator whose last letter acts first. At k = 0, a word contributes only under
+two conditions. The word contains as many letters K as letters D. No suffix of the word contains more letters
+K than letters D.
 
 The page docs/explanation/two_registers.md proves that the same linear combinations of words vanish on every
 group and on vector spaces. The values of a scheme on ordered forests are therefore linear combinations of its
@@ -28,8 +29,7 @@ from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
 """A product of derivatives of a function, from left to right. None denotes the derivative along k. A tuple
-denotes the derivative along a vector field. This vector field results if the derivatives in the tuple are
-applied to f."""
+denotes the derivative along a vector field: the derivatives in the tuple, applied to f."""
 
 Combination = dict[Operator, int]
 
@@ -75,8 +75,8 @@ def on_vector_space(word: str) -> dict[Forest, int]:
 
 
 def unordered(forest: Forest) -> Forest:
-    r"""Return the unordered forest that results from an ordered forest if the order of branches and of trees
-    is ignored. Its trees are canonical and in descending order.
+    r"""Return the unordered forest of an ordered forest. The result consists of canonical trees in descending
+    order.
 
     >>> unordered(b"\0\0\1")
     b'\x00\x01\x00'
@@ -85,7 +85,8 @@ def unordered(forest: Forest) -> Forest:
 
 
 def rooted_forests(order: int) -> tuple[Forest, ...]:
-    """Return the forests of rooted trees with ``order`` vertices in total. Forests of many trees come first.
+    """Return the forests of rooted trees with ``order`` vertices in total. Forests with more trees come
+    first.
 
     >>> from orderconds.trees.levels import text
     >>> [text(forest) for forest in rooted_forests(3)]
@@ -108,8 +109,8 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return rooted trees with ``order`` vertices on which the values of 2N schemes are independent. These
-    values and the values on smaller trees determine the values on all trees with ``order`` vertices.
+    """Return rooted trees with ``order`` vertices on which 2N schemes have independent values. Together with
+    the values on smaller trees, these values determine the values on all trees with ``order`` vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -123,12 +124,13 @@ def independent_trees(order: int) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=16)
 def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
-    """Return the coefficients that express the values of a 2N scheme on ordered forests with ``order``
-    vertices by its values on rooted forests: {ordered forest: {rooted forest: coefficient}}.
+    """Express values of 2N schemes on ordered forests by values on rooted forests. The result maps each
+    ordered forest with ``order`` vertices to {rooted forest: coefficient}.
 
-    The value on a rooted forest is the product of the elementary weights of its trees. The result holds for
-    every 2N scheme and for the exact flow. Raises ValueError if the value on an ordered forest is not such a
-    combination. The theorem in docs/explanation/two_registers.md excludes this case.
+    The value on a rooted forest is the product of the elementary weights of the trees in the forest. The
+    coefficients are valid for every 2N scheme and for the exact flow. Raises ValueError if the value on some
+    ordered forest is not a linear combination of values on rooted forests. The theorem in
+    docs/explanation/two_registers.md excludes this case.
 
     >>> from orderconds.trees.levels import text
     >>> {text(w): {text(u): str(x) for u, x in row.items()} for w, row in in_rooted_forests(2).items()}
@@ -161,8 +163,8 @@ def _symmetry(forest: Forest) -> int:
 
 @lru_cache(maxsize=1 << 12)
 def _applied(word: str, ordered: bool) -> Combination:
-    """Return the operator of a word, as a linear combination. The last letter acts first. ``ordered`` is true
-    on a group, and false on a vector space, where derivatives commute."""
+    """Return the operator of a word as a linear combination of products of derivatives. The last letter acts
+    first. ``ordered`` is true on a group. It is false on a vector space, where derivatives commute."""
     result: dict[Operator, int] = defaultdict(int)
     if not word:
         return {(): 1}
@@ -176,8 +178,8 @@ def _applied(word: str, ordered: bool) -> Combination:
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
     """Apply the letter D, the derivative along k, to a product of derivatives of a function. By the product
-    rule the result is a sum. In one term, D acts on the function after all other derivatives. In each other
-    term, D acts on one of the vector fields along which the function is differentiated."""
+    rule, the result is a sum. In the first term, D acts on the function after all other derivatives. In each
+    other term, D acts on a vector field of one of these derivatives."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -185,8 +187,9 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K to a product of derivatives. By the product rule the result is a sum. In each term,
-    the derivative along f replaces one of the derivatives along k."""
+    """Apply the letter K to a product of derivatives. By the product rule, the result is a sum. In each term,
+    a derivative along f replaces one derivative along k, in the product itself or in a vector field of the
+    product."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:
@@ -196,7 +199,7 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Apply ``act`` (:func:`_drift` or :func:`_kick`) to one elementary differential at a time, and return
+    """Apply ``act`` (:func:`_drift` or :func:`_kick`) to one vector field of the product at a time. Return
     the sum of the results."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):

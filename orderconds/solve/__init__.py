@@ -1,2 +1,2 @@
-"""The search for methods: numerical search, certification of the solutions, closed forms of coefficients, and
-proofs that no method exists."""
+"""Search for methods: numerical search, proof of the solutions, closed forms of coefficients, and proofs that
+no method exists."""

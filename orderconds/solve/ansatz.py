@@ -1,9 +1,8 @@
 """An ansatz: a tableau file whose decimals are the unknowns of a search.
 
-The file contains the coefficients of a method with a given number of stages. The coefficients have the names
-a21, b1, ... and satisfy constraints. The coefficients are evaluated in three rings: traces, which record a
-program for the numerical search; residues modulo primes, for the ranks of conditions; and balls, for the
-proof.
+The file describes a method with a given number of stages. Its coefficients have names such as a21 and b1, and
+they satisfy constraints. The coefficients are evaluated in three rings. Traces record a program for the
+numerical search. Residues modulo primes give the ranks of conditions. Balls (intervals) give the proof.
 """
 
 from __future__ import annotations
@@ -20,16 +19,18 @@ from orderconds.tableau.unknowns import RootedRing, SymbolicCoefficients
 
 @dataclass(frozen=True)
 class Ansatz:
-    """The text of a tableau file in which the values of the free coefficients are missing. ``free`` contains
-    the names of the unknowns. ``numbers`` maps the names of dependent coefficients to their formulas. Both
-    belong to the table [numbers] of the file. ``body`` contains the lines before this table, and ``tail`` the
-    lines after it. ``cells`` contains the names of all coefficients that are not constants.
+    """The text of a tableau file without the values of the free coefficients.
 
-    ``family`` is the label of the family whose conditions are solved. ``reduction`` is the reason why some of
-    these conditions imply all others; the file contains this reason (:mod:`orderconds.proof.equations`). If
-    ``abelian`` is true, the conditions are those of the tableau to which the method reduces on an abelian
-    group. The principal error is computed for the family ``measured`` or, if ``measured`` is None, for
-    ``family``. Random starts are near ``centre``, a value for each free coefficient.
+    ``free`` contains the names of the free coefficients, which are the unknowns. ``numbers`` maps the names
+    of all other named coefficients to formulas. The table [numbers] of the file contains both. ``body``
+    contains the lines before this table, and ``tail`` the lines after the table. ``cells`` contains the names
+    of all coefficients that are not constants.
+
+    ``family`` is the label of the method family whose order conditions are solved. ``reduction`` names the
+    theorem by which some of these conditions imply all others (:mod:`orderconds.proof.equations`). If
+    ``abelian`` is true, the conditions are those of the method on an abelian group. The principal error is
+    computed for the family ``measured`` or, if ``measured`` is None, for ``family``. ``centre`` contains a
+    value for each free coefficient. Random starts are near these values.
     """
 
     family: str
@@ -46,8 +47,8 @@ class Ansatz:
     centre: Mapping[str, float] | None = None
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
-        """Return the text of the file in which the free coefficients have the given ``values``. The lines
-        ``head`` precede the table [numbers], and the lines ``foot`` are the last lines of the file."""
+        """Return the text of the file, with the given ``values`` of the free coefficients. The lines ``head``
+        precede the table [numbers]. The lines ``foot`` are the last lines of the file."""
         texts = {**{name: values[name] for name in self.free}, **self.numbers}
         numbers = [f'{name} = "{texts[name]}"' for name in sorted(texts, key=_place)]
         table = ["", "[numbers]", *numbers] if numbers else []
@@ -74,8 +75,7 @@ class Ansatz:
         return symbolic.method(ring, known)[0]
 
     def _sorted(self, values: Sequence[Element]) -> list[Element]:
-        """Return the values of the free coefficients, sorted by the names of these coefficients
-        (:func:`_place`)."""
+        """Return the values of the free coefficients, sorted by coefficient name (:func:`_place`)."""
         return [x for _, x in sorted(zip(self.free, values, strict=True), key=lambda pair: _place(pair[0]))]
 
     @cached_property

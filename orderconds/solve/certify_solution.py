@@ -1,12 +1,11 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
 Coefficients that the equations do not determine are first rounded to short decimals. All other coefficients
-are then computed to high precision by Newton's method in balls. If lattice reduction recognises them as
-algebraic numbers of one field, the file contains closed forms, and the order of the method is checked
-exactly. Otherwise the file contains rounded decimals, which are the unknowns of the conditions. The proof
-uses only conditions that are independent for the ansatz (the reduction ``spelling`` of
-:mod:`orderconds.proof.subfamily`). Interval arithmetic then proves that these conditions have a solution near
-the decimals.
+are then computed to high precision by Newton's method. Lattice reduction tries to recognise them as elements
+of one number field. If this succeeds, the file contains closed forms, and the order is checked exactly.
+Otherwise the file contains rounded decimals. Interval arithmetic then proves that the order conditions have a
+solution near these decimals. The proof uses only conditions that are independent for the ansatz (the
+reduction ``spelling`` of :mod:`orderconds.proof.subfamily`).
 """
 
 from __future__ import annotations
@@ -49,13 +48,13 @@ STEPS = (
     Fraction(1, 100),
     Fraction(1, 1000),
 )
-"""Free coefficients are rounded to multiples of one of these units: the coarsest unit for which a good
-solution is found.
+"""Rounding units, tried in this order. Free coefficients are rounded to multiples of the first unit that
+leads to a good solution.
 """
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""The units for rounding if the principal error was minimised. Smaller units are not necessary, because near
-a minimum of the error rounding hardly changes the error."""
+"""Rounding units after a minimisation of the principal error. Finer units are unnecessary, because rounding
+hardly changes the error near a minimum."""
 
 DIGITS = 50
 """Decimal places of a coefficient in the file."""
@@ -69,7 +68,8 @@ WORSE = 1.5
 
 @dataclass(frozen=True)
 class Solution:
-    """A method with its tableau file. The certificate of its order is ``exact`` or ``ball``."""
+    """A method with a proved order. ``text`` is the tableau file, ``certificate`` is ``exact`` or ``ball``,
+    and ``error`` is the principal error."""
 
     tableau: Tableau
     text: str
@@ -80,8 +80,8 @@ class Solution:
 def certify_solution(
     problem: Problem, point: Sequence[float], name: str, source: str, *, minimised: bool = False
 ) -> Solution:
-    """Return a solution near ``point`` with its tableau file. ``point`` contains values of the free
-    coefficients of the ansatz. Raises NotProved if the order of the problem is not proved.
+    """Return a proved solution near ``point`` with a tableau file. ``point`` contains values of the free
+    coefficients of the ansatz. Raises NotProved if the required order cannot be proved.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -107,9 +107,9 @@ def certify_solution(
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Round those coefficients of a solution that the equations do not determine. Return three values: a
-    nearby solution, a map from indices to rounded values, and the indices of the other coefficients.
-    Raises NotProved if there is no good nearby solution."""
+    """Round the coefficients that the equations do not determine. Return a nearby solution, a map from
+    coefficient index to rounded value, and the indices of all other coefficients. Raises NotProved if there
+    is no good nearby solution."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]
@@ -130,8 +130,8 @@ def _rounded_free(
 
 
 def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
-    """Solve for the coefficients ``solved``, with all other coefficients fixed, and return the solution near
-    ``start`` with its residual norm."""
+    """Solve for the coefficients ``solved``, with all other coefficients fixed at ``start``. Return the
+    solution and the norm of the residual."""
 
     def restricted(points: Floats) -> tuple[Floats, Floats]:
         whole = np.repeat(start[None], len(points), axis=0)
@@ -146,8 +146,8 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
-    """Return the largest absolute value of a coefficient and, up to order :data:`CHEAP`, the principal
-    error. Above this order the principal error costs too much to compute."""
+    """Return the largest absolute value of a coefficient and, up to order :data:`CHEAP`, the principal error.
+    Above order CHEAP, the principal error is too expensive."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)
@@ -155,8 +155,8 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
-    """Return True if the equations determine the coefficients ``solved`` well. This is the case if the
-    smallest singular value of the Jacobian with respect to these coefficients is not close to zero."""
+    """Return True if the Jacobian with respect to the coefficients ``solved`` has no singular value near
+    zero."""
     if not solved:
         return True
     _, slopes = problem.tape.jacobians(point[None])
@@ -165,8 +165,7 @@ def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
 
 
 def determined(slopes: Floats) -> list[int]:
-    """Return the indices, in ascending order, of the unknowns that elimination with complete pivoting selects
-    as pivots.
+    """Return the ascending indices of the unknowns that Gaussian elimination with complete pivoting selects.
 
     >>> determined(np.array([[0.0, 2.0, 1.0], [0.0, 4.0, 2.0]]))
     [1]
@@ -189,9 +188,8 @@ def determined(slopes: Floats) -> list[int]:
 def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
-    """Return the values of the coefficients ``solved`` with nearly :data:`BITS` correct bits, while the
-    coefficients ``pinned`` are fixed. Newton's method is applied to a system with as many equations as
-    unknowns.
+    """Compute the coefficients ``solved`` to nearly :data:`BITS` bits by Newton's method. The coefficients
+    ``pinned`` are fixed. The system contains as many equations as unknowns.
 
     Raises NotProved if the Jacobian is singular or if Newton's method does not converge.
     """
@@ -234,7 +232,7 @@ def _newton(
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:
-    """Return a map from text to value for the square roots of rational numbers that occur in the ansatz."""
+    """Return the square roots of rational numbers in the ansatz as a map from text to value."""
     roots = {}
     with precision(BITS):
         for radical in radicals(problem.ansatz.symbolic()):
@@ -254,8 +252,8 @@ def _roots(forms: dict[str, ClosedForm]) -> list[str]:
 
 
 def _exact(problem: Problem, text: str, source: str) -> Solution | None:
-    """Return the solution whose tableau file is ``text``. The coefficients in the file are exact. Return None
-    if an exact computation does not prove the required order."""
+    """Return the solution with the tableau file ``text``, whose coefficients are exact. Return None if exact
+    arithmetic does not prove the required order."""
     tableau = Tableau.loads(text)
     label = problem.measured.label()
     try:
@@ -287,8 +285,8 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # Decimals that are equal up to the sign count as the same unknown. Different coefficients must
-            # therefore have different decimals: digits are added until the decimals differ.
+            # A tableau file treats decimals that are equal up to sign as one unknown. Add digits until
+            # different coefficients have different decimals.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1
@@ -305,13 +303,14 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Return a decimal that is rounded to ``places`` places and ends with ``~``."""
+    """Return x, rounded to ``places`` decimal places and followed by ``~``. This mark makes the decimal an
+    unknown of the conditions."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 
 def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
-    """Return the solution with a tableau file that claims each proved order and property. Raises NotProved if
-    the required order is not among them."""
+    """Return the solution with a tableau file that lists all proved orders and properties. Raises NotProved
+    if the required order is not proved."""
     if not exact:
         certify(tableau)
     claims: list[OrderClaim] = []
@@ -338,8 +337,7 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)
     if exact:
-        # The file can contain each coefficient in full, or names for repeated numbers. The shorter of these
-        # two texts is used.
+        # The file can contain each coefficient in full, or names for repeated numbers. Use the shorter text.
         written = min(toml_text(without_names(claimed)), written, key=len)
     error = principal_error(claimed, wanted_family, problem.order + 1)
     return Solution(Tableau.loads(written), written, certificate, error)

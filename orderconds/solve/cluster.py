@@ -13,7 +13,7 @@ Job = TypeVar("Job")
 Result = TypeVar("Result")
 
 TIMEOUT = 3
-"""The number of seconds to wait for a reply of the scheduler when a connection is opened or closed."""
+"""Seconds to wait for the scheduler when a connection is opened or closed."""
 
 
 def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -> Iterator[Result]:
@@ -52,12 +52,13 @@ def _results(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -
                     "batches of random starts",
                 ) from None
     finally:
-        with suppress(Exception):  # The call of close fails if the scheduler no longer exists.
+        with suppress(Exception):  # ``close`` fails if the scheduler no longer exists.
             client.close(timeout=TIMEOUT)
 
 
 def _client(address: str) -> Any:
-    """Return an object that is connected to a dask cluster."""
+    """Connect to the dask scheduler at ``address``. Raises InputError if dask is missing or the scheduler
+    does not answer."""
     try:
         from distributed import Client
     except ImportError:

@@ -10,14 +10,14 @@ from orderconds.solve.linear import Constraint, Elimination, equality, spell
 from orderconds.solve.spec import Spec
 
 Nodes = Mapping[str, Sequence[str]]
-"""A map from the name of each node (abscissa) to the names of the coefficients whose sum is the node."""
+"""Maps each node (abscissa), such as c2, to the names of the coefficients in its sum."""
 
 
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the elimination of ``constraints`` and of the constraints of the option ``--fix``, which may
-    contain names of nodes. Raises InputError for a constraint with an unknown name.
+    """Eliminate ``constraints`` and the constraints of the option ``--fix``. The latter may contain names of
+    nodes. Raises InputError for a constraint with an unknown name.
 
     >>> from orderconds.solve.linear import Constraint, equality
     >>> from orderconds.solve.spec import Spec
@@ -41,14 +41,15 @@ def eliminated(
 
 @dataclass(frozen=True)
 class Cells:
-    """The text of each coefficient after elimination of the linear constraints. ``extra`` maps further
-    dependent coefficients and auxiliary numbers to their formulas."""
+    """The texts of the coefficients in a tableau file, after elimination of the linear constraints. ``extra``
+    contains further formulas, for auxiliary numbers and for coefficients that depend non-linearly on
+    others."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None
 
     def written(self, name: str) -> str:
-        """Return the text of a coefficient in the file: its value if it is a constant, otherwise its name."""
+        """Return the value of the coefficient if it is a constant, and its name otherwise."""
         form = self.elimination.cell(name)
         if self.extra and name in self.extra:
             return name
@@ -70,8 +71,8 @@ class Cells:
 
 
 def row_text(cells: Cells, names: Sequence[str], full: bool = False) -> str:
-    """Return the text of a row of coefficients. Zeros at the end of the row are left out, unless ``full`` is
-    true.
+    """Return the text of a row of coefficients. If ``full`` is false, zeros at the end of the row are
+    omitted.
 
     >>> from orderconds.solve.linear import equality
     >>> cells = Cells(eliminated(["a", "b"], Spec(1), [equality("a = 1/2"), equality("b = 0")]))

@@ -1,11 +1,10 @@
-"""Proofs that no method exists. Exact elimination shows that the order conditions contradict each other.
+"""Proofs that no method exists, by exact elimination from the order conditions.
 
 Compute a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, there is no
-method, real or complex. If the basis contains a polynomial in one coefficient, Sturm's theorem gives the
-number of real roots of this polynomial. If the polynomial has no real roots, there is no real method. (If the
-formulas of the family divide by the coefficient, the root zero does not count.) The certificate expresses the
-number 1 or the polynomial as a combination of the conditions. A reader can verify the certificate by
-multiplication.
+method, real or complex. If the basis contains a polynomial in one coefficient, Sturm's theorem counts the
+real roots of this polynomial. Without real roots, there is no real method. The root zero does not count if
+the formulas of the family divide by the coefficient. The certificate expresses 1 or the polynomial as a
+combination of the conditions. A reader can verify the combination by multiplication.
 """
 
 from __future__ import annotations
@@ -28,15 +27,14 @@ if TYPE_CHECKING:
     from orderconds.tableau.unknowns import RootedRing
 
 Member = tuple[OrderCondition, fmpq_mpoly]
-"""A pair of a condition and a polynomial. The polynomial is the left-hand side minus the right-hand side of
-the condition."""
+"""An order condition, and its left-hand side minus its right-hand side as a polynomial."""
 
 MAX_VARIABLES = 3
-"""The largest number of coefficients in a condition that is used for elimination."""
+"""Only conditions that involve at most this number of coefficients are used."""
 
 MAX_UNKNOWNS, MAX_ORDER = 16, 5
-"""The largest number of unknowns for which elimination is tried, and the highest order of the conditions that
-are used. Beyond these limits the polynomials of the conditions would have too many terms."""
+"""Elimination is tried for at most MAX_UNKNOWNS unknowns, with conditions up to order MAX_ORDER. Beyond these
+limits, the polynomials have too many terms."""
 
 MAX_DEGREE = 8
 """The degrees of the multipliers in a certificate are below this number."""
@@ -44,10 +42,12 @@ MAX_DEGREE = 8
 
 @dataclass(frozen=True)
 class Infeasible:
-    """A contradiction. The sum of ``multipliers`` times ``equations`` is the polynomial ``consequence``. The
-    equation ``consequence`` = 0 has no real solution.
+    """A proof by contradiction. The sum of ``multipliers`` times ``equations`` is the polynomial
+    ``consequence``. The equation ``consequence`` = 0 has no real solution. If ``real`` is false, it has no
+    complex solution either.
 
-    The equations are left-hand sides minus right-hand sides of ``conditions``, without denominators.
+    Each equation is the left-hand side minus the right-hand side of a condition in ``conditions``, without
+    denominators.
     """
 
     variables: tuple[str, ...]
@@ -65,7 +65,7 @@ class Infeasible:
         return f"{self.consequence} = 0 has no real root (Sturm)"
 
     def as_json(self) -> dict[str, object]:
-        """Return the proof as data that JSON can represent."""
+        """Return the proof as a JSON object."""
         return {
             "conditions": [{"order": c.order, "tree": c.tree, "expression": str(c)} for c in self.conditions],
             "equations": list(self.equations),
@@ -88,8 +88,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # For symplectic methods it suffices to consider nonzero weights. A copy of another stage can replace a
-    # stage of weight zero. The other stage and its copy then have half of the weight each.
+    # For symplectic methods, nonzero weights suffice. If a stage has weight zero, replace it by a copy of
+    # another stage, and give each of the two copies half of the weight.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -99,7 +99,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
         ArithmeticError,
         TypeError,
         ValueError,
-    ):  # The residuals are not Laurent polynomials, so elimination yields no proof.
+    ):  # Elimination applies only to Laurent polynomials.
         return None
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]
@@ -117,7 +117,7 @@ def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
 
 
 def _numerator(x: Laurent | fmpq_mpoly, plain: Polynomials) -> fmpq_mpoly:
-    """Return the numerator of ``x``. If ``x`` is zero at a point, the numerator is also zero there."""
+    """Return the numerator of ``x`` as a polynomial. The numerator vanishes wherever ``x`` vanishes."""
     numerator = x.numerator if isinstance(x, Laurent) else x
     return plain.zero.context().from_dict({tuple(map(int, e)): c for e, c in numerator.terms()})
 
@@ -129,8 +129,8 @@ def _support(x: fmpq_mpoly) -> frozenset[int]:
 def _subsystems(
     system: Sequence[Member], plain: Polynomials
 ) -> Iterator[tuple[tuple[int, ...], list[Member]]]:
-    """Yield small sets of variables, smallest first. With each set, yield the conditions that contain only
-    these variables."""
+    """Yield sets of at most :data:`MAX_VARIABLES` variables, smallest first, each with the conditions that
+    contain no other variables."""
     supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
     wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
     for variables in sorted(wanted, key=lambda x: (len(x), sorted(x))):
@@ -142,8 +142,8 @@ def _subsystems(
 def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
-    """Return a polynomial in the ideal of ``members`` that has no real root, or None if no such polynomial is
-    found. The root zero is ignored if the formulas of the family divide by the variable."""
+    """Return a polynomial in the ideal of ``members`` without real roots, or None if none is found. If the
+    formulas of the family divide by the weights, the root zero of a weight does not count."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
@@ -176,8 +176,8 @@ def _sympy(x: fmpq_mpoly, variables: Sequence[int], symbols: Sequence[sympy.Symb
 
 
 def _flint(polynomial: sympy.Poly, plain: Polynomials) -> fmpq_mpoly:
-    """Convert a univariate polynomial of sympy to flint. The polynomial is multiplied by a number such that
-    its coefficients become integers without common factor.
+    """Convert a univariate polynomial from sympy to flint, scaled to integer coefficients without a common
+    factor.
     """
     place = plain.names.index(polynomial.gen.name)
     result = plain.zero
@@ -192,8 +192,8 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Return a proof that ``consequence`` is a sum of multipliers times equations. Linear algebra gives the
-    multipliers. Return None if there are no multipliers of degree below :data:`MAX_DEGREE`."""
+    """Express ``consequence`` as a sum of multipliers times equations, by linear algebra. Return None if
+    there are no multipliers of degree below :data:`MAX_DEGREE`."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

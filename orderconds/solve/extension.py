@@ -1,13 +1,15 @@
-"""Continuous extensions of Runge-Kutta methods, from linear equations over the ring of the tableau.
+"""Continuous extensions (dense output) of Runge-Kutta methods, from linear equations.
 
-The weights of the extension are b_i(theta) = sum_p beta_{p,i} theta^p. Let sum_i b_i Phi_i(t) be the
-elementary weight of the tree t. The extension has order q if, for each p and for all trees of at most q
-nodes, sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) if |t| = p, and 0 otherwise. For each p these equations are a
-linear system, and the program computes the solution of least norm. If the first stage value is f(y_0), the
-program instead chooses beta_1 such that the derivative at theta = 0 is f(y_0). In all cases, it then changes
-the coefficients of the highest powers of theta such that b_i(1) = b_i. If the first stage value is f(y_0),
-the last stage value is f(y_1), and q > 1, the changed weights also make the derivative at theta = 1 equal to
-f(y_1). All changes of the weights belong to the kernel of the linear system.
+The weights of the extension are polynomials in theta, b_i(theta) = sum_p beta_{p,i} theta^p. Here i is the
+number of the stage, and theta is the fraction of the step. Let t be a tree with |t| nodes, density gamma(t)
+and elementary weight sum_i b_i Phi_i(t). The extension has order q if sum_i beta_{p,i} Phi_i(t) = 1/gamma(t)
+for |t| = p, and = 0 for |t| != p. These equations are required for each p and for all trees with at most q
+nodes. For each p, they are a linear system, and its solution of least norm is used.
+
+Two cases are special. If the first stage value is f(y_0), beta_1 is chosen such that the derivative at theta
+= 0 is f(y_0). If, in addition, the last stage value is f(y_1) and q > 1, the derivative at theta = 1 is
+f(y_1). Finally, the coefficients of the highest powers of theta are changed such that b_i(1) = b_i. All
+changes belong to the kernel of the linear system.
 """
 
 from __future__ import annotations
@@ -29,11 +31,11 @@ Rows = list[list[Element]]
 
 
 def extended(tableau: Tableau, order: int | None = None) -> Tableau:
-    """Return the tableau with a continuous extension of the given order. By default, the order is the highest
-    order for which an extension exists.
+    """Return the tableau with a continuous extension of the given order. The default is the highest order for
+    which an extension exists.
 
-    Raises :class:`~orderconds.errors.TableauError` if there is no extension of this order, or for a tableau
-    that is not an exact Runge-Kutta method.
+    Raises :class:`~orderconds.errors.TableauError` if there is no extension of this order. The tableau must
+    be a Runge-Kutta method with exact coefficients.
 
     >>> extension = extended(Tableau.load("rk4")).extension
     >>> extension.order, [str(x) for x in extension.rows[1]]
@@ -72,8 +74,8 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
 
 
 def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
-    """Return the extension of order q, or None if there is none. The first row of the result contains the
-    coefficients of theta in the weights b_i(theta), the second row those of theta^2, and so on."""
+    """Return an extension of order q, or None if there is none. Row p of the result, counted from 1, contains
+    the coefficients of theta^p in the weights b_i(theta)."""
     s, zero = len(method.b), (ring.zero,) * len(method.b)
     units = [tuple(ring.one if i == k else ring.zero for i in range(s)) for k in range(s)]
     conditions = [c for n in range(1, q + 1) for c in families.get("rk").conditions(n)]
@@ -107,7 +109,7 @@ def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
 
 
 def _least(matrix: Rows, sides: Sequence[Element], ring: Ring) -> list[Element] | None:
-    """Return the solution of least norm of a linear system, or None if the system has no solution."""
+    """Return the least-norm solution of matrix x = sides, or None if there is no solution."""
     rows = _reduced([[*row, side] for row, side in zip(matrix, sides, strict=True)], ring)
     width = len(matrix[0])
     if any(all(ring.is_zero(x) for x in row[:width]) for row in rows):

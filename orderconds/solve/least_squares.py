@@ -1,8 +1,8 @@
-"""Damped least squares (Levenberg 1944; Marquardt 1963), computed for many starting points together.
+"""Damped least squares (Levenberg 1944; Marquardt 1963) for many starting points at once.
 
-The damping is the norm of the residual times a factor that shrinks after each successful step. The method
-therefore converges quadratically near solutions, even if they are not isolated (Yamashita and Fukushima
-2001).
+The damping parameter is a factor times the norm of the residual. The factor shrinks after each successful
+step. Near a solution the method therefore converges quadratically, even if the solution is not isolated
+(Yamashita and Fukushima 2001).
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ import numpy as np
 from orderconds.solve.tape import Floats
 
 System = Callable[[Floats], tuple[Floats, Floats]]
-"""A function of an array points x n; it returns residuals (points x m) and Jacobians (points x m x n)."""
+"""Maps k points with n coordinates (a k x n array) to m residuals (k x m) and Jacobians (k x m x n)."""
 
 SOLVED = 1e-13
-"""A system counts as solved if the norm of its residual is below this number. A norm below this number may
-consist of rounding errors only."""
+"""A system counts as solved if the norm of the residual is at most this number, the level of rounding
+errors."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:
@@ -67,15 +67,15 @@ def _solved(normal: Floats, right: Floats) -> Floats:
     try:
         return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
     except np.linalg.LinAlgError:
-        # At least one matrix is singular, but numpy does not report which one. The damping is therefore
-        # increased at all points.
+        # At least one matrix is singular, and numpy does not say which. Add a small multiple of the identity
+        # to all matrices.
         eye = np.eye(normal.shape[1]) * 1e-9 * (1 + np.trace(normal, axis1=1, axis2=2))[:, None, None]
         return np.asarray(np.linalg.solve(normal + eye, right), dtype=np.float64)
 
 
 def rank(jacobian: Floats, tolerance: float = 1e-7) -> int:
-    """Return the numerical rank of one Jacobian. The rows are first scaled to length one. Therefore the rank
-    does not depend on the scale of each residual.
+    """Return the numerical rank of one Jacobian. The rows are first scaled to length one, because residuals
+    may have different scales.
 
     >>> rank(np.array([[1.0, 0.0], [1e6, 0.0]]))
     1

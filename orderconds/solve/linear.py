@@ -1,6 +1,6 @@
-"""Linear constraints on the coefficients of a tableau. Exact elimination processes the constraints one after
-another. If a constraint contradicts earlier constraints, the error message names this constraint. The result
-is a set of free coefficients; all other coefficients are affine functions of the free coefficients.
+"""Linear constraints on the coefficients of a tableau, and their exact elimination. The constraints are
+processed one after another. If a constraint contradicts earlier constraints, the error message names this
+constraint. After the elimination, each coefficient is either free or an affine function of free coefficients.
 """
 
 from __future__ import annotations
@@ -13,21 +13,21 @@ from orderconds.errors import InputError, TableauError
 from orderconds.tableau.grammar import Chain, Constant, Expression, Name, parse
 
 Affine = Mapping[str, Fraction]
-"""An affine function: a map from the names of variables to coefficients. The constant term has the empty
-name."""
+"""An affine function, as a map from variable name to factor. The key of the constant term is the empty
+string."""
 
 
 @dataclass(frozen=True)
 class Constraint:
-    """The equation ``form`` = 0. Error messages quote ``text``: the equation as the user gave it, or the
-    reason for the constraint."""
+    """The equation ``form`` = 0. Error messages quote ``text``, which is the user's equation or the reason
+    for the constraint."""
 
     text: str
     form: Affine
 
     def expanded(self, sums: Mapping[str, Sequence[str]]) -> Constraint:
-        """Return the constraint in which each name that is a key of ``sums`` is replaced by the sum of the
-        names in ``sums[name]``."""
+        """Return a copy of the constraint. Each name that is a key of ``sums`` is replaced by the sum of the
+        variables ``sums[name]``."""
         form: dict[str, Fraction] = {}
         for name, factor in self.form.items():
             for summand in sums.get(name, (name,)):
@@ -51,7 +51,7 @@ class Elimination:
 
     @property
     def free(self) -> tuple[str, ...]:
-        """The names of the coefficients that no constraint determines, in the order of ``names``."""
+        """The names of the free coefficients, in the order of ``names``."""
         return tuple(name for name in self.names if name not in self.solved)
 
     def cell(self, name: str) -> Affine:
@@ -98,9 +98,9 @@ def _substituted(form: Affine, name: str, by: Affine) -> dict[str, Fraction]:
 
 
 def equality(text: str, where: str = "--fix") -> Constraint:
-    """Return the constraint in ``text``, such as ``"a21 = 1/2"`` or ``"b3 = 1 - b1 - b2"``.
+    """Parse a linear constraint, such as ``"a21 = 1/2"`` or ``"b3 = 1 - b1 - b2"``.
 
-    Raises :class:`~orderconds.errors.InputError` for a text that is not a linear equation.
+    Raises :class:`~orderconds.errors.InputError` if ``text`` is not a linear equation.
 
     >>> {name: str(x) for name, x in equality("a21 = 1/2 - b1").form.items()}
     {'a21': '1', '': '-1/2', 'b1': '1'}
@@ -144,7 +144,7 @@ def _affine(x: Expression) -> Affine:
 
 
 def zero(name: str, why: str) -> Constraint:
-    """Return the constraint that a coefficient is zero; ``why`` is the reason.
+    """Return the constraint that a coefficient is zero. Error messages quote the reason ``why``.
 
     >>> zero("a11", "--explicit").text
     '--explicit (a11 = 0)'
@@ -154,7 +154,7 @@ def zero(name: str, why: str) -> Constraint:
 
 def equal(why: str, *terms: tuple[int, str]) -> Constraint:
     """Return the constraint that a linear combination of coefficients is zero. ``terms`` contains pairs of a
-    factor and the name of a coefficient; ``why`` is the reason for the constraint.
+    factor and the name of a coefficient. Error messages quote the reason ``why``.
 
     >>> {name: str(x) for name, x in equal("--symmetric", (1, "b1"), (-1, "b3")).form.items()}
     {'b1': '1', 'b3': '-1'}
@@ -190,8 +190,8 @@ def spell(form: Affine) -> str:
 
 
 def named(letter: str, *indices: int) -> str:
-    """Return the name of a coefficient, such as a21. The indices are joined by _, as in a10_1, if an index
-    has two digits or there are more than two indices.
+    """Return the name of a coefficient, such as a21. If an index has two digits or there are more than two
+    indices, the indices are joined by ``_``, as in a10_1.
 
     >>> named("a", 2, 1), named("a", 10, 1)
     ('a21', 'a10_1')

@@ -1,9 +1,9 @@
-"""The parametrisation of low-storage (2N) schemes: the unknowns are the coefficients A_i and B_i.
+"""Ansatz of low-storage (2N) schemes, whose unknowns are the coefficients A_i and B_i.
 
-On a group, a 2N scheme has the same order as on a vector space (:mod:`orderconds.proof.equations`). The
-search therefore solves the conditions of rooted trees. There are fewer of them than conditions of
-commutator-free methods: 17 instead of 38 up to order 5, and 37 instead of 113 up to order 6. For 2N schemes,
-two of the 37 conditions follow from the other 35.
+On a Lie group, a 2N scheme has the same order as on a vector space (:mod:`orderconds.proof.equations`). The
+search therefore solves the conditions of Runge-Kutta methods (rooted trees), which are fewer than the
+conditions of commutator-free methods. There are 17 instead of 38 up to order 5, and 37 instead of 113 up to
+order 6. For 2N schemes, two of the 37 conditions follow from the other 35.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from orderconds.solve.linear import named, zero
 from orderconds.solve.spec import Spec, refuse
 
 CENTRE = {"A": -0.8, "B": 0.25}
-"""The values of A_i and B_i near which the random starts are drawn. The coefficients of published schemes are
-near these values."""
+"""Random starts have A_i and B_i near these values, as in published schemes."""
 
 
 def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of schemes with two registers, K <- A_i K + F(Y), Y <- exp(h B_i K) Y, with A_1 = 0.
+    """Return the ansatz of schemes with two registers K and Y. Stage i computes K <- A_i K + F(Y), then Y <-
+    exp(h B_i K) Y, with A_1 = 0.
 
     >>> low_storage(families.get("cf"), Spec(stages=2, low_storage=True), "low-storage", "m").free
     ('B1', 'B2', 'A2')
@@ -62,7 +62,7 @@ def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def solved_family(family: Family) -> Family:
-    """Return the family whose conditions decide the order of a 2N scheme in ``family``.
+    """Return the family whose order conditions are solved for a 2N scheme in ``family``.
 
     Raises :class:`~orderconds.errors.InputError` if no theorem gives the order of 2N schemes in ``family``.
 

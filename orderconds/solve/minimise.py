@@ -1,9 +1,8 @@
-"""Minimisation of the principal error over a manifold of solutions, by Gauss-Newton steps in the tangent
-space.
+"""Minimisation of the principal error over the solutions of the order conditions.
 
-Each step p solves the linearised conditions, F + F' p = 0. Here F is the vector of the residuals of the
-conditions, E is the vector whose norm is the principal error, and F' and E' are their Jacobians. Among all
-solutions p of this system, the step minimises |E + E' p|^2 + damping |p|^2. A few iterations of the solver
+Let F be the vector of residuals of the conditions. The principal error is the norm of a vector E. Let F' and
+E' be the Jacobians of F and E. Each step p solves the linearised conditions F + F' p = 0. Among their
+solutions, p minimises |E + E' p|^2 + damping |p|^2. A few iterations of
 :func:`orderconds.solve.least_squares.least_squares` then lead back to a solution of the conditions. This is
 sequential quadratic programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical Optimization*,
 Section 18.4).
@@ -24,20 +23,20 @@ if TYPE_CHECKING:
 MAX_STEPS = 400
 RESTORED = 1e-12
 ENOUGH = 1e-7
-"""The minimisation ends if the relative decrease of the principal error is below this value in
-:data:`PATIENCE` successive accepted steps."""
+"""The minimisation ends if the relative decrease of the principal error stays below ENOUGH in
+:data:`PATIENCE` accepted steps in a row."""
 PATIENCE = 12
 
 
 def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[Floats, float]:
-    """Return a solution near ``point`` whose principal error is a local minimum, and this principal error.
-    The argument ``point`` must solve the conditions.
+    """Return a solution near ``point`` with locally minimal principal error, and this error. The argument
+    ``point`` must solve the conditions.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> point, error = minimise(problem, np.array([0.0, 1.0, 0.5]))
-    >>> np.round(point, 6).tolist(), round(error, 6)  # Ralston's 2/3
+    >>> np.round(point, 6).tolist(), round(error, 6)  # Ralston's method
     ([0.25, 0.75, 0.666667], 0.166667)
     """
     damping, idle = 1e-3, 0
@@ -66,9 +65,9 @@ def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[F
 
 
 def _step(values: Floats, slopes: Floats, error: Floats, sloped: Floats, damping: float) -> Floats:
-    """Return the step p of sequential quadratic programming with a Gauss-Newton Hessian. ``values`` and
-    ``slopes`` are the residuals and their Jacobian. ``error`` is the vector whose norm is the principal
-    error, and ``sloped`` is its Jacobian."""
+    """Return one step of sequential quadratic programming. ``values`` and ``slopes`` are the residuals of the
+    conditions and their Jacobian. The principal error is the norm of the vector ``error``, which has the
+    Jacobian ``sloped``."""
     if len(values):
         _, sizes, right = np.linalg.svd(slopes, full_matrices=True)
         rank = int((sizes > 1e-10 * max(sizes[0], 1e-300)).sum())

@@ -1,4 +1,4 @@
-"""The parametrisation of methods in a search: names of coefficients, constraints, and the text of the
+"""The ansatz of each kind of method in a search: names of coefficients, constraints, and text of the tableau
 file."""
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from orderconds.solve.spec import Spec, refuse
 
 
 def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of tableaux (A, b).
+    """Return the ansatz of a Runge-Kutta method with the coefficients A and b.
 
     >>> from orderconds.families import get
     >>> runge_kutta(get("rk"), Spec(stages=1), "full", "m").free
@@ -80,12 +80,12 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 def _symplectic(
     A: Sequence[Sequence[str]], b: Sequence[str], elimination: Elimination, symmetric: bool
 ) -> dict[str, str]:
-    """Return formulas that express one entry of each pair a_ij, a_ji in terms of the other entry, by the
-    relation b_i a_ij + b_j a_ji = b_i b_j.
+    """Return a formula for one entry of each pair a_ij, a_ji in terms of the other entry. The formula solves
+    the condition of symplecticity, b_i a_ij + b_j a_ji = b_i b_j.
 
-    The mirrored pair has the indices s + 1 - j, s + 1 - i in place of i, j. If the method is ``symmetric``,
-    the relation of a pair implies the relation of the mirrored pair. A pair that is equal to its mirrored
-    pair always satisfies the relation.
+    The mirrored pair has the indices s + 1 - j and s + 1 - i in place of i and j, where s is the number of
+    stages. If the method is ``symmetric``, the condition of a pair implies the condition of the mirrored
+    pair. A pair that equals its mirrored pair always satisfies the condition.
     """
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
@@ -125,7 +125,7 @@ def _is_symplectic(elimination: Elimination, entries: tuple[str, str], weights: 
 
 
 def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, str]:
-    """Return the text of each entry of A that is a constant. Raises InputError if an entry depends on other
+    """Return the texts of the constant entries of A. Raises InputError if an entry depends on other
     coefficients."""
     values = {}
     for name in (x for line in A for x in line):
@@ -187,9 +187,9 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas with which the stages have the abscissae that :mod:`orderconds.solve.abscissae`
-    requires. There are formulas for the sums a_ij of the exponents of each stage, for the last exponent of
-    each stage, and for auxiliary numbers such as m_i."""
+    """Return formulas that give the stages the abscissae of :mod:`orderconds.solve.abscissae`. Let a_ij be
+    the sum of the coefficients of stage j in the exponents of stage i. The formulas determine the numbers
+    a_ij, the last exponent of each stage, and auxiliary numbers such as m_i."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -211,8 +211,9 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return the coefficients of the Gauss tableau with s stages as text. Their names are w1, w2, ... in b
-    and g11, g12, ... in A. :func:`_totals` uses these names in constraints."""
+    """Return the coefficients of the Gauss method with s stages as texts. The weights b have the names w1,
+    w2, ..., and the matrix A has the names g11, g12, .... The constraints of :func:`_totals` contain these
+    names."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
@@ -224,8 +225,8 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
 ) -> list[Constraint]:
-    """Return the constraints that the exponents of each stage add up to a row of A of the Gauss tableau, and
-    that the exponents of the update add up to b."""
+    """Return constraints to the Gauss tableau (A, b). The exponents of stage i add up to row i of A, and the
+    exponents of the update add up to b."""
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
     constraints += [
@@ -239,9 +240,11 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas with which the stages have the abscissae that :mod:`orderconds.solve.abscissae`
-    requires. There are formulas for the sums x_ij of those exponents that belong only to one stage, for the
-    last exponent of each stage before the middle, and for auxiliary numbers such as m_i."""
+    """Return formulas that give the stages of a symmetric method the abscissae of
+    :mod:`orderconds.solve.abscissae`. Stage i begins with exponentials of the update and ends with
+    exponentials of its own. Let x_ij be the sum of the coefficients of stage j in the own exponentials of
+    stage i. The formulas determine the numbers x_ij, the last exponent of each stage before the middle, and
+    auxiliary numbers such as m_i."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -285,7 +288,7 @@ def _exponentials(rows: Sequence[Sequence[str]], cells: Cells) -> list[str]:
 
 
 def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of compositions whose step sizes are palindromic and sum to one.
+    """Return the ansatz of symmetric compositions, whose step sizes form a palindrome and sum to one.
 
     >>> from orderconds.families import get
     >>> composition(get("composition"), Spec(stages=3), "full", "m").free
@@ -298,7 +301,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The constraint on the sum of the steps determines the last name in this order, which is the middle step.
+    # Elimination determines the last name in this order. The middle step is last, so the constraint on the
+    # sum determines this step.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -316,7 +320,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of splittings of T + V whose first and last flows are flows of T.
+    """Return the ansatz of splitting methods for T + V that begin and end with a flow of T.
 
     >>> from orderconds.families import get
     >>> splitting(get("splitting"), Spec(stages=1), "full", "m").free
@@ -356,7 +360,7 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
 
 
 def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures (parametrisations) that a search for tableaux (A, b) tries, in this order.
+    """Return the structures (parametrisations) that a search for tableaux (A, b) tries, in order of trial.
 
     >>> from orderconds.families import get
     >>> [tableau_structures(get(name), Spec(stages=3)) for name in ("vcg", "cg")]
@@ -366,8 +370,8 @@ def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures (parametrisations) that a search for commutator-free methods tries, in this
-    order.
+    """Return the structures (parametrisations) that a search for commutator-free methods tries, in order of
+    trial.
 
     >>> from orderconds.families import get
     >>> path_structures(get("vcf"), Spec(stages=3, symmetric=True))
@@ -391,11 +395,11 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Layout:
-    """The functions that parametrise the coefficients of one tableau format. A structure is the name of a
-    parametrisation.
+    """The functions that parametrise the coefficients of one tableau format. The name of a parametrisation is
+    called its structure.
 
-    ``ansatz`` is a function of a family, a specification of the method, a structure and the name of the
-    tableau. ``structures`` returns the structures that a search tries, in this order.
+    ``ansatz`` maps a family, a specification, a structure and a tableau name to an ansatz. ``structures``
+    returns the structures that a search tries, in order of trial.
     """
 
     ansatz: Callable[[Family, Spec, str, str], Ansatz]
@@ -418,7 +422,8 @@ TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
     """Return the ansatz for methods of the family with the label ``family`` that satisfy the specification.
 
-    Raises :class:`~orderconds.errors.InputError` for options that no method of the family satisfies.
+    Raises :class:`~orderconds.errors.InputError` if the options contradict each other or do not exist for the
+    family.
 
     >>> example = ansatz("rk", Spec(stages=2, explicit=True, fix=("a21=1/2",)))
     >>> example.free, example.body[2]
@@ -432,7 +437,7 @@ def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found"
 
 
 def structures(family: str, spec: Spec) -> tuple[str, ...]:
-    """Return the structures (parametrisations) that a search in this family tries, in this order.
+    """Return the structures (parametrisations) that a search in ``family`` tries, in order of trial.
 
     >>> structures("vcg", Spec(stages=3)), structures("cg", Spec(stages=3))
     (('abscissae', 'full'), ('full',))

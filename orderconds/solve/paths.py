@@ -1,16 +1,15 @@
-"""The exponentials of commutator-free methods in a search. Either all coefficients are free, or the method
-has a symmetric form.
+"""Parametrisations of the exponentials of commutator-free methods: with free coefficients, or symmetric.
 
-Let a method have s stages and m exponentials in the update, and let bar X be the exponent X in which stages j
-and s + 1 - j are exchanged. The method is symmetric under two conditions. First, reversing the order of the
-exponentials and applying bar does not change the update. Second, for each i there is a k such that stage i
-branches off the update after k exponentials, and stage s + 1 - i after m - k exponentials:
+A method has s stages. Its update is exp(Y_m) ... exp(Y_1) y0. Let bar X be the exponent X in which stages j
+and s + 1 - j are exchanged. The method is symmetric under two conditions. First, Y_(m+1-J) = bar Y_J for all
+J. Second, each stage i begins with some number k of exponentials of the update, and the mirrored stage s + 1
+- i begins with m - k exponentials:
 
     Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
     Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
 
-A step of length -h is then the inverse of a step of length h: the exponents from y1 to stage s + 1 - i are
-the exponents from y0 to stage i, with opposite signs and with bar applied.
+Here Q_i is the value of stage i, and X_1, ..., X_r are its own exponents. A step of length -h is then the
+inverse of a step of length h.
 """
 
 from __future__ import annotations
@@ -28,8 +27,8 @@ Paths = tuple[list[Path], Path, list[str], list[Constraint]]
 
 
 def full_paths(spec: Spec) -> Paths:
-    """Return stages and an update in which the only constraints are the zeros of explicit and diagonally
-    implicit methods. The first stage of an explicit method is y0.
+    """Return stages and an update without constraints, except the zeros of explicit and diagonally implicit
+    methods. The first stage of an explicit method is y0.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update
@@ -55,8 +54,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return stages that branch off a symmetric update. Each stage has at least one exponential that does not
-    belong to the update.
+    """Return a symmetric update, and stages that begin with exponentials of the update. Each stage ends with
+    at least one exponential of its own.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -76,8 +75,7 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with the first exponentials of the update. The number of these exponentials is about
-        # m i/s.
+        # Stage i begins with about m i/s exponentials of the update.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

@@ -1,4 +1,4 @@
-"""The equations of a search: independent conditions of an ansatz as functions of its free coefficients."""
+"""The equations of a search: independent order conditions as functions of the free coefficients."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from orderconds.tableau import CommutatorFree, Method, RungeKutta
 from orderconds.tableau.unknowns import RootedRing
 
 SMALLEST = 0.01
-"""The lower bound of coefficients that must be positive."""
+"""Lower bound of the coefficients that must be positive."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations of one search. Use :func:`find_problem` to create a problem: the function keeps recent
-    problems, so that their programs need not be compiled again.
+    """The equations of one search. Create problems by :func:`find_problem`, which caches them with their
+    compiled programs.
 
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
@@ -58,7 +58,7 @@ class Problem:
 
     @cached_property
     def conditions(self) -> tuple[OrderCondition, ...]:
-        """Return those conditions up to the order of the search that are independent for the ansatz.
+        """Return the order conditions that are independent for the ansatz.
 
         Conditions of even order are omitted for a symmetric method, because the order of a symmetric method
         is even (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Theorem II.3.2).
@@ -73,22 +73,21 @@ class Problem:
         return Tape(self.trace(), len(self.ansatz.free))
 
     def trace(self) -> list[Trace]:
-        """Return the residuals as elements of a ring of traces, which record the operations that compute the
-        residuals."""
+        """Return the residuals as traces. A trace records the operations that compute a value."""
         ring = Traces(len(self.ansatz.free))
         return list(self.residuals(ring.inputs, ring, self.conditions))
 
     def residuals(
         self, values: Sequence[Element], ring: RootedRing, conditions: Sequence[OrderCondition]
     ) -> list[Element]:
-        """Return left-hand sides minus right-hand sides of ``conditions``. ``values`` contains the free
-        coefficients as elements of ``ring``."""
+        """Return the residuals of ``conditions``: left-hand side minus right-hand side. ``values`` contains
+        the free coefficients as elements of ``ring``."""
         method = self._read(self.ansatz.method(values, ring), ring)
         return list(self.family.residuals(method, ring, conditions))
 
     def _read(self, method: Method, ring: Ring) -> Method:
-        """Return the method whose coefficients occur in the conditions of the search. If the ansatz is
-        ``abelian``, this method is the tableau to which ``method`` reduces on an abelian group."""
+        """Return the method to which the conditions apply. If the ansatz is ``abelian``, this is the
+        Runge-Kutta tableau to which ``method`` reduces on an abelian group."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method
@@ -127,8 +126,8 @@ class Problem:
         return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the amounts by which coefficients violate their bounds, and the Jacobian of these amounts,
-        at many points. The amount is zero for a coefficient within its bounds."""
+        """Return by how much coefficients violate their bounds, and the Jacobian of these amounts, at many
+        points. The amount is zero for a coefficient within its bounds."""
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
         if self.positive:
@@ -144,15 +143,15 @@ class Problem:
         return beyond, sloped * (beyond > 0)[..., None]
 
     def system(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the residuals and the amounts by which coefficients violate their bounds, with the Jacobian
-        of both, at many points."""
+        """Return the residuals, followed by the violations of the bounds, and the Jacobian of both, at many
+        points."""
         values, slopes = self.tape.jacobians(points)
         beyond, sloped = self.bounds(points)
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
-        """Return random points near the centre of the ansatz. If the ansatz has no centre, the points are
-        near the point at which all weights are equal and all other coefficients are zero."""
+        """Return ``count`` random points near the centre of the ansatz. The default centre has equal weights,
+        and all other coefficients are zero."""
         free = self.ansatz.free
         if self.ansatz.centre is not None:
             centre = np.array([self.ansatz.centre[name] for name in free])
@@ -164,8 +163,8 @@ class Problem:
 
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
-    """Return the problem with these arguments. The last eight problems are kept: a further call with the same
-    arguments returns the same object.
+    """Return the problem with these arguments. The eight most recent problems are cached, so that a repeated
+    call returns the same object.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

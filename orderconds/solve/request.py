@@ -1,4 +1,4 @@
-"""A search as one call: the family, the number of stages, the order, and constraints on the coefficients."""
+"""The function ``solve`` of the Python interface: search for a method."""
 
 from __future__ import annotations
 
@@ -34,13 +34,14 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class SearchResult:
-    """The result of a search. There are three cases. If a method was found, ``tableau`` is the method, and
-    ``certificate`` (``exact`` or ``ball``) states how its order was proved. If it was proved that there is no
-    method, ``impossible`` is the proof. Otherwise, ``tableau`` and ``impossible`` are None.
+    """The result of a search, in three cases. If a method was found, ``tableau`` is the method, and
+    ``certificate`` (``exact`` or ``ball``) states how its order was proved. If no method exists,
+    ``impossible`` is the proof. Otherwise, ``tableau`` and ``impossible`` are None.
 
-    ``best_residual`` is the least residual norm of all random starts. ``tried`` contains one line of text
-    about each structure (parametrisation of the tableau) that was tried. The truth value of a result is True
-    if a tableau was found.
+    ``error_norm`` is the principal error of the method. ``best_residual`` is the least residual norm of all
+    random starts. ``tried`` contains one line of text about each parametrisation (structure) that was tried.
+    ``command`` is the command line that repeats the search. The truth value of a result is True if a method
+    was found.
     """
 
     tableau: Tableau | None
@@ -53,7 +54,7 @@ class SearchResult:
 
     @classmethod
     def of(cls, request: Order, outcome: Outcome) -> SearchResult:
-        """Return the outcome of a search as a result. ``request`` contains the options of the search."""
+        """Convert the outcome of a search. ``request`` contains the options of the search."""
         solution = outcome.solution
         return cls(
             tableau=None if solution is None else Tableau.loads(solution.text, request.name),
@@ -107,14 +108,15 @@ def solve(
 ) -> SearchResult:
     """Find a method of ``family`` with this number of stages and order, and prove its order.
 
-    The arguments are the options of ``orderconds solve``; ``fix`` contains equations such as ``"a21=1/2"``.
-    Contradictory constraints raise InputError. ``report`` is called with each line about the progress.
+    The arguments are the options of ``orderconds solve``. For example, ``fix`` contains equations such as
+    ``"a21=1/2"``. Contradictory constraints raise InputError. ``report`` is called with each line of text
+    about the progress.
 
     >>> solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"]).tableau.b
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # A symmetric method needs no more trees.
+    refuse_too_many_trees(families.get(family), order - 1)  # For symmetric methods, order - 1 suffices.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,
@@ -150,7 +152,7 @@ def _function(report: Callable[[str], object]) -> Callable[[str], object]:
 
 
 def _path(checkpoint: object) -> Path | None:
-    """Return the path of a checkpoint. For None, return None."""
+    """Return the argument ``checkpoint`` as a path, or None."""
     if checkpoint is None:
         return None
     if not isinstance(checkpoint, str | os.PathLike):
@@ -165,7 +167,7 @@ def _minimised(minimise: object) -> bool:
 
 
 def _size(size: object) -> Fraction | None:
-    """Return the upper bound for the coefficients as a fraction. For None, return None."""
+    """Return the bound on the coefficients as a fraction, or None."""
     if size is None:
         return None
     try:

@@ -1,9 +1,9 @@
-"""Search from many random starting points. The starting points form batches. Each batch has its own seed; the
-batches run in one process, in several processes, or on a cluster.
+"""Search from many random starting points, in batches. The batches run in one process, in several processes,
+or on a cluster.
 
-The result of a batch depends only on the problem, the seed and the number of the batch, and batches are
-evaluated in the order of their numbers. Therefore the result depends neither on the number of processes nor
-on interruptions. A worker process receives only strings and numbers, and compiles the programs itself.
+The result of a batch depends only on the problem, the seed and the number of the batch. Results are processed
+in the order of these numbers. The result of a search therefore depends neither on the number of processes nor
+on interruptions. A worker process receives only the options of the search, and compiles the equations itself.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ BATCH = 64
 """The number of random starting points in a batch."""
 
 POLISHED = 1e-11
-"""A residual norm below which a point counts as a solution."""
+"""A point counts as a solution if the residual norm is below this number."""
 
 KEPT = 4
-"""The largest number of solutions of one batch that are kept. These are the solutions with the lowest scores.
-If the principal error is minimised, the minimisation starts only from these solutions.
+"""Each batch returns at most this number of solutions, those with the lowest scores. The minimisation of the
+principal error starts only from these solutions.
 """
 
 
@@ -44,13 +44,13 @@ CHEAP = 4
 
 
 SINGULAR = 1e6
-"""The amount by which the score of a singular solution is increased. At a singular solution the gradients of
-the conditions are linearly dependent."""
+"""Penalty in the score of a singular solution, at which the gradients of the conditions are linearly
+dependent."""
 
 
 @dataclass(frozen=True)
 class Search:
-    """A search: all data on which its result depends."""
+    """All options that determine the result of a search."""
 
     family: str
     order: int
@@ -60,24 +60,24 @@ class Search:
     minimised: bool = False
 
     def described(self) -> dict[str, object]:
-        """Return the search as data that a checkpoint file in JSON can store."""
+        """Return the options as a JSON object for the checkpoint file."""
         record = asdict(self)
         record["spec"] = {key: str(x) if key == "size" else x for key, x in record["spec"].items()}
         return dict(json.loads(json.dumps(record)))
 
 
 BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
-"""A batch as data that JSON can represent: its number, the least residual norm and the solutions.
-Floating-point numbers are hexadecimal texts."""
+"""A batch as JSON: its number, the least residual norm and the solutions. Floating-point numbers are
+hexadecimal texts."""
 
 
 @dataclass(frozen=True)
 class Batch:
     """The result of a batch of random starts. ``solutions`` contains pairs (score, values of the free
-    coefficients). The best solution, which has the lowest score, is first.
+    coefficients), in ascending order of the score.
 
-    The score is the principal error or, if the error costs too much to compute, the largest coefficient.
-    ``best`` is the least residual norm of all starts of the batch.
+    The score is the principal error or, above order :data:`CHEAP`, the largest absolute value of a
+    coefficient. ``best`` is the least residual norm of all starts of the batch.
     """
 
     number: int
@@ -85,21 +85,20 @@ class Batch:
     solutions: tuple[tuple[float, tuple[float, ...]], ...] = ()
 
     def as_json(self) -> BatchRecord:
-        """Return the batch as data that JSON can represent. Floating-point numbers are represented
-        exactly."""
+        """Return the batch as JSON, with floating-point numbers as exact hexadecimal texts."""
         solutions = [(s.hex(), [x.hex() for x in p]) for s, p in self.solutions]
         return self.number, self.best.hex(), solutions
 
     @staticmethod
     def read(record: BatchRecord) -> Batch:
-        """Return the batch that :meth:`as_json` wrote."""
+        """Return the batch from the output of :meth:`as_json`."""
         number, best, solutions = record
         read = tuple((float.fromhex(s), tuple(map(float.fromhex, p))) for s, p in solutions)
         return Batch(int(number), float.fromhex(best), read)
 
 
 def run_batch(search: Search, number: int) -> Batch:
-    """Return the result of batch ``number``.
+    """Run the random starts of batch ``number`` and return the best solutions.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
@@ -113,8 +112,8 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # Singular solutions are dropped if the batch contains regular solutions. Otherwise they are kept with a
-    # worse score, because a proof with exact coefficients may still be possible.
+    # Drop singular solutions if the batch contains regular solutions. Otherwise keep them with a penalty,
+    # because a proof with exact coefficients may still be possible.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
@@ -126,7 +125,7 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return the score of a solution. A lower score is better."""
+    """Return the score of a solution: the principal error, or the largest coefficient for high orders."""
     if problem.order <= CHEAP:
         return float(np.linalg.norm(problem.error.values(point[None])[0]))
     return float(np.abs(problem.coefficients.values(point[None])).max())
@@ -134,16 +133,16 @@ def _score(problem: Problem, point: Floats) -> float:
 
 @dataclass
 class Checkpoint:
-    """The checkpoint file, which contains the finished batches and is written atomically. If the path is
-    None, nothing is written."""
+    """The checkpoint file with the finished batches. The file is written atomically, or not at all if
+    ``path`` is None."""
 
     path: Path | None
     search: Search
     batches: dict[int, Batch] = field(default_factory=dict)
 
     def load(self) -> None:
-        """Read the batches of an interrupted search, if the file exists. Raises InputError if the file cannot
-        be read, if it is not a checkpoint, or if it belongs to another search."""
+        """Read the batches of an interrupted search, if the file exists. Raises InputError if the file is
+        unreadable, is not a checkpoint, or belongs to another search."""
         if self.path is None or not self.path.exists():
             return
         try:
@@ -189,8 +188,8 @@ class Checkpoint:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a file under a temporary name and then rename it. Therefore no other program can read an
-    incomplete file. Raises InputError if the file cannot be written.
+    """Write a file atomically: write a temporary file and rename it. Raises InputError if the file cannot be
+    written.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -209,8 +208,8 @@ def write_whole(path: Path, text: str) -> None:
 def batches(
     search: Search, count: int, checkpoint: Checkpoint, processes: int = 1, cluster: str | None = None
 ) -> Iterator[Batch]:
-    """Yield the batches 0, 1, ..., ``count`` - 1 in this order. Batches in the checkpoint are not computed
-    again. Each new batch is added to the checkpoint.
+    """Yield the batches 0, ..., ``count`` - 1 in this order. Take finished batches from the checkpoint, and
+    add each new batch to the checkpoint.
 
     With several processes, the first new batch runs in this process, and all other batches run in further
     processes. With ``cluster``, all new batches run on the dask cluster at this address. Raises
@@ -242,4 +241,4 @@ def _computed(
 
 
 Reported = Callable[[str], object]
-"""A function that receives a line about the progress of a search."""
+"""A function that receives lines of text about the progress of a search."""

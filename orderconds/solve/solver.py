@@ -1,5 +1,5 @@
-"""The steps of ``orderconds solve``: try to prove that no method exists; otherwise search for methods, and
-return the best method with a proof of its order."""
+"""The steps of ``orderconds solve``. First try to prove that no method exists. If there is no such proof,
+search for methods. Return the best method whose order can be proved."""
 
 from __future__ import annotations
 
@@ -19,17 +19,16 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""The default numbers of random starts for each structure (parametrisation of the tableau). A search that
-minimises the principal error uses the second number, every other search the first number."""
+"""Default numbers of random starts for each parametrisation of the tableau (structure): PLAIN for a plain
+search, and MINIMISED if the principal error is minimised."""
 
 
 @dataclass
 class Outcome:
-    """The outcome of a search: a method (``solution``), a proof that no method exists (``none``), or neither
-    of these.
+    """The outcome of a search: a method (``solution``), a proof that no method exists (``none``), or neither.
 
     ``best`` is the least residual norm of all random starts. ``tried`` contains one line of text about each
-    structure that was tried.
+    parametrisation (structure) that was tried, and ``structure`` is the last of them.
     """
 
     solution: Solution | None = None
@@ -79,8 +78,7 @@ class Order:
 
 
 def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
-    """Return the outcome of a search. The function ``report`` is called with lines of text about the
-    progress.
+    """Run a search. The function ``report`` is called with lines of text about the progress.
 
     Raises :class:`~orderconds.errors.InputError` for contradictory options.
 
@@ -103,8 +101,8 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
 
 
 def _applicable(order: Order) -> list[str]:
-    """Return the structures (parametrisations) with which methods can satisfy the specification. Raises
-    InputError if there are none, or if the options contradict each other."""
+    """Return the parametrisations (structures) that the specification allows. Raises InputError if there are
+    none, or if the options contradict each other."""
     applicable, refusal = [], None
     for structure in structures(order.family, order.spec):
         try:
@@ -155,20 +153,20 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    # The search in this structure has ended, with or without a solution. Its checkpoint is no longer needed.
+    # The search with this parametrisation has ended, so that its checkpoint is no longer needed.
     checkpoint.remove()
 
 
 def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Solution | None, str]:
-    """Return two values: the best solution whose order can be proved, or None; and the reason why the last
-    failed proof failed. At most eight solutions are tried. If no proof fails, the reason is ``refused``."""
+    """Return the best solution whose order can be proved, or None, and the reason of the last failed proof.
+    At most eight solutions are tried. If no proof fails, the reason is ``refused``."""
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:
         try:
             return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused
-        # ZeroWeight is raised if the formulas of the family divide by a weight that is zero.
+        # ZeroWeight means that a formula of the family divides by a weight that is zero.
         except (NotProved, ZeroWeight) as problem_met:
             refused = str(problem_met)
     return None, refused

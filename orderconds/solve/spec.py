@@ -11,12 +11,14 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Spec:
-    """The specification of a method: the options of ``orderconds solve``.
+    """The required properties of a method, which are options of ``orderconds solve``.
 
-    ``exponentials`` is the number of exponentials in the update of a commutator-free method, and ``inner`` is
-    the number of exponentials in each stage. ``positive`` contains the names of coefficients that must be
-    positive; the name ``b`` denotes all weights. ``size`` is a bound on the absolute values of all
-    coefficients. ``low_storage`` requests a scheme with two registers (2N).
+    ``dirk`` requests a diagonally implicit method, and ``fsal`` a last stage that equals the update. ``fix``
+    contains linear equations between coefficients. ``positive`` contains the names of coefficients that must
+    be positive. The name ``b`` denotes all weights. ``size`` is a bound on the absolute values of all
+    coefficients. A commutator-free method has ``exponentials`` exponentials in its update and ``inner``
+    exponentials in each stage. ``rkn`` requests a Runge-Kutta-Nystrom method. ``low_storage`` requests a
+    scheme with two registers (2N).
     """
 
     stages: int
@@ -34,8 +36,8 @@ class Spec:
 
 
 def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``, which do not
-    exist in this family.
+    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``. These options do
+    not exist in this family.
 
     >>> refuse("rk", Spec(stages=2), ("rkn",))
     """

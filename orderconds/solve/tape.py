@@ -1,9 +1,7 @@
-"""A recorded program that is compiled for numpy. It computes values and exact Jacobians at many points
-together.
+"""A recorded program, compiled for numpy. The program computes values and Jacobians at many points at once.
 
-The operations that the outputs need are sorted into levels; the operations of a level depend on earlier
-levels only. A few calls of numpy evaluate all operations of a level. The Jacobian is computed by forward
-differentiation: the gradient of each operation is computed with its value.
+The operations are sorted into levels. The operations of a level depend only on earlier levels, and a few
+numpy calls evaluate all of them. The Jacobian is computed by forward differentiation.
 """
 
 from __future__ import annotations
@@ -17,8 +15,8 @@ from numpy.typing import NDArray
 from orderconds.ring.traces import ADD, CONSTANT, DIVIDE, INPUT, MULTIPLY, ROOT, Operation, Trace
 
 MOST_SLOPES = 1 << 24
-"""The largest number of derivatives in memory at one time (128 MiB). If the derivatives at all points exceed
-this number, the points are evaluated in several groups."""
+"""The largest number of derivatives in memory at one time (128 MiB). If there are more, the points are
+evaluated in several groups."""
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.int64]
@@ -26,8 +24,8 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind, whose arguments are results of earlier levels. The results of this level are
-    stored in rows ``start`` to ``stop`` - 1 of the array of values."""
+    """Operations of one kind. Their arguments are rows ``left`` and ``right`` of the array of values. Their
+    results are stored in rows ``start`` to ``stop`` - 1."""
 
     kind: int
     start: int
@@ -35,7 +33,7 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """The degrees of the roots, if the operations of the level compute roots."""
+    """Degrees of the roots, if the operations are roots."""
 
 
 class Tape:
@@ -56,7 +54,7 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        # An output may be a constant. The method ``placed`` adds such a constant to the recorded operations.
+        # An output may be a constant. ``placed`` records the constant as an operation.
         wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
@@ -80,7 +78,7 @@ class Tape:
 
     def _forward(self, points: Floats) -> Floats:
         values = self._start(points)
-        # If a search diverges, its residuals are infinite, and numpy would warn of each overflow.
+        # If a search diverges, residuals overflow. Suppress the warnings of numpy.
         with np.errstate(all="ignore"):
             for level in self._levels:
                 out = values[level.start : level.stop]
@@ -137,8 +135,8 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
-    """Return the indices of all inputs and of the operations on which the outputs ``wanted`` depend. The
-    indices are sorted by level and kind; inputs and constants come first."""
+    """Return the indices of all inputs and of all operations on which the outputs ``wanted`` depend. The
+    indices are sorted by level and kind. Inputs and constants come first."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

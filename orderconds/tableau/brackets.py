@@ -1,8 +1,8 @@
-"""The text of Lie algebra elements over numbered nodes: ``"[2,1]"``, ``"[a, [1, b]]"``, ``"S*S*S"``.
+"""Lie algebra elements as text in tableau files, such as ``"[2,1]"``, ``"[a, [1, b]]"`` or ``"S*S*S"``.
 
-The number i denotes the vector field at node i. A name denotes a Lie element that the file defines before the
-text. The commutator is ``[x,y] = x y - y x``. Products are allowed only in methods for quadratic groups
-(Cayley).
+The number i denotes the vector field at node i of a quadrature formula. A name denotes an element that the
+file defines earlier. The commutator is ``[x,y] = x y - y x``. Products such as ``S*S`` are allowed only for
+quadratic Lie groups, where the Cayley map replaces the exponential.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from orderconds.ring.protocol import Element, Ring
 
 Nodes = tuple[int, ...]
 NodeSeries = dict[Nodes, Element]
-"""A map from words of nodes to coefficients. The nodes of a word are in the order of action: (i, j) denotes
-the product A_j A_i."""
+"""A map from words of nodes to coefficients. The first node of a word acts first. For example, (i, j) denotes
+the product A_j A_i, where A_i is the vector field at node i."""
 
 MAX_DEPTH = 12
 _TOKEN = re.compile(r"\s*(?:([0-9]{1,3})|([A-Za-z_]\w*)|([\[\],*]))", re.ASCII)
@@ -53,7 +53,7 @@ Combination = tuple[tuple[Term, Element], ...]
 
 
 def parse(text: str, where: str) -> Term:
-    """Read a term. If the term is malformed, raise :class:`TableauError` with ``where`` in its message.
+    """Parse a term. Raises :class:`TableauError`, whose message contains ``where``, if the text is malformed.
 
     >>> parse("[2,1]", "exponents")
     Bracket(left=1, right=0)
@@ -66,7 +66,7 @@ def parse(text: str, where: str) -> Term:
 
 
 def spell(term: Term) -> str:
-    """Return the text of a term. The function :func:`parse` reads this text as the same term.
+    """Return the text of a term. This function is the inverse of :func:`parse`.
 
     >>> spell(parse("[ 2, [1,a] ]", ""))
     '[2,[1,a]]'
@@ -106,9 +106,9 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that maps a term to two numbers. A term expands to a sum of products of nodes; the
-    numbers are the least and the greatest number of factors in such a product. ``elements`` contains the
-    definitions of the names.
+    """Return a function that counts factors. A term expands to a sum of products of nodes. The function
+    returns the least and the greatest number of factors in these products. ``elements`` contains the
+    definitions of the names in terms.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)
@@ -127,21 +127,20 @@ def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, 
 
 
 def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, int]]) -> tuple[int, int]:
-    """Return the least and the greatest number of factors in the products of nodes to which a linear
-    combination expands. ``extent`` returns these numbers for a term.
+    """Return the least and the greatest number of factors in the expansion of a linear combination. The
+    expansion is a sum of products of nodes. ``extent`` returns the two numbers for a single term.
 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # An empty sum is zero and contains no product. Any numbers may be returned for zero; (1, 1) keeps the
-    # minimum and the maximum defined.
+    # An empty sum contains no product. The pair (1, 1) only makes the minimum and the maximum defined.
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
-    """Expand a linear combination of terms in words of nodes, and return the coefficients of the words.
-    ``named`` contains the expansions of the names. Words with coefficient zero are omitted.
+    """Expand a linear combination of terms into words of nodes, with their coefficients. ``named`` contains
+    the expansions of the names in terms. Words with coefficient zero are omitted.
 
     >>> from orderconds.ring import QQ
     >>> expand(((parse("[2,1]", ""), QQ.one),), {}, QQ)

@@ -1,5 +1,5 @@
-r"""Tableaux in the notation of publications. A Butcher tableau is written as an array in LaTeX or HTML; other
-methods are written as equations (:mod:`orderconds.tableau.equations`)."""
+r"""Tableaux in LaTeX or HTML. A Butcher tableau is printed as an array. All other methods are printed as
+equations (:mod:`orderconds.tableau.equations`)."""
 
 from __future__ import annotations
 
@@ -16,26 +16,27 @@ if TYPE_CHECKING:
     from orderconds.tableau.record import Tableau
 
 WIDEST = 12
-"""The largest number of stages for which the coefficients of a tableau are printed."""
+"""A Butcher array is printed only for methods with at most this number of stages."""
 
 BETWEEN = 10.0
-"""The space between two columns of an array in points."""
+"""Space between two columns of an array, in points."""
 
 SPACED = r" \\[2pt] "
-"""The LaTeX code that ends a row and adds vertical space. Without this space, fractions of neighbouring rows
-would touch."""
+"""LaTeX code that ends a row with extra vertical space. Otherwise fractions in neighbouring rows would
+touch."""
 
 NARROWER = r"\!"
-"""The LaTeX code of a negative space. It is placed at both sides of each entry if an array is too wide."""
+"""LaTeX code of a negative space. If an array is too wide, this space is placed on both sides of each
+entry."""
 
 CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 
 
 def tableau_latex(tableau: Tableau) -> str:
-    r"""Return LaTeX of the Butcher array or, for other methods, of the equations that define the method.
+    r"""Return the Butcher array in LaTeX. For methods without a Butcher array, return equations.
 
-    The formula fits in a column of a two-column article. In a wide array the space between the columns is
-    reduced. If the array is still too wide, its rows are printed as equations.
+    The formula fits in a column of a two-column article. In a wide array, the space between the columns is
+    reduced. If the array is still too wide, equations are printed instead.
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
@@ -46,8 +47,8 @@ def tableau_latex(tableau: Tableau) -> str:
 
 
 def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
-    """Return a Butcher array with the rows of the stages above the rule and the weights below it. Return None
-    if the array is too wide for a column of an article, or if an entry contains the name of a number."""
+    """Return a Butcher array in LaTeX. The rows ``above`` are separated from the rows ``below`` by a rule.
+    Return None if the array is too wide for a column of an article, or if an entry contains a name."""
     rows = [*above, *below]
     if any(has_name(x) for row in rows for x in row):
         return None
@@ -92,7 +93,7 @@ def _html_row(cells: Sequence[str], *, ruled: bool) -> str:
 
 
 def _html(text: str) -> str:
-    """Return a coefficient in HTML."""
+    """Convert the text of a coefficient to HTML."""
     return escape(text).replace("sqrt", "√").replace("-", "−").replace("*", "·")
 
 

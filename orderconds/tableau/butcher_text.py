@@ -8,19 +8,18 @@ from orderconds.ring import Ball, Balls, Element
 from orderconds.tableau.record import Tableau
 
 SHORT = Balls(64)
-"""The precision of printed decimals."""
+"""Ring of balls with 64 bits, in which decimals are rounded for printing."""
 
 DIGITS = 24
-"""The number of characters of the longest decimal."""
+"""A decimal has at most about this number of characters."""
 
 
 def butcher_text(tableau: Tableau) -> list[str]:
     """Return the lines of the Butcher tableau. Decimals have about twenty digits and end with "~".
 
-    For a composition, the tableau of the composition of implicit midpoint rules is printed. For a
-    commutator-free method, the tableau to which the method reduces on vector spaces is printed. Embedded
-    weights are not printed. Raises :class:`orderconds.errors.TableauError` for a splitting and for a Magnus
-    method.
+    For a composition, the basic method is the implicit midpoint rule. For a commutator-free method, the
+    result is the tableau of the method on vector spaces. Embedded weights are not printed. Raises
+    :class:`orderconds.errors.TableauError` for splitting methods and Magnus methods.
 
     >>> from orderconds.tableau import find
     >>> print("\\n".join(butcher_text(Tableau.load(find("gauss2")))))
@@ -57,6 +56,6 @@ def entry(tableau: Tableau, x: Element) -> str:
     text = SHORT.text(SHORT.enclose(x.value) + 0)
     if len(text) <= DIGITS:
         return text
-    # If a sum of rounded numbers is near zero, its text contains many zeros and is too long. The format ``g``
-    # prints such a number with an exponent.
+    # A sum of rounded numbers that is near zero has many leading zeros. The format ``g`` prints an exponent
+    # instead.
     return f"{Decimal(text.rstrip('~')):.{DIGITS - 2}g}~"

@@ -1,4 +1,4 @@
-"""Claims: the orders and properties that a tableau file states for its method."""
+"""Claims: orders and properties of a method, as stated in its tableau file."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class OrderClaim:
-    """The claim that the method has exactly this order in ``family``. ``cutoff`` is None for a family without
-    the option ``cutoff``."""
+    """The claim that a method has order ``order``, and not a higher order, in ``family``. ``cutoff`` is an
+    option of some families and None for all other families."""
 
     family: str
     cutoff: int | None
@@ -16,14 +16,14 @@ class OrderClaim:
 
     @property
     def label(self) -> str:
-        """The label of the family in reports: ``vcg``, ``rkmk(1)``."""
+        """The label of the family in reports, such as ``vcg``, or ``rkmk(1)`` with the cutoff 1."""
         return self.family if self.cutoff is None else f"{self.family}({self.cutoff})"
 
 
 @dataclass(frozen=True)
 class Claims:
-    """The claims of a tableau file: the orders and the properties of the method. A check compares each claim
-    with the computed result."""
+    """The orders and properties that a tableau file claims. The command ``check`` compares each claim with
+    the computed result."""
 
     orders: tuple[OrderClaim, ...] = ()
     properties: dict[str, bool] = field(default_factory=dict)

@@ -54,8 +54,8 @@ def _latex(x: Expression, tight: int) -> str:
 
 
 def _split_sign(x: Expression) -> tuple[str, Expression]:
-    """Return a sign and the expression without this sign. The sign is "-" for an exact negative number and
-    for an expression -y. For all other expressions the sign is empty."""
+    """Split x into a sign and the rest. The sign is "-" for an exact negative number and for an expression
+    -y. Otherwise the sign is empty."""
     if isinstance(x, Chain) and x.operators == ("-",) and x.operands[0] == Constant(Fraction(0)):
         return "-", x.operands[1]
     if isinstance(x, Constant) and not x.unit and x.value < 0:
@@ -92,7 +92,7 @@ def with_fractions(x: Expression) -> Expression:
 
 
 def decimal(x: Fraction, places: int) -> str:
-    """Return a number as a decimal with ``places`` decimal places. Further digits are cut off.
+    """Return x with ``places`` decimal places. Further digits are cut off, without rounding.
 
     >>> decimal(Fraction(1, 4), 2)
     '0.25'

@@ -1,8 +1,9 @@
 """Gauss, Radau and Lobatto methods with any number of stages, computed exactly from their definitions.
 
 The nodes c are the roots of a polynomial M, given by Rodrigues' formula: the s-th Legendre polynomial or a
-related polynomial. The weights integrate polynomials of degree below s exactly. The matrix A follows from one
-of these rules, in which l_j are the Lagrange polynomials of the nodes:
+related polynomial. The weights b integrate polynomials of degree below s exactly. The matrix A follows from
+one of the rules below. Here l_j are the Lagrange polynomials of the nodes, and C(k) and D(k) are Butcher's
+simplifying assumptions.
 
 ==================  ======================================================================================
 rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation
@@ -11,15 +12,13 @@ first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher
 mean                the mean of two of these matrices (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
 ==================  ======================================================================================
 
-Two kinds, Radau IIA and Lobatto IIIA, have an embedded method for step-size control. The embedded weights are
-those of the quadrature of order s - 1 on all nodes except one. The omitted node is the last node for Radau
-IIA and the (first) middle node for Lobatto IIIA. The update and the embedded update differ by a multiple of
-the divided difference of the stages. Radau IIA and Lobatto IIIA are collocation methods. Therefore their
-stages, and this error estimate, stay accurate for stiff equations. For methods of low stage order, both would
-lose accuracy.
+Radau IIA and Lobatto IIIA have an embedded method for step-size control. The embedded weights belong to the
+quadrature of order s - 1 on all nodes except one. The omitted node is the last node for Radau IIA, and the
+(first) middle node for Lobatto IIIA. The error estimate is a multiple of the divided difference of the
+stages. Both methods are collocation methods, so their stages and this estimate stay accurate for stiff
+equations. Methods of low stage order would lose accuracy.
 
-All coefficients are computed: the nodes are algebraic numbers, and the other coefficients follow from them by
-rational arithmetic.
+The nodes are algebraic numbers. All other coefficients follow from the nodes by rational arithmetic.
 
 Sources: Hairer and Wanner, *Solving Ordinary Differential Equations II*, Section IV.5; Jay, *Lobatto
 methods*, Encyclopedia of Applied and Computational Mathematics, 2015.
@@ -49,10 +48,9 @@ class Nodes:
     """The nodes c in ascending order, as elements of one number field, with their weights and Lagrange
     polynomials.
 
-    ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node. In formulas, true counts as 1 and
-    false as 0. The nodes are the roots of a polynomial M. It is the derivative of order ``s - left - right``
-    of the polynomial ``x^(s - right) (x - 1)^(s - left)``. Hence 0 is a root of M if ``left`` is true, and 1
-    is a root of M if ``right`` is true.
+    ``s`` is the number of nodes. ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node. In
+    formulas, true counts as 1 and false as 0. The nodes are the roots of the derivative of order ``s - left -
+    right`` of the polynomial ``x^(s - right) (x - 1)^(s - left)``.
     """
 
     def __init__(self, s: int, left: bool, right: bool) -> None:
@@ -66,11 +64,11 @@ class Nodes:
 
     @property
     def one(self) -> Algebraic:
-        """The number 1 of the field."""
+        """The number 1 as an element of the field."""
         return self.tower.field.one
 
     def _lagrange(self, j: int) -> list[Algebraic]:
-        """Return l_j by ascending powers."""
+        """Return the coefficients of the Lagrange polynomial l_j, lowest power first."""
         result = [self.one]
         for k, node in enumerate(self.c):
             if k != j:
@@ -83,18 +81,17 @@ class Nodes:
         return result
 
     def integral(self, j: int, x: Algebraic) -> Algebraic:
-        """Return the integral of l_j from 0 to x, by Horner's rule."""
+        """Return the integral of the Lagrange polynomial l_j from 0 to x, by Horner's rule."""
         result = self.tower.field.zero
         for k in reversed(range(self.s)):
             result = (result + self.lagrange[j][k] * self.tower.rational(1, k + 1)) * x
         return result
 
     def without(self, left_out: int) -> list[Algebraic]:
-        """Return the weights of the quadrature on all nodes except one. The weight of the omitted node is
-        zero.
+        """Return the weights of the quadrature on all nodes except node ``left_out``, whose weight is zero.
 
-        The difference of these weights and b is a multiple of the vector of the leading coefficients of l_1,
-        ..., l_s.
+        These weights differ from b by a multiple of the vector of leading coefficients of the Lagrange
+        polynomials.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -104,19 +101,19 @@ class Nodes:
         return [x - share * y for x, y in zip(self.b, leading, strict=True)]
 
     def rows(self) -> Matrix:
-        """Return the matrix A that satisfies C(s)."""
+        """Return the matrix A that satisfies the simplifying assumption C(s)."""
         return [[self.integral(j, x) for j in range(self.s)] for x in self.c]
 
     def columns(self) -> Matrix:
-        """Return the matrix A that satisfies D(s)."""
+        """Return the matrix A that satisfies the simplifying assumption D(s)."""
         b, stages = self.b, range(self.s)
         return [[b[j] / b[i] * (b[i] - self.integral(i, self.c[j])) for j in stages] for i in stages]
 
     def column(self, k: int, value: Algebraic) -> Matrix:
-        """Return the matrix A that satisfies C(s - 1) and has ``value`` in every entry of column k.
+        """Return the matrix A that satisfies C(s - 1) and whose column k has all entries equal to ``value``.
 
-        For a given node, the difference of two rows that satisfy C(s - 1) is a multiple of the vector of the
-        leading coefficients of l_1, ..., l_s.
+        Two rows that satisfy C(s - 1) for the same node differ by a multiple of the vector of leading
+        coefficients of the Lagrange polynomials.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -134,7 +131,7 @@ class Nodes:
 
 
 def last(s: int) -> int:
-    """Return the index of the last node.
+    """Return the index of the last of s nodes.
 
     >>> last(3)
     2
@@ -143,8 +140,7 @@ def last(s: int) -> int:
 
 
 def middle(s: int) -> int:
-    """Return the index of the middle node. For even s there are two middle nodes, and the index of the first
-    is returned.
+    """Return the index of the middle node of s nodes. For even s, return the first of the two middle nodes.
 
     >>> middle(3), middle(4)
     (1, 1)
@@ -153,7 +149,7 @@ def middle(s: int) -> int:
 
 
 def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Callable[[Nodes], Matrix]:
-    """Return the rule whose matrix is the mean of the matrices of two other rules.
+    """Return a rule for A: the mean of the matrices of two other rules.
 
     >>> rule = mean(Nodes.first_column, Nodes.last_column)
     >>> rule(Nodes(2, True, True))[0]
@@ -170,11 +166,11 @@ def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Ca
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of method. ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node. ``matrix`` is
-    the rule for A, and ``called`` is the name.
+    """A kind of method, such as Radau IIA. ``left`` is true if 0 is a node, and ``right`` is true if 1 is a
+    node. ``matrix`` computes A from the nodes, and ``called`` is the name of the kind.
 
-    The order is 2s - ``left`` - ``right``, where s is the number of stages. The function ``left_out`` maps s
-    to the index of the node that the embedded method omits. It is None if there is no embedded method.
+    ``left_out`` maps the number of stages to the index of the node that the embedded method omits. Without an
+    embedded method, ``left_out`` is None.
     """
 
     left: bool
@@ -189,7 +185,7 @@ class Kind:
         return 2 if self.left and self.right else 1
 
     def order(self, s: int) -> int:
-        """Return the order of the method with s stages, which is the order of its quadrature."""
+        """Return the order of the method with s stages, which equals the order of the quadrature."""
         return 2 * s - self.left - self.right
 
 
@@ -214,8 +210,8 @@ def construct(kind: str, stages: int) -> Tableau:
     """Return the method of this kind with this number of stages. The coefficients are elements of the field
     of the nodes.
 
-    Raises :class:`UnknownName` for an unknown kind and :class:`InputError` for too few stages, or for nodes
-    whose field has a degree above :data:`orderconds.ring.tower.MAX_DEGREE`.
+    Raises :class:`UnknownName` for an unknown kind. Raises :class:`InputError` for too few stages, or if the
+    degree of the number field exceeds :data:`orderconds.ring.tower.MAX_DEGREE`.
 
     >>> construct("radau2a", 2).method
     RungeKutta(A=((5/12, -1/12), (3/4, 1/4)), b=(3/4, 1/4))
@@ -254,11 +250,11 @@ def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:
 
 
 def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
-    """Return the roots of a polynomial that has only real roots. If possible, they are expressed by square
+    """Return the roots of a polynomial that has only real roots. If possible, express the roots by square
     roots.
 
-    Otherwise, the roots of an irreducible factor have the names c1, c2, ... in ascending order. The last of
-    them has no name, but is expressed by the other roots and the coefficients.
+    Otherwise, the roots of an irreducible factor get the names c1, c2, ... in ascending order. The last root
+    gets no name, because it follows from the sum of the roots.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

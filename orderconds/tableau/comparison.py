@@ -16,11 +16,10 @@ COMPARED = 160
 
 
 def equal_coefficients(one: Tableau, other: Tableau) -> bool:
-    """Return True if two tableaux have the same number of coefficients, and corresponding coefficients are
-    equal. The comparison includes embedded methods.
+    """Return True if the coefficients of two tableaux are equal, including embedded methods.
 
-    Two balls agree if they intersect and neither is much wider than the other. The balls need not be equal,
-    because the centre and the radius of a ball may be rounded when the ball is written to a file.
+    Two balls (intervals) count as equal if they intersect and neither is much wider than the other. Exact
+    equality is not required, because writing a ball to a file may round the centre and the radius.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))
@@ -32,7 +31,7 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
 
 
 def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
-    """Return enclosures of all coefficients. The coefficients of the embedded method come last."""
+    """Return intervals that contain the coefficients. The coefficients of the embedded method come last."""
     enclosures: list[tuple[fmpq, fmpq]] = []
     ring = cast("Rationals | NumberField | Balls", tableau.ring)
 

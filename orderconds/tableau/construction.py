@@ -1,5 +1,4 @@
-"""The constructors of :class:`Tableau` in Python. They convert arrays of numbers to the keys of a tableau
-file."""
+"""Conversion of Python arrays to the keys of a tableau file, for the constructors of :class:`Tableau`."""
 
 from __future__ import annotations
 
@@ -13,16 +12,17 @@ from orderconds.tableau.file_format import Coefficient, Data
 from orderconds.tableau.python_numbers import matrix, row
 
 Claimed = Mapping[str, int | bool] | int | None
-"""Claims in Python: orders by family (``{"rk": 4, "rkmk(1)": 3}``) and properties (``{"explicit": True}``); a
-single integer is the order in the family that has the name of the format."""
+"""Claims in Python: orders by family (``{"rk": 4, "rkmk(1)": 3}``) and properties (``{"explicit": True}``). A
+single integer is the order in the family with the same name as the format."""
 
 
 def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> Data:
-    """Return the keys of a Butcher tableau: the rows of A and the weights, with abscissae and embedded
-    weights if they are given.
+    """Return the keys of a Butcher tableau: A, the weights b, and optionally abscissae c and embedded
+    weights.
 
-    Each row has one entry for each stage. In a triangular array, the zeros at the end of all rows may be left
-    out. Raises :class:`~orderconds.errors.TableauError` for a wrong entry, and if the lengths do not match.
+    Each row has one entry for each stage. If A is triangular, the zeros at the end of all rows may be
+    omitted. Raises :class:`~orderconds.errors.TableauError` for a wrong entry, or if the lengths do not
+    match.
 
     >>> runge_kutta([[], [0.5]], [0, 1])
     {'family': 'rk', 'A': [[], ['0.5']], 'b': [0, 1]}
@@ -44,8 +44,8 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
 
 
 def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> None:
-    """Raise TableauError unless there are ``stages`` rows that have ``stages`` entries each, or 0, 1, 2, ...
-    entries, or 1, 2, 3, ... entries.
+    """Raise TableauError if A is neither square nor triangular. A triangular A has rows with 0, 1, 2, ... or
+    with 1, 2, 3, ... entries.
     """
     lengths = [len(x) for x in rows]
     shapes = ([stages] * stages, list(range(stages)), list(range(1, stages + 1)))
@@ -72,10 +72,11 @@ def commutator_free(
 ) -> Data:
     """Return the keys of a commutator-free method.
 
-    ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials; the
-    first exponential of a list acts first. An exponential is a row of coefficients, one for each stage; zeros
-    at the end of a row may be left out. ``starts`` maps a stage to the earlier stage from which its product
-    starts; both are counted from 1. ``embedded`` is a second update.
+    ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials. The
+    first exponential of a list acts first. An exponential is a row of coefficients, one for each stage. Zeros
+    at the end of a row may be omitted. By default, the exponentials of a stage act on y0. ``starts`` maps a
+    stage to an earlier stage on which they act instead. Stages are counted from 1. ``embedded`` is a second
+    update.
 
     >>> commutator_free([[], [[0.5]]], [[[0, 1]]])
     Traceback (most recent call last):
@@ -94,7 +95,7 @@ a row of coefficients, and an update is a list of exponentials
 
 
 def _starts(starts: object, stages: int) -> list[tuple[int, int]]:
-    """Return pairs of a stage and the earlier stage from which it starts."""
+    """Check ``starts`` and return its items, pairs of a stage and the earlier stage from which it starts."""
     if starts is None:
         return []
     if not isinstance(starts, Mapping):
@@ -132,8 +133,8 @@ def _product(rows: object, where: str) -> Data:
 
 
 def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
-    """Return the given keys, together with the keys for the name, the source and the claims. An empty source
-    is omitted, and so are claims that are None.
+    """Add the keys for the name, the source and the claims to ``data``. An empty source and claims that are
+    None are omitted.
 
     >>> named({"family": "rk"}, "m", "", {"rkmk(1)": 3, "explicit": True})["claims"]
     {'rkmk': [{'cutoff': 1, 'order': 3}], 'explicit': True}
@@ -157,8 +158,8 @@ def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
 
 
 def _claimed(claims: object, family: str) -> dict[str, int | bool]:
-    """Return a map from labels to claims. The label of a family is mapped to the claimed order, and the name
-    of a property is mapped to its claimed truth value."""
+    """Return a map of claims. The label of a family is mapped to the claimed order. The name of a property is
+    mapped to True or False."""
     if isinstance(claims, numbers.Integral) and not isinstance(claims, bool):
         claims = {family: claims}
     if not isinstance(claims, Mapping):

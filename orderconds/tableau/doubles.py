@@ -1,14 +1,14 @@
 """Coefficients that are given as binary floating-point numbers (doubles).
 
-A double is usually a rounded coefficient: 0.3333333333333333 is close to the intended coefficient 1/3, but
-not equal to it. In a tableau file, the text of such a coefficient ends with ``d``, as in
-``0.3333333333333333d``. This text denotes a ball, which is an interval around the double x. The radius of the
-ball is ``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a number x by at most ``2^-53 |x|``. The radius
-is larger than this bound, because many coefficients are computed with a few roundings. In such a computation,
+A double is usually a rounded coefficient. For example, 0.3333333333333333 is close to the intended
+coefficient 1/3, but not equal to 1/3. In a tableau file, such a coefficient ends with ``d``, as in
+``0.3333333333333333d``. This text denotes a ball: an interval around the double x. The radius of the ball is
+``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a number x by at most ``2^-53 |x|``. The radius is
+larger than this bound, because many coefficients are computed with a few roundings. In such a computation,
 for example of ``1/2 - sqrt(3)/6``, the terms may also be larger than the result.
 
-A double that needs at most :data:`SHORT` bits, such as 0.5, 3.0 or -0.375, counts as an exact number, because
-a rounded number has so few bits only with probability 2^-27.
+A double that needs at most :data:`SHORT` bits, such as 0.5, 3.0 or -0.375, counts as an exact number. A
+rounded number has so few bits only with a probability of about 2^-27.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ SHORT = 26
 """A double with at most this number of significant bits counts as an exact number."""
 
 PRINTED = 16
-"""A decimal in a file of another program is assumed to be a printed double if it has at least this number of
+"""A decimal from another program is treated as a printed double only if it has at least this number of
 digits."""
 
 LARGE = 64
-"""A double counts as an exact number only if its numerator and its denominator have at most this number of
-bits. The exact decimals of other doubles would be too long."""
+"""A double counts as an exact number only if its numerator and denominator have at most this number of bits.
+Otherwise the exact decimal would be too long."""
 
 LONGEST = 1200
 """An upper bound of the number of significant decimal digits of a double."""
@@ -53,11 +53,10 @@ def radius(value: Fraction, units: Fraction | int = UNITS) -> Fraction:
 
 
 def double_text(x: float, where: str = "") -> str:
-    """Return a double as the text of a coefficient. The text is an exact number if the double has few bits,
-    otherwise it has the suffix ``d``.
+    """Return a double as the text of a coefficient. If the double has few significant bits, the text is an
+    exact number. Otherwise the text has the suffix ``d``.
 
-    Raises :class:`~orderconds.errors.TableauError`, whose message contains ``where``, for a number that is
-    not finite.
+    Raises :class:`~orderconds.errors.TableauError`, whose message contains ``where``, if x is not finite.
 
     >>> [double_text(x) for x in (0.5, -3.0, 0.0, 1 / 3, 0.1, 1e-05)]
     ['0.5', '-3', '0', '0.3333333333333333d', '0.1d', '0.00001d']
@@ -119,9 +118,9 @@ def printed(value: Fraction) -> str:
 
 
 def is_printed(decimal: str) -> bool:
-    """Return True if a decimal without exponent was probably printed from a double. For a decimal of 16 or 17
-    digits, the result is always True; for fewer digits, it is False. For more digits, the result is True if
-    the nearest double, rounded to the same number of digits, equals the decimal.
+    """Return True if a decimal without exponent was probably printed from a double. With fewer than 16 digits
+    the result is False, and with 16 or 17 digits it is True. With more digits, the result is True if the
+    nearest double, rounded to the same number of digits, equals the decimal.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")
     (True, False, False)

@@ -1,9 +1,9 @@
-r"""The coefficients of a method as equations in LaTeX, for methods that have no Butcher array and for arrays
-that are too wide.
+r"""Equations in LaTeX that define a method, for methods without a Butcher array and for arrays that are too
+wide.
 
 Each equation is broken into lines that fit in a column of a two-column article. A coefficient is printed
-exactly if its text is short and contains no name. Otherwise it is printed as a decimal that is cut off and
-ends in ``\ldots``. Doubles are printed with six digits.
+exactly if its text is short and contains no name. Other coefficients are printed as truncated decimals that
+end in ``\ldots``. Doubles are printed with six digits.
 """
 
 from __future__ import annotations
@@ -33,26 +33,27 @@ if TYPE_CHECKING:
     from orderconds.tableau.record import Tableau
 
 SHORT = 10
-"""A coefficient that is not printed exactly is cut off after this number of digits."""
+"""Decimals of inexact coefficients are truncated after this number of digits."""
 
 WIDE = 75.0
-"""A coefficient is printed exactly only if its width is at most this number of points."""
+"""A coefficient is printed exactly only if its LaTeX is at most this wide, in points."""
 
 MOST = 34
-"""The largest number of lines. A formula with more lines does not fit on a page."""
+"""The largest number of lines that fit on a page."""
 
 BLANK = r"\,"
 """A narrow space between a factor and a vector field."""
 
 Equation = tuple[str, Sequence[str]]
-"""The left-hand side of an equation, and the parts of its right-hand side. A line may be broken after each
+"""The left-hand side of an equation, and the parts of the right-hand side. A line break is allowed after each
 part."""
 
 
 def equations(tableau: Tableau) -> str:
     r"""Return the equations that define the method, aligned at the equality signs.
 
-    If the equations do not fit on a page, the result states only the number of stages, nodes or coefficients.
+    If the equations do not fit on a page, the result contains only the number of stages, nodes or
+    coefficients.
 
     >>> from orderconds.tableau import Tableau
     >>> print(equations(Tableau.cf([[], [["1/2"]]], [[0, 1]])))
@@ -77,8 +78,8 @@ def has_name(text: str) -> bool:
 
 
 def short_text(x: Element, tableau: Tableau) -> str:
-    """Return the text of a coefficient. If the tableau contains doubles, the text has six digits. If the
-    coefficient is a ball with a long text, the text is cut off after :data:`SHORT` digits.
+    """Return the text of a coefficient. If the tableau contains doubles, the text has six digits. The long
+    decimal of a ball is truncated after :data:`SHORT` digits.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau = Tableau.rk([[0, 0], ["1/2", 0]], [0, 1])
@@ -92,14 +93,14 @@ def short_text(x: Element, tableau: Tableau) -> str:
 
 
 def _decimal(x: Element, tableau: Tableau) -> str:
-    """Return a coefficient as a decimal with :data:`SHORT` digits and a tilde. Further digits are cut off,
+    """Return a coefficient as a decimal with :data:`SHORT` digits and a tilde. Further digits are truncated,
     not rounded."""
     nearest = Decimal(cast("RealRing", tableau.ring).nearest_float(x))
     return f"{Context(prec=SHORT, rounding=ROUND_DOWN).plus(nearest):f}~"
 
 
 def _latex(x: Element, tableau: Tableau) -> str:
-    r"""Return a coefficient in LaTeX, with small fractions."""
+    r"""Return a coefficient in LaTeX. Fractions are printed small (``\tfrac``)."""
     text = short_text(x, tableau)
     if tableau.doubles:
         return text
@@ -144,7 +145,8 @@ def _equations(tableau: Tableau) -> Iterator[Equation]:
 
 
 def _matrix(a: str, b: str, A: Sequence[Row], weights: Row, tableau: Tableau) -> Iterator[Equation]:
-    """Yield the rows of a Runge-Kutta matrix without their zeros at the end, and the weights."""
+    """Yield the rows of a Runge-Kutta matrix, then the weights. Zeros at the end of a row of the matrix are
+    omitted."""
     for i, row in enumerate(A, start=1):
         last = max((j for j, x in enumerate(row) if tableau.ring.is_zero(x) is not True), default=-1)
         if last >= 0:
@@ -157,7 +159,7 @@ def _list(row: Sequence[Element], tableau: Tableau) -> list[str]:
 
 
 def _splitting(method: Splitting, tableau: Tableau) -> Iterator[Equation]:
-    """Yield one step as a product of flows. The flow at the right acts first."""
+    """Yield the equation of one step, a product of flows. The rightmost flow acts first."""
     flows = []
     for part, x in reversed(method.steps):
         time = _latex(x, tableau).replace(r"\tfrac", r"\frac")
@@ -167,8 +169,8 @@ def _splitting(method: Splitting, tableau: Tableau) -> Iterator[Equation]:
 
 
 def _magnus(method: Magnus, tableau: Tableau) -> Iterator[Equation]:
-    """Yield the nodes, the named Lie elements, and the exponents Omega_1, Omega_2, .... The exponential of
-    Omega_1 acts first."""
+    """Yield the equations of the nodes, the named Lie elements, and the exponents Omega_1, Omega_2, .... The
+    exponential of Omega_1 acts first."""
     yield "c", _list(method.c, tableau)
     for name, combination in method.elements:
         yield _name(name), _brackets(combination, tableau)
@@ -194,15 +196,15 @@ def _name(name: str) -> str:
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
     """Return the parts of the formula for a stage: a product of exponentials, applied to y_0 or to an earlier
-    stage. The exponential at the right acts first."""
+    stage. The rightmost exponential acts first."""
     start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
     parts = [part for row in reversed(stage.exponentials) for part in _exponential(row, tableau)]
     return [*parts[:-1], parts[-1] + start] if parts else [start]
 
 
 def _exponential(row: Row, tableau: Tableau) -> list[str]:
-    """Return the parts of the formula exp(h sum_j x_j k_j), where ``row`` contains the x_j. A sum of one term
-    is printed without brackets."""
+    """Return the parts of the formula exp(h sum_j x_j k_j), where ``row`` contains the coefficients x_j. A
+    sum of one term is printed without brackets."""
     terms = _sum([(x, f"k_{{{j}}}") for j, x in enumerate(row, start=1)], tableau)
     if len(terms) == 1:
         factor, _, index = terms[0].rpartition("k_")
@@ -212,8 +214,8 @@ def _exponential(row: Row, tableau: Tableau) -> list[str]:
 
 
 def _sum(combination: Sequence[tuple[Element, str]], tableau: Tableau) -> list[str]:
-    """Return the terms of a linear combination, each with its sign. Terms with coefficient zero are omitted;
-    if no term remains, the result is a single 0."""
+    """Return the terms of a linear combination, each with its sign. Terms with coefficient zero are omitted.
+    If no term remains, the result is a single 0."""
     written: list[str] = []
     for x, vector in combination:
         if tableau.ring.is_zero(x) is True:

@@ -1,9 +1,9 @@
-"""Evaluate the coefficients of a file in one ring: Q, a number field, or balls (intervals).
+"""Evaluation of the coefficients of a file in one ring: Q, a number field, or balls (intervals).
 
-The coefficients determine the ring: rationals stay rational; radicals and named roots build a number field,
-of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`. If a coefficient is a rounded decimal (``~``) or a
-double (``d``), or if the degree would be larger, all coefficients become balls. Equal expressions in one file
-denote the same number, and the program represents them by the same object.
+The coefficients determine the ring. If all coefficients are rational, the ring is Q. Radicals and named roots
+generate a number field, of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`. If this degree would be
+larger, or if a coefficient is a rounded decimal (``~``) or a double (``d``), all coefficients become balls.
+Equal expressions in one file denote the same number, and are represented by the same object.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ MAX_SIZE = 40_000
 
 class NamedRoot(Struct, frozen=True):
     """A real root of a polynomial over Q. ``minpoly`` contains the ascending coefficients of the polynomial.
-    The decimal ``near`` identifies the root: exactly one root differs from it by at most one unit of its last
-    digit."""
+    The decimal ``near`` identifies the root. Exactly one root lies within one unit of the last digit of this
+    decimal."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -35,20 +35,19 @@ Definition = Expression | NamedRoot
 
 
 class Scalars(Protocol):
-    """The ring in which expressions are evaluated, for example balls, or a number field that is extended by
-    each new root."""
+    """A ring in which expressions are evaluated: balls, or a number field that grows with each new root."""
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
         """Return the rational number ``value`` or, if ``unit`` is positive, the ball of radius ``unit``
         around this number."""
 
     def root(self, x: Element, index: int) -> Element:
-        """Return the real root of x with this index (2 for the square root). Raises ValueError for an even
-        root of a negative number."""
+        """Return the real root of x of degree ``index`` (2 for the square root). Raises ValueError for an
+        even root of a negative number."""
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
-        """Return the real root whose distance from ``near`` is at most ``unit``. Raises ValueError unless
-        there is exactly one such root."""
+        """Return the real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. Raises
+        ValueError if there is no such root, or more than one."""
 
     def size(self, x: Element) -> int:
         """Return the number of bits of the largest integer in the representation of x."""
@@ -57,10 +56,10 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Return the ring of the expressions and their values. The keys of ``expressions`` and of the values are
-    positions in the file.
+    """Return the ring that the expressions need, and their values. The keys of ``expressions`` and of the
+    values are positions in the file.
 
-    ``numbers`` are the named numbers of the file; they may refer to each other in any order, but not in a
+    ``numbers`` contains the named numbers of the file. Named numbers may refer to each other, but not in a
     cycle. Raises :class:`TableauError` if a number has no value, for example after a division by zero.
 
     >>> from orderconds.tableau.grammar import parse
@@ -77,8 +76,7 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            # Numbers to which no coefficient refers are evaluated last, because they must not enlarge the
-            # ring.
+            # Evaluate unused numbers only now, after the ring is fixed. They must not enlarge the ring.
             evaluation.check_unused()
             return ring, _shared(values, lift)
         except DegreeError:
@@ -108,9 +106,8 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Return the values as elements of the field that contains all of them; ``lift`` converts an element to
-    this field. Each object is converted only once. Therefore equal expressions are still represented by the
-    same object."""
+    """Convert the values by ``lift`` to elements of one field. Each object is converted only once, so that
+    equal expressions are still represented by the same object."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 
@@ -132,13 +129,12 @@ def rounded_and_exact(x: Definition) -> Iterator[Constant]:
 
 
 def _bits(constants: Sequence[Constant]) -> int:
-    """Return a working precision in bits that is much higher than the precision of the decimals in the
-    file."""
+    """Return a working precision in bits, much higher than the precision of the decimals in the file."""
     return max([256, *(64 + 4 * len(str(c.unit.denominator)) for c in constants)])
 
 
 class _Evaluation:
-    """The values of expressions in one ring. Each distinct expression is evaluated once."""
+    """An evaluation of expressions in one ring. Each distinct expression is evaluated only once."""
 
     def __init__(self, scalars: Scalars, numbers: Mapping[str, Definition], where: str) -> None:
         self.scalars, self.numbers, self.where = scalars, numbers, where
@@ -156,8 +152,7 @@ class _Evaluation:
         return result
 
     def check_unused(self) -> None:
-        """Evaluate all named numbers. Otherwise, errors in numbers to which no coefficient refers would not
-        be reported."""
+        """Evaluate all named numbers, to report errors also in numbers that no coefficient uses."""
         for name in self.numbers:
             self.place = f"numbers.{name}"
             self.value(Name(name))

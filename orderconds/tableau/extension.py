@@ -1,11 +1,12 @@
-"""Continuous extensions: weights b_i(theta) that give the solution at the time t_0 + theta h, inside a step
-of length h that begins at t_0.
+"""Continuous extensions (dense output): weights b_i(theta) for the solution at time t_0 + theta h, inside a
+step from t_0 to t_0 + h.
 
 The extension of a Runge-Kutta method uses the stages of the step, with the weights b_i(theta) in place of
-b_i. It has order q if the elementary weight with b_i(theta) is the polynomial theta^|t| / gamma(t) for each
-rooted tree t of at most q nodes; |t| is the number of nodes, and gamma(t) is the density (Hairer, Norsett and
-Wanner, Solving Ordinary Differential Equations I, section II.6). The extension of an RKMK method uses the
-same weights for the Lie algebra elements k_i of the stages: y(theta) = exp(h sum_i b_i(theta) k_i).y_0.
+b_i. Let t be a rooted tree with |t| nodes and density gamma(t). The extension has order q if the elementary
+weight with b_i(theta) is the polynomial theta^|t| / gamma(t) for each tree t with at most q nodes (Hairer,
+Norsett and Wanner, Solving Ordinary Differential Equations I, section II.6). The extension of an RKMK method
+(Runge-Kutta-Munthe-Kaas) uses the same weights for the Lie algebra elements k_i of the stages: y(theta) =
+exp(h sum_i b_i(theta) k_i).y_0.
 """
 
 from __future__ import annotations
@@ -18,8 +19,8 @@ from orderconds.tableau.methods import Row
 
 @dataclass(frozen=True)
 class Extension:
-    """The polynomials b_i(theta): row i has the coefficients of theta, theta^2, ...; all rows have the same
-    length. ``order`` is the claimed order.
+    """The polynomials b_i(theta). Row i contains the coefficients of theta, theta^2, .... All rows have the
+    same length. ``order`` is the claimed order.
 
     >>> Extension(((1, -1), (0, 1)), 1).power(2)
     (-1, 1)
@@ -34,7 +35,7 @@ class Extension:
         return len(self.rows[0])
 
     def power(self, p: int) -> Row:
-        """Return the coefficients of theta^p, one for each stage."""
+        """Return the coefficients of theta^p in the polynomials, one for each stage."""
         return tuple(row[p - 1] for row in self.rows)
 
     def at_end(self) -> Row:

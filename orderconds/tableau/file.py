@@ -1,5 +1,4 @@
-"""Reading of tableau files, which are TOML files with fixed keys. An unknown key is an error, and the message
-lists the known keys."""
+"""Reading of tableau files, which are TOML files with fixed keys. An unknown key is an error."""
 
 from __future__ import annotations
 
@@ -39,11 +38,10 @@ from orderconds.tableau.unknowns import Proof, SymbolicCoefficients
 
 MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
-"""Keys that identify a tableau file: a TOML file that contains one of these keys is read as a tableau
-file."""
+"""A TOML file that contains one of these keys is treated as a tableau file."""
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
-"""The characters that ``source`` and ``bibtex`` must not contain: control characters except tab and newline,
-the line and paragraph separators of Unicode, and characters that change the direction of writing."""
+"""Characters that ``source`` and ``bibtex`` must not contain. These are control characters except tab and
+newline, the line and paragraph separators of Unicode, and characters that change the direction of writing."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -59,7 +57,7 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 class File(Struct, frozen=True):
     """The content of a tableau file: its keys and values, untyped (``data``) and typed (``entry``), and the
-    method that the values define."""
+    method."""
 
     data: Mapping[str, object]
     entry: Format
@@ -99,13 +97,14 @@ def bytes_of(path: str | Path) -> bytes:
     b'name'
     """
     content = read_bytes(path, "a tableau file", error=TableauError)
-    # Some editors and spreadsheets write a byte order mark at the start of a file.
+    # Some editors write a byte order mark at the start of a file.
     return content.removeprefix(BOM_UTF8)
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Return True if a TOML file is to be treated as a tableau file. This is the case if the file contains
-    one of the keys :data:`KEYS`, or if it cannot be read or is not valid TOML.
+    """Return True if a TOML file is to be treated as a tableau file. Such a file contains one of the keys
+    :data:`KEYS`. The result is also True for an unreadable file or invalid TOML, so that reading reports the
+    error.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -118,7 +117,7 @@ def meant_as_tableau(path: str | Path) -> bool:
 
 
 def parsed(text: str, where: str) -> Data:
-    """Return the keys and values of TOML text; messages call the text ``where``.
+    """Return the keys and values of TOML text. Error messages name the text ``where``.
 
     >>> parsed('A = [[]]', "text")
     {'A': [[]]}
@@ -143,7 +142,7 @@ def parsed(text: str, where: str) -> Data:
 
 
 def read(data: Mapping[str, object], where: str) -> File:
-    """Return the typed content of a file, given its keys and values as parsed from TOML or JSON.
+    """Convert the keys and values of a file, parsed from TOML or JSON, to a method and its data.
 
     >>> read({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}, "data").method
     RungeKutta(A=((0,),), b=(1,))
@@ -156,8 +155,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # The position in this error begins with the name of the tableau. It is replaced by ``where``, usually the
-    # path of the file, as in all other errors of this module.
+    # In this error, the position begins with the name of the tableau. Replace the name by ``where``, usually
+    # the path of the file, as in all other errors of this module.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -170,8 +169,8 @@ def read(data: Mapping[str, object], where: str) -> File:
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
-    """Convert the keys and values of a file to the format that the key ``family`` names. Raises TableauError
-    if there is no such format, or if the keys or types do not fit it."""
+    """Convert the keys and values of a file to the format with the name in the key ``family``. Raises
+    TableauError if there is no such format, or if the keys or types do not fit the format."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
         given = "no family" if family is None else f"family = {family!r}"
@@ -186,7 +185,7 @@ def _converted(data: Mapping[str, object], where: str) -> Format:
 def _each(
     table: Mapping[str, object], kind: Any, struct: type[Struct], key: str, where: str
 ) -> dict[str, Any]:
-    """Convert the entries of a table one by one, so that an error message can name the entry."""
+    """Convert the entries of a table separately, so that an error message can name the entry."""
     result = {}
     for name, value in table.items():
         try:
@@ -287,8 +286,8 @@ def _numbers(entry: Format, where: str) -> dict[str, Definition]:
 
 
 def _rational(x: str | int, where: str) -> Fraction:
-    """Parse a rational number: either a coefficient of a minimal polynomial, or a decimal as printed in the
-    publication of the method. Raises TableauError if the number is not rational."""
+    """Parse a rational number: a coefficient of a minimal polynomial, or a decimal from the publication of
+    the method. Raises TableauError if the number is not rational."""
     try:
         return _fraction(_parsed(x, where))
     except (TypeError, ZeroDivisionError):
@@ -305,8 +304,8 @@ def _fraction(x: Expression) -> Fraction:
 
 
 def _decimal(text: str, where: str) -> Constant:
-    """Parse a decimal that identifies a root. The root differs from the decimal by at most one unit of the
-    last digit."""
+    """Parse a decimal that identifies a root. The root lies within one unit of the last digit of the
+    decimal."""
     match = re.fullmatch(r"([+-]?\d{1,200})(?:\.(\d{0,200}))?~?", text, re.ASCII)
     if match is None:
         raise TableauError(f"near = {text!r}", where=where, expected='a decimal such as "1.2599"')
@@ -315,8 +314,8 @@ def _decimal(text: str, where: str) -> Constant:
 
 
 def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
-    """Return the table ``[proof]`` of the file, or None if there is none. Raises TableauError if the table
-    refers to unknown names or contradicts the file."""
+    """Return the content of the table ``[proof]``, or None if the file has no such table. Raises TableauError
+    if the table contains unknown names or contradicts the file."""
     given = entry.proof
     if given is None:
         return None

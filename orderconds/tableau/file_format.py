@@ -1,10 +1,9 @@
-"""The keys that all tableau formats share, the types of claims and proofs, and the reading of rows of
-coefficients.
+"""The keys that all tableau formats share, and functions that read rows of coefficients.
 
-A format is read in two steps, because the ring of a tableau depends on all its coefficients. First,
-``coefficients`` yields the text of every coefficient with its position in the file. When the ring is known,
-``build`` receives the value at each position. A position consists of a key and indices, such as ``A[2][1]``.
-The indices count from 1.
+A file is read in two steps, because the ring of a tableau depends on all its coefficients. First,
+``coefficients`` yields the text of every coefficient with its position in the file. After all coefficients
+are evaluated, ``build`` receives the value at each position. A position consists of a key and indices, such
+as ``A[2][1]``. The indices count from 1.
 """
 
 from __future__ import annotations
@@ -29,23 +28,23 @@ MAX_PARTS = 6
 
 class RootEntry(Struct, forbid_unknown_fields=True):
     """A real root of a polynomial. ``minpoly`` contains the ascending coefficients of the polynomial. The
-    decimal ``near`` identifies the root: exactly one root differs from it by at most one unit of its last
-    digit."""
+    decimal ``near`` identifies the root. Exactly one root lies within one unit of the last digit of this
+    decimal."""
 
     minpoly: list[Coefficient]
     near: str
 
 
 class CutoffClaim(Struct, forbid_unknown_fields=True):
-    """The claimed order in a family that has the option ``cutoff``, for one value of this option."""
+    """The claimed order for one value of ``cutoff``, in a family that has this option."""
 
     cutoff: Annotated[int, Meta(ge=0)]
     order: Annotated[int, Meta(ge=1)]
 
 
 class ProofEntry(Struct, forbid_unknown_fields=True):
-    """The table ``[proof]``: it names the equations that the rounded decimals of the file solve
-    approximately. The keys are explained in :mod:`orderconds.tableau.unknowns`."""
+    """The table ``[proof]``. It names the equations whose exact solution is close to the rounded decimals of
+    the file. The keys are explained in :mod:`orderconds.tableau.unknowns`."""
 
     conditions: str
     order: Annotated[int, Meta(ge=1, le=20)]
@@ -58,15 +57,15 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
 Number = Coefficient | RootEntry
 """A value in the table ``numbers``."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
-"""A value in the table ``claims``: the value of a property, the order in a family, or one order for each
-value of ``cutoff``."""
+"""A value in the table ``claims``: whether a property holds, the order in a family, or one order for each
+``cutoff``."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The base class of all formats, with the keys that all of them share. The values in the table
-    ``numbers`` have the type :data:`Number`, the values in the table ``claims`` the type :data:`Claim`.
+    """The base class of all formats, with the keys that all formats share. The values in the table
+    ``numbers`` have the type :data:`Number`. The values in the table ``claims`` have the type :data:`Claim`.
 
-    The key ``order`` is also a claim. It claims the order in the family that has the name of the format.
+    The key ``order`` is the claimed order in the family with the same name as the format.
     """
 
     name: str
@@ -81,33 +80,33 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored in named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The name of an array that identifies this format in a file of arrays. The name is empty for the default
-    format, which is assumed if the file contains no such array."""
+    """A file of arrays has this format if it contains an array with this name. The name is empty for the
+    default format, which is assumed if no other name is found."""
     as_products: ClassVar[bool] = False
     """True if a file of arrays stores a tableau of this format as a list of exponentials."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return those keys and values of the file that can be deduced from ``names``, the names of the
-        arrays in which a tableau is stored."""
+        """Return keys and values of the file that follow from ``names``, the names of the arrays that store
+        the tableau."""
         return {}
 
     def coefficients(self) -> Places:
-        """Yield pairs (position in the file, text), one for every coefficient."""
+        """Yield a pair (position in the file, text) for every coefficient."""
         yield from ()
 
     def verify(self, where: str) -> None:
-        """Raise :class:`TableauError` if values of the file contradict each other, for example the lengths of
-        rows."""
+        """Raise :class:`TableauError` if values of the file contradict each other, for example if the lengths
+        of rows do not match."""
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method and its embedded method, given the value of the coefficient at every position.
-        The embedded method is None if the file has none."""
+        """Return the method and its embedded method, or None in place of a missing embedded method.
+        ``values`` maps each position in the file to the value of its coefficient."""
         raise TypeError(f"{type(self).__name__} is an abstract format")
 
     def extension(self, values: Mapping[str, Element], ring: Ring) -> Extension | None:
-        """Return the continuous extension of the file, given the value of the coefficient at every position;
-        None if the file has no extension."""
+        """Return the continuous extension, or None if the file has none. ``values`` maps each position in the
+        file to the value of its coefficient."""
         return None
 
 
@@ -122,8 +121,7 @@ def row_places(row: list[Coefficient], place: str) -> Places:
 
 
 def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) -> Row:
-    """Return the row at position ``place``, extended by zeros to length ``s`` if the row in the file is
-    shorter.
+    """Return the row at position ``place``, padded with zeros to length ``s``.
 
     >>> from orderconds.ring import QQ
     >>> filled_row({"b[1]": QQ.one}, "b", 2, QQ)
@@ -133,8 +131,8 @@ def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) ->
 
 
 def counted(s: int, where: str, noun: str = "stages") -> int:
-    """Return the number s; raise :class:`TableauError` unless 1 <= s <= :data:`MAX_STAGES`. The message calls
-    the counted objects ``noun``.
+    """Return s if 1 <= s <= :data:`MAX_STAGES`, and raise :class:`TableauError` otherwise. ``noun`` names the
+    counted objects in the message.
 
     >>> counted(3, "b")
     3
@@ -145,7 +143,7 @@ def counted(s: int, where: str, noun: str = "stages") -> int:
 
 
 def verify_length(row: list[Coefficient], s: int, where: str) -> None:
-    """Raise :class:`TableauError` if a row is longer than the number of stages.
+    """Raise :class:`TableauError` if a row has more than ``s`` entries, where ``s`` is the number of stages.
 
     >>> verify_length(["1/2"], 2, "A[2]")
     """

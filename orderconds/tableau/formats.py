@@ -1,4 +1,4 @@
-"""The formats of a tableau file. Each class has the keys of one format and builds the method."""
+"""The formats of a tableau file. Each class contains the keys of one format and builds the method."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.two_registers import TwoRegisters
 
 MAX_DEGREE = 40
-"""The largest degree of the polynomials of a continuous extension."""
+"""The highest degree of a polynomial in a continuous extension."""
 
 
 class EmbeddedEntry(Struct, forbid_unknown_fields=True):
@@ -45,16 +45,17 @@ class EmbeddedEntry(Struct, forbid_unknown_fields=True):
 
 
 class ExtensionEntry(Struct, forbid_unknown_fields=True):
-    """The weights of a continuous extension: row i has the coefficients of theta, theta^2, ... in b_i(theta);
-    zeros at the end of a row may be left out."""
+    """The weights b_i(theta) of a continuous extension. Row i contains the coefficients of theta, theta^2,
+    ... in b_i(theta). Zeros at the end of a row may be omitted."""
 
     b: list[list[Coefficient]]
     order: Annotated[int, Meta(ge=1)]
 
 
 class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "rk"``: A by rows (zeros at the end of a row may be left out), b, and optionally c, which
-    must equal the row sums of A. ``dense`` is a continuous extension (:mod:`orderconds.tableau.extension`).
+    """The format ``family = "rk"``: a Butcher tableau. A is given by rows, in which zeros at the end may be
+    omitted. The optional c must equal the row sums of A. ``dense`` is a continuous extension
+    (:mod:`orderconds.tableau.extension`).
     """
 
     A: list[list[Coefficient]]
@@ -67,8 +68,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
-        """Check that A has as many rows as b has entries, and that the lengths of all other rows fit this
-        number."""
+        """Check that all rows have lengths that fit the number of stages, which is the number of entries of
+        b."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.A) != s:
             raise TableauError(
@@ -100,8 +101,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(f"polynomials of degree {degree}", where=where, expected=expected)
 
     def coefficients(self) -> Places:
-        """Yield A by rows, then b, then c, then the embedded weights, then the continuous extension by
-        rows."""
+        """Yield the rows of A, then b, c, the embedded weights, and the rows of the continuous extension."""
         for i, row in enumerate(self.A):
             yield from row_places(row, f"A[{i + 1}]")
         yield from row_places(self.b, "b")
@@ -121,8 +121,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         return Extension(tuple(rows), self.dense.order)
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the Runge-Kutta method and its embedded weights, or None in place of missing weights. Raises
-        TableauError if c differs from the row sums of A, or if the embedded weights are equal to b."""
+        """Return the Runge-Kutta method and its embedded weights, or None if there are no embedded weights.
+        Raises TableauError if c differs from the row sums of A, or if the embedded weights equal b."""
         s = len(self.b)
         A = tuple(filled_row(values, f"A[{i + 1}]", s, ring) for i in range(s))
         method, embedded = RungeKutta(A, filled_row(values, "b", s, ring)), None
@@ -135,7 +135,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         return method, embedded
 
     def _compare(self, method: RungeKutta, c: Row, ring: Ring) -> None:
-        """Raise an error if c differs from the row sums of A."""
+        """Raise TableauError if c differs from the row sums of A."""
         for i, (given, total) in enumerate(zip(c, method.c, strict=True)):
             if ring.is_zero(given - total) is False:
                 raise TableauError(
@@ -147,8 +147,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "prk"``: A and b are the tableau for the first part of a system, A_hat and b_hat for the
-    second part."""
+    """The format ``family = "prk"``: a partitioned Runge-Kutta method. A and b are the tableau for the first
+    part of a system. A_hat and b_hat are the tableau for the second part."""
 
     A: list[list[Coefficient]]
     b: list[Coefficient]
@@ -182,7 +182,7 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
                 verify_length(row, s, f"{where}: {name}[{i + 1}]")
 
     def coefficients(self) -> Places:
-        """Yield A by rows, then b, then A_hat by rows, then b_hat."""
+        """Yield the rows of A, then b, then the rows of A_hat, then b_hat."""
         for name, rows, weights, b in self._parts():
             for i, row in enumerate(rows):
                 yield from row_places(row, f"{name}[{i + 1}]")
@@ -201,7 +201,7 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 class StageEntry(Struct, forbid_unknown_fields=True):
     """A product of exponentials that is applied to stage ``from`` (counted from 1), or to y0 if the key
-    ``from`` is missing. ``exp`` contains one row of coefficients for each exponential; the first exponential
+    ``from`` is missing. ``exp`` contains one row of coefficients for each exponential. The first exponential
     acts first."""
 
     exp: list[list[Coefficient]] = []
@@ -209,23 +209,23 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """A second update of lower order that uses the same stages. In a method of s stages, the value s + 1 of
-    the key ``from`` means that the product is applied to the result of the first update."""
+    """A second update of lower order, with the same stages. In a method with s stages, ``from`` = s + 1 means
+    that the product acts on the result of the first update."""
 
     order: Annotated[int, Meta(ge=1)]
 
 
 class LowStorage(Struct, forbid_unknown_fields=True):
-    """A 2N scheme, which stores only two registers, Y and K. Let F be the vector field and h the step size.
-    Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y."""
+    """A 2N scheme with two registers Y and K. Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y,
+    where F is the vector field and h the step size."""
 
     A: list[Coefficient]
     B: list[Coefficient]
 
 
 class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "cf"``: the file contains either stages and an update, or a low-storage scheme. Such a
-    scheme is converted to stages and an update when the file is read.
+    """The format ``family = "cf"``: a commutator-free method. The file contains either stages and an update,
+    or a low-storage scheme. A low-storage scheme is converted to stages and an update.
 
     ``embedded`` is a second update that uses the same stages.
     """
@@ -240,7 +240,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
     as_products: ClassVar[bool] = True
 
     def verify(self, where: str) -> None:
-        """Check that the file contains either stages and an update, or a low-storage scheme, and that every
+        """Check that the file contains either stages and an update, or a low-storage scheme. Check that every
         stage starts from y0 or from an earlier stage."""
         if self.low_storage:
             if self.stage or self.update:
@@ -274,8 +274,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield "update", self.update
 
     def coefficients(self) -> Places:
-        """Yield A and B of a low-storage scheme, or the exponentials of the stages and the update. Then yield
-        the exponentials of the embedded update."""
+        """Yield A and B of a low-storage scheme, or the rows of the stages and of the update. Then yield the
+        rows of the embedded update."""
         if self.low_storage:
             yield from row_places(self.low_storage.A, "low_storage.A")
             yield from row_places(self.low_storage.B, "low_storage.B")
@@ -287,7 +287,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield from row_places(row, f"embedded.exp[{r + 1}]")
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the commutator-free method and its embedded update, or None in place of a missing update."""
+        """Return the commutator-free method and its embedded update, or None if there is no embedded
+        update."""
         if self.low_storage:
             s = len(self.low_storage.B)
             A, B = (filled_row(values, f"low_storage.{key}", s, ring) for key in "AB")
@@ -345,9 +346,9 @@ FORMATS: dict[str, type[Format]] = {
 
 
 def array_format(names: Collection[str]) -> str:
-    """Return the format of a tableau whose arrays have these names. A format is recognised by the name of one
-    array, its ``distinctive_key``. The arrays of a ``prk`` tableau contain the keys of both ``prk`` and
-    ``rk``; then the alphabetically first format is returned. If no key occurs, the format is ``composition``.
+    """Return the format of a tableau that is stored in arrays with these names. The name of one array
+    identifies a format (``distinctive_key``). The names of a ``prk`` tableau fit both ``prk`` and ``rk``. The
+    alphabetically first format is then returned. If no name fits, the format is ``composition``.
 
     >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
     ('rk', 'prk', 'composition')

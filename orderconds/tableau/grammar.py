@@ -3,18 +3,19 @@ parser reads them, and no text is executed as code.
 
 ::
 
-    sum     = product (("+" | "-") product)*
-    product = signed (("*" | "/") signed)*
-    signed  = ("+" | "-") signed | power
-    power   = atom ["^" (["-"] integer | "(" sum ")")]
-    atom    = integer | decimal | decimal "~" | decimal "d" | name | "sqrt" "(" sum ")" | "(" sum ")"
+    sum      = product (("+" | "-") product)*
+    product  = signed (("*" | "/") signed)*
+    signed   = ("+" | "-") signed | power
+    power    = atom ["^" exponent]
+    exponent = ["-"] integer | "(" ["-"] integer ["/" ["-"] integer] ")"
+    atom     = number ["~" | "d"] | name | "sqrt" "(" sum ")" | "(" sum ")"
+    number   = integer | decimal
 
-``0.5`` is exactly 1/2. ``0.81772~`` is a rounded decimal; it denotes a ball (an interval) whose radius is one
-unit of the last digit. ``0.3333333333333333d`` is a double; it denotes a ball whose radius is a few rounding
-errors (:mod:`orderconds.tableau.doubles`). An exponent is a fraction of integers. ``a^b^c`` is an error,
-because some programs read it as (a^b)^c and others as a^(b^c). This module bounds the length of the text, the
-nesting and the exponents. The module :mod:`orderconds.tableau.evaluate` bounds the size of intermediate
-values.
+``0.5`` is exactly 1/2. The rounded decimal ``0.81772~`` denotes a ball (an interval) whose radius is one unit
+of the last digit. The double ``0.3333333333333333d`` denotes a ball whose radius is a few rounding errors
+(:mod:`orderconds.tableau.doubles`). ``a^b^c`` is an error, because some programs read it as (a^b)^c and
+others as a^(b^c). This module bounds the length of the text, the nesting and the exponents. The module
+:mod:`orderconds.tableau.evaluate` bounds the size of intermediate values.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ class Constant(Struct, frozen=True, cache_hash=True):
     @property
     def is_double(self) -> bool:
         """True if the number was given as a double. The radius ``unit`` of a rounded decimal is always a
-        power of ten; the radius of a double never is."""
+        power of ten, and the radius of a double never is a power of ten."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 
@@ -63,11 +64,11 @@ class Name(Struct, frozen=True, cache_hash=True):
 
 
 class Chain(Struct, frozen=True, cache_hash=True):
-    """Operands that are combined from left to right by ``operators``. A chain does not mix the two groups of
-    operators: + and -, * and /.
+    """Operands that are combined from left to right by ``operators``. A chain contains either the operators +
+    and -, or the operators * and /.
 
-    All operands are stored in one list. The nesting depth of an expression is therefore the nesting depth of
-    its parentheses.
+    Long sums and products are therefore not nested. Only parentheses increase the nesting depth of an
+    expression.
     """
 
     operators: tuple[str, ...]
@@ -75,7 +76,7 @@ class Chain(Struct, frozen=True, cache_hash=True):
 
 
 class Power(Struct, frozen=True, cache_hash=True):
-    """``base^exponent`` with a rational exponent; sqrt(x) is x^(1/2)."""
+    """``base^exponent`` with a rational exponent. For example, sqrt(x) is x^(1/2)."""
 
     base: Expression
     exponent: Fraction
@@ -99,8 +100,8 @@ def parse(text: str, where: str = "") -> Expression:
 
 
 def spell(x: Expression, limit: int | None = None) -> str:
-    """Return the text of an expression. If ``limit`` is given, the text is cut off after the first token at
-    which it has more than ``limit`` characters.
+    """Return the text of an expression. If ``limit`` is given, stop after the first token that makes the text
+    longer than ``limit`` characters.
 
     >>> [spell(parse(text)) for text in ("-(1 - sqrt(2))*3/4", "2^(-1/3)", "0.50~", "1 - (2 - 3)")]
     ['(-(1 - sqrt(2)))*3/4', '2^(-1/3)', '0.50~', '1 - (2 - 3)']
@@ -118,7 +119,7 @@ SUM, SIGN, PRODUCT, POWER, ATOM = range(5)
 
 
 def _level(x: Expression) -> int:
-    """Return the precedence of an expression."""
+    """Return the precedence of the outermost operator of an expression."""
     if isinstance(x, Chain):
         minus = x.operators == ("-",) and x.operands[0] == ZERO
         return SIGN if minus else SUM if x.operators[0] in "+-" else PRODUCT
@@ -154,7 +155,8 @@ def _parts(x: Expression, least: int) -> Iterator[str]:
 
 def _constant(x: Constant) -> str:
     """Return the text of a constant. A double has the suffix ``d``, and a rounded decimal has the suffix
-    ``~``. An exact number is a decimal if its expansion is finite, otherwise a fraction in parentheses."""
+    ``~``. An exact number is printed as a decimal if its expansion is finite, and otherwise as a fraction in
+    parentheses."""
     if x.is_double:
         return f"{'-' if x.value < 0 else ''}{Decimal(repr(abs(float(x.value)))):f}d"
     unit = x.unit or next(
@@ -307,16 +309,15 @@ class _Parser:
         raise self.unexpected()
 
     def followed_by_d(self) -> bool:
-        """Skip the suffix ``d`` if it directly follows the last token. Return True if the suffix was
-        present."""
+        """Skip the suffix ``d`` of the preceding number, if present. Return True if it is present."""
         (_, content, at), (kind, suffix, after) = self.tokens[self.position - 1 : self.position + 1]
         follows = kind == "name" and suffix == "d" and after == at + len(content)
         self.position += follows
         return follows
 
     def double(self, content: str) -> Constant:
-        """Return the double nearest to a decimal, as a ball. Zero is exact. Raises TableauError if the
-        decimal is too large for a double."""
+        """Return the double nearest to a decimal, as a ball. The result is exact only for zero. Raises
+        TableauError if the decimal is too large for a double."""
         x = float(content)
         if x == inf:
             raise self.error(f"{content[:20]} ... in {self.shown()}", "a number in the range of doubles")
