@@ -1,11 +1,12 @@
 """Shorten the critical path after each function call.
 
 A processor executes several products at a time, but a step that consists of flows is one chain of dependent
-operations: an angle, its sine and cosine c_1 and c_2, the rotated attitude, the new momentum, the next angle.
-The sine and cosine take long to compute. An expression that is linear in them, such as k (m - g (d + c_1 v +
-c_2 w)), is rewritten as k (m - g d) - c_1 (k g v) - c_2 (k g w). The products in parentheses can be computed
-before c_1 and c_2 are known. Then only three operations, not six, must wait for c_1 and c_2. The rewriting is
-exact, but adds a few products, so only the longest chain is rewritten.
+operations. The chain contains an angle, the sine c_1 and the cosine c_2 of the angle, the rotated attitude,
+the new momentum, and the next angle. The sine and cosine take long to compute. Some expressions are linear in
+c_1 and c_2. For example, this module rewrites k (m - g (d + c_1 v + c_2 w)) as k (m - g d) - c_1 (k g v) -
+c_2 (k g w). The products in parentheses can be computed before c_1 and c_2 are known, so fewer operations
+must wait for c_1 and c_2. The rewriting is exact in real arithmetic, but adds a few products. Therefore only
+the longest chains are rewritten.
 """
 
 from __future__ import annotations
@@ -20,9 +21,9 @@ TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1,
 """Latency of operations, in units of an addition.
 
 On x86 processors an addition or a product of doubles takes about four cycles, a division about 14. The
-latency of a function is the latency of the polynomial that approximates it. ``benchmarks/emitted.py`` times
-the resulting steps. The exact values matter little. If the latency of a division is set to 2 or 8, the code
-of five explicit methods of the gallery does not change. If the latency of a call is set to 3 or 12, only
+latency of a call is the latency of a polynomial that approximates the function. ``benchmarks/emitted.py``
+times the resulting steps. The exact values matter little. If the latency of a division is set to 2 or 8, the
+code of five explicit methods of the gallery does not change. If the latency of a call is set to 3 or 12, only
 splitting:blanes_moan_rkn4 on fast_heavy_top changes, with the same number of operations."""
 
 ATOMS = frozenset({"call", "div"})
@@ -32,16 +33,16 @@ SLACK = 1
 """Chains are rewritten if they are shorter than the longest chain by at most this number of additions.
 
 A chain of nearly the longest length would otherwise become the critical path. The exact value hardly matters:
-the values 0, 2 and 4 give the same emitted files; without a limit the splittings of fast_heavy_top change. To
-repeat this comparison, edit the value and run ``orderconds regenerate --check``.
+the values 0, 2 and 4 give the same emitted files. Without a limit, the emitted splittings for the scene
+fast_heavy_top change. To repeat this comparison, edit the value and run ``orderconds regenerate --check``.
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products. Each product has at most one factor that is a late value, which is the result of a slow
-operation. The dictionary contains, for each late value, a sign, the product of the factors that are constant
-in a run, and the product of the other factors.
+"""A sum of products in which each product has at most one late value as a factor.
 
-The key None belongs to the product without a late value."""
+A late value is the result of a slow operation. The dictionary maps each late value to a sign, the product of
+the factors that are constant in a run, and the product of the other factors. The key None belongs to the
+product without a late value."""
 
 
 def chain(kernel: Kernel) -> int:
@@ -81,19 +82,19 @@ def _measured(root: Expr, ready: dict[int, int]) -> int:
 
 
 def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -> tuple[Expr, ...]:
-    """Return the roots with their longest chains shortened.
+    """Return the expressions ``roots`` with their longest chains of operations shortened.
 
-    ``invariant`` names the symbols that do not change from step to step: products of these symbols cost
-    nothing. In every case these products are formed first. If ``spread`` is false, products with sums of the
-    results of slow operations are not expanded.
+    ``invariant`` names the symbols that do not change from step to step. Products of these symbols are always
+    formed first, because a compiler moves such products out of the loop over the steps. If ``spread`` is
+    false, products with sums of the results of slow operations are not expanded.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
 
 @dataclass
 class _Chains:
-    """Expressions, with two times for each node: when its value is ready, and how long the longest chain
-    after it takes."""
+    """Expressions with two times for each node: the time at which the value is ready, and the length of the
+    longest chain that follows."""
 
     roots: tuple[Expr, ...]
     invariant: frozenset[str]
@@ -151,13 +152,13 @@ class _Chains:
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the nodes on long chains that may be rewritten as sums over late values: those for which the
-        next operation on the chain is not linear in the late values."""
+        """Return the nodes on long chains that may be rewritten as sums over late values. For these nodes,
+        the next operation on the chain is not linear in the late values."""
         ends = set()
         for node in self.nodes:
             for arg in node.args:
-                # If the chain through this argument is shorter than the longest chain by more than ``SLACK``,
-                # shortening it would gain nothing.
+                # Shortening the chain through this argument would gain nothing if the chain is shorter than
+                # the longest chain by more than ``SLACK``.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
                 others = [a for a in node.args if a is not arg]

@@ -1,9 +1,10 @@
 """Flows deferred across steps: the leading flow of a step, and flows that commute with all other flows.
 
-If a step of a splitting method ends with the flow of a part, and the next step begins with a flow of the same
-part, these two flows are joined into one. Only the first step of a run then needs a separate leading flow. If
-the flow of a part commutes with all other flows, it is applied once for all steps. Both changes are exact;
-:class:`codegen.ir.kernel.Deferred` states the identities.
+A splitting method composes flows of parts of the vector field. If a step ends with the flow of a part, and
+the next step begins with a flow of the same part, these two flows are joined into one. Only the first step of
+a run then needs a separate leading flow. If the flow of a part commutes with all other flows, this flow is
+applied once, after the last step, for all steps. Both changes are exact. :class:`codegen.ir.kernel.Deferred`
+states the identities.
 """
 
 from __future__ import annotations
@@ -25,13 +26,13 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Parted:
-    """A program that is split into three programs; ``begin`` or ``finish`` is None if it would contain no
-    flows.
+    """A program that is split into three programs for the beginning, the steps and the end of a run.
 
     ``begin`` is applied before the first step, ``core`` in each step and ``finish`` after the last step.
-    ``core`` reads a variable :data:`LEAD`, the duration of its joined flow, and ``finish`` a variable
-    :data:`ELAPSED`, the time of all steps. In units of h, ``last`` is the duration of the joined flow in the
-    last step of a run, and ``later`` its duration in every other step.
+    ``begin`` and ``finish`` are None if they would contain no flows. ``core`` reads a variable :data:`LEAD`,
+    the duration of its joined flow, and ``finish`` a variable :data:`ELAPSED`, the time of all steps. In
+    units of h, ``last`` is the duration of the joined flow in the last step of a run, and ``later`` its
+    duration in every other step.
     """
 
     begin: Program | None
@@ -49,7 +50,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # The flows are compared numerically at sample points. The formula of a vanishing Lie bracket need not
     # simplify to zero, so a symbolic test could fail.
     commute = commuting(scene)
-    # Only flows of duration h without a stage time are applied once for all steps.
+    # A part can be deferred to the end of a run only if all its flows have the duration h and read no stage
+    # time.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     # The flow of a part in ``free`` commutes with all other flows, so it can be applied after the last step.
@@ -118,8 +120,8 @@ def _joined(
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    # One variable contains the duration of all joined flows, so only pairs with the durations of the first
-    # pair are kept.
+    # One variable contains the duration of all joined flows. Therefore only pairs with the same durations as
+    # the first pair are joined.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
@@ -140,8 +142,8 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
-    """Return the program of some flows; if a variable is given with a flow, the variable is the flow's
-    duration."""
+    """Return the program that applies the flows ``letters``, with the given durations. The variables ``more``
+    are additional inputs."""
     # All stage times are copied; the kernel assigns only those that its outputs read.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]

@@ -1,8 +1,9 @@
-"""The kernels of a continuous extension: the coefficients of a step, and the state at a time inside the step.
+"""Kernels of a continuous extension, which gives the state at any time inside a step.
 
 The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is a polynomial in theta with values
 in the Lie algebra. One kernel computes the coefficients of sigma from the state at the beginning of the step.
-The other kernel reads the coordinates of an element x of the Lie algebra, and computes the point exp(x).y.
+The other kernel reads the coordinates of an element x of the Lie algebra, and computes the point exp(x).y,
+where y is the state at the beginning of the step.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
     """Return the kernels of a program whose outputs are the coefficients of a continuous extension."""
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))
-    # ``COMBINED`` excludes outlined functions, whose names could be equal to names of functions of the step.
+    # ``COMBINED`` switches outlining off: names of outlined functions could be equal to names that the kernel
+    # of the step already uses.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
     degree = len(program.outputs)
     return Continuous(coefficients, _moved(coefficients, problem), degree, order)

@@ -1,9 +1,7 @@
-"""Blocks of equations before they become loops: images, starting values, and the matrix of Newton's method.
+"""Implicit equations u = g(u) of a step, before they become loops that solve them.
 
-The image of an unknown u is the right-hand side g(u) of its equation u = g(u). Newton's matrix 1 - g' is
-differentiated from the expressions of the images. After the loop, later statements read the unknowns in place
-of the images. Other values of the body that are read later are computed again from the final unknowns if this
-costs less than half a sweep.
+The image of an unknown u is the right-hand side g(u). Newton's matrix 1 - g' is obtained by differentiating
+the expressions of the images. After the loop, later statements read the unknowns in place of the images.
 """
 
 from __future__ import annotations
@@ -27,9 +25,10 @@ MANY = 12
 expanded.
 
 With few unknowns, unexpanded values occupy registers that the sweeps need. With many unknowns, expanded
-values make the text longer. Near the limit the choice matters little: vcf:cf4 on dipole, with 12 unknowns,
-has the same operations in both forms, and 439 assignments without expansion or 472 with it. To count them,
-evaluate ``len(list(compile_method("dipole", "vcf:cf4").kernel.lets()))``."""
+values make the emitted code longer. Near the limit the choice matters little. For example, vcf:cf4 on dipole
+has 12 unknowns. The kernel has the same number of operations in both forms, and 439 assignments without
+expansion or 472 with expansion. To count them, evaluate ``len(list(compile_method("dipole",
+"vcf:cf4").kernel.lets()))``."""
 
 LONGEST_MATRIX = 1500
 """The largest number of operations of an exact matrix of Newton's method; a longer matrix is replaced by the
@@ -41,14 +40,18 @@ its emitted header states. A limit of 6000 gives the same kernels."""
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
 """Costs of operations in additions or products; other operations cost one.
 
-These are rough latencies. They only decide whether one cost is below half of another cost, so exact values do
-not matter."""
+The weights are rough latencies. The exact values do not matter, because the weights only decide whether one
+cost is below half of another cost."""
 
 
 @dataclass(frozen=True)
 class Block:
-    """A block of equations that is not yet a loop with assignments: the names of its unknowns, and the
-    expressions of the starting values, of the images, and of Newton's matrix."""
+    """A block of equations u = g(u) as expressions: the names of the unknowns, the starting values, the
+    images g, and Newton's matrix.
+
+    ``kept`` contains the names and expressions of body values that later statements read. ``changes`` are the
+    names of the last changes of the unknowns.
+    """
 
     label: str
     unknowns: tuple[str, ...]
@@ -71,9 +74,10 @@ def compared(
     """Return the block with residuals in place of images, and with a first-order matrix of Newton's method.
 
     The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
-    has no residuals, or if the residuals have no such derivative. The last change of the unknowns also
-    changes body values that are read later. Such a value is corrected to first order in this change, if the
-    correction takes less than half as many operations as computing the value again.
+    has no residuals, or if the residuals cannot be expanded in h. Later statements may read values that the
+    loop body computes. The last change of the unknowns also changes these values. The function corrects a
+    value to first order in the last change, if the correction takes less than half as many operations as
+    computing the value again.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -87,8 +91,8 @@ def compared(
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
         rows = linear.jacobian(residuals)
-    # A residual may have a pole or a branch point at h = 0. In this case None is returned, and the caller
-    # uses the exact matrix.
+    # A residual with a pole or a branch point at h = 0 cannot be expanded. The caller then uses the exact
+    # matrix.
     except NotLinearised:
         return None
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)

@@ -1,7 +1,8 @@
-"""From programs to kernels for large linear problems (:mod:`codegen.ir.linear_array_step`).
+"""Translates programs for large linear problems y' = A(t) y to kernels (:mod:`codegen.ir.linear_array_step`).
 
-A program for y' = A(t) y is homogeneous: a value of the algebra is a power of h times a polynomial in the
-matrices h A(t_i). The builder writes each exponent as such a polynomial with constant coefficients.
+Every value of the algebra in such a program is a power of h times a polynomial in the matrices h A(t_i). Here
+the t_i are stage times. The builder writes each exponent as a polynomial in these matrices with constant
+coefficients.
 """
 
 from __future__ import annotations
@@ -32,8 +33,8 @@ from codegen.scene.linear_scene import LinearScene
 from codegen.scene.problem import TIME, Problem
 
 LARGE_SUM = 1e-6
-"""The limit below which a sum of coefficients counts as zero. The sum is that of the coefficients of a linear
-combination of the matrices h A(t_i)."""
+"""The limit below which the sum of the coefficients of a linear combination of matrices h A(t_i) counts as
+zero."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
@@ -44,8 +45,10 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 
 
 def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
-    """Return the compiled method. The passes depend neither on the entries nor on the size of A, so they are
-    verified on a scene in which A has three rows.
+    """Return the compiled method.
+
+    The optimisation passes depend neither on the entries nor on the size of A. Therefore the passes are
+    verified on a model scene in which A is a 3 x 3 matrix.
 
     MethodError is raised for a method with step control, for implicit stages, and for a method with an
     operation that is not a product of A and a vector.
@@ -81,8 +84,11 @@ def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass(frozen=True)
 class _Value:
-    """A value of the algebra: h^-``power`` times the sum of two linear combinations. ``nodes`` contains the
-    coefficients of the matrices h A(t_i), and ``commutators`` those of commutators, each by index."""
+    """A value of the algebra: h^-``power`` times a linear combination of matrices h A(t_i) and commutators.
+
+    ``nodes`` maps the index i of a matrix to its coefficient. ``commutators`` maps the index of a commutator
+    to its coefficient.
+    """
 
     power: int
     nodes: dict[int, Number] = field(default_factory=dict)
@@ -95,7 +101,8 @@ class _Value:
 
 @dataclass
 class _Builder:
-    """Collects the nodes, letters and commutators of one step."""
+    """Collects the nodes, letters and commutators of one step. A node is a time t_i at which A is evaluated.
+    A letter is a linear combination of the matrices h A(t_i)."""
 
     program: Program
     scene: Problem
@@ -121,8 +128,8 @@ class _Builder:
                 self.moments[var] = self.domain.space.sym(var.name)
         ((_, end),) = self.program.outputs
         exponents: list[Element] = []
-        # The points of stages are not needed, because A does not depend on them: only the chain of
-        # exponentials from the given point to the new one is computed.
+        # A does not depend on the stage points, so the stage points are not computed. Only the exponentials
+        # that move the old state to the new state are needed.
         for x in self.chain(end, statements):
             for var in _needed(x, statements):
                 self.run(statements[var])
@@ -142,7 +149,7 @@ class _Builder:
         )
 
     def chain(self, end: Var, statements: dict[Var, Assign]) -> list[Var]:
-        """Return the exponents whose exponentials move the given point to ``end``, in order."""
+        """Return the exponents whose exponentials, applied in this order, move the old state to ``end``."""
         result: list[Var] = []
         while end in statements:
             assign = statements[end]

@@ -1,15 +1,17 @@
-"""From programs to steps on Fourier modes (:mod:`codegen.ir.mode_step`).
+"""Translates programs for semilinear problems u' = L u + N(u) to steps on Fourier modes.
 
-On one mode, L is a number lambda, and the affine maps u -> exp(t lambda) u + c form a group. Its algebra has
-the elements (a, b) with the velocity a lambda u + b. Here a program is executed with formulas: a is a number,
-and b a linear combination of the values of N whose coefficients are functions of z = h lambda. Three formulas
-are sufficient:
+On one Fourier mode, L is a number lambda. The affine maps u -> exp(t lambda) u + c form a group. An element
+(a, b) of its Lie algebra has the velocity a lambda u + b. This module executes a program
+(:mod:`codegen.ir.mode_step` describes the result) with formulas. In these formulas a is a number, and b is a
+linear combination of the values of N. The coefficients of b are functions of z = h lambda. Three formulas are
+sufficient:
 
 - exp(h (a, b)).u = exp(a z) u + h phi_1(a z) b;
 - [(a, b), (c, d)] = (0, lambda (a d - c b));
 - dexp^{-1}_{h (a, b)} (c, d) = (c, beta d + (1 - beta) c b/a), where beta = a z/(exp(a z) - 1).
 
-The first and the last follow from the second: f(ad) = f(0) + (f(a z) - f(0))/(a z) ad for the power series f.
+The first and the third formula follow from the second. For a power series f and the operator ad = ad_{h (a,
+b)}, they use f(ad) = f(0) + (f(a z) - f(0))/(a z) ad. The function phi_1 is (exp(z) - 1)/z.
 """
 
 from __future__ import annotations
@@ -72,7 +74,7 @@ ZERO = Number.rational(0)
 @dataclass(frozen=True)
 class _Element:
     """The element h^power (a, b) of the algebra, where b is a linear combination of values of N. The zero
-    element may be combined with elements of any power."""
+    element may be added to elements with every power of h."""
 
     a: Number
     b: Sum
@@ -106,7 +108,8 @@ class ModeMethod:
 def mode_method(scene: Problem, method: Method) -> ModeMethod:
     """Return the compiled method; MethodError is raised for implicit methods.
 
-    The passes do not read formulas of the field, so they are verified on a model problem with one mode.
+    The optimisation passes do not read the formulas of the field, so the passes are verified on a model
+    problem with one mode.
     """
     model = model_of(scene)
     problem, lowered = problem_for(model, method), lower(model, method)
@@ -235,7 +238,8 @@ class _Execution:
         powers = {c.power + x.power for c, x in parts}
         if not powers:
             return _Element(ZERO, {}, 1)
-        # All terms of a sum have the same power of h, because h and L occur in products h L only.
+        # All terms of a sum have the same power of h: a consistent method uses h and the field only in
+        # products.
         (power,) = powers
         total = ZERO
         for c, x in parts:
@@ -261,8 +265,8 @@ class _Execution:
     def _bracket(self, x: _Element, y: _Element) -> _Element:
         z = Multiplier.of(POWER, ONE)
         b = _sum([(z.scaled(x.a), y.b), (z.scaled(-y.a), x.b)])
-        # The bracket contains the factor lambda = z/h, so its power of h is one less than the sum of the
-        # powers of x and y.
+        # The bracket contains the factor lambda = z/h. Therefore the power of h in the bracket is one less
+        # than the sum of the powers of x and y.
         return _Element(ZERO, b, x.power + y.power - 1)
 
     def _truncated(self, x: _Element, y: _Element, order: int) -> _Element:
@@ -281,7 +285,8 @@ class _Execution:
             return y
         assert x.power == 1
         if x.a.is_zero:
-            # In the limit a -> 0 the result is (c, d) - [h (0, b), (c, d)]/2 = (c, d + z c b/2).
+            # For x = h (0, b) and y = (c, d), the series ends after one bracket: the result is y - [x, y]/2 =
+            # (c, d + z c b/2).
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)

@@ -1,8 +1,8 @@
 """Matrices of Newton's method for u = g(u): 1 - g' exactly, or to first order in h.
 
-The first order suffices for short steps: one correction then reduces the error by a factor of O(h^2). The
-first-order matrix contains derivatives at h = 0 only, so it is cheap enough to compute in every step.
-Inverses of small matrices are expanded by cofactors.
+The first order suffices for short steps: one Newton correction then reduces the error by a factor of O(h^2).
+The first-order matrix contains derivatives at h = 0 only, so a step can compute this matrix cheaply. Inverses
+of small matrices are expanded by cofactors.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     # The roots are evaluated again with h = 0. A substitution without evaluation would not simplify
     # expressions that become constant.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
-    # The names are sorted, so that the numbers of new nodes do not depend on the order of a set.
+    # The names are sorted, so that new nodes are created in the same order in every run of the compiler.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
     return evaluate(roots, _AtZero(space), values)
 
@@ -99,7 +99,7 @@ def inverse(rows: Rows) -> Rows:
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
     # Cofactors need no pivoting, and so no branches that depend on data. Without pivoting the inverse may be
-    # less accurate, which slows the iteration down but does not change its limit.
+    # less accurate. An inaccurate inverse slows the iteration down, but does not change the solution.
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor

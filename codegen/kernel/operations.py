@@ -1,4 +1,4 @@
-"""The cost of a step: arithmetic and calls outside loops, and in one sweep of each loop."""
+"""Counts the operations and function calls of a step, outside loops and in one sweep of each loop."""
 
 from __future__ import annotations
 
@@ -72,9 +72,9 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 
     Some kernels have no outputs, and their operations are counted in other ways. For a Taylor polynomial, the
     computation of its coefficients and its evaluation are counted. For a step with whole matrices, a typical
-    number of terms of each exponential is assumed. For a lattice, the operations of one site are counted; for
-    a flow of pairs, these are the operations of one pair. For a step on Fourier modes, only the Fourier
-    transforms are counted.
+    number of terms of each exponential is assumed. For a lattice, the operations of one site are counted. For
+    an exact flow that acts on pairs of sites, the operations of one pair are counted. For a step on Fourier
+    modes, only the Fourier transforms are counted.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
@@ -148,8 +148,9 @@ def costs(kernel: Kernel) -> list[str]:
         # The end of a run adds the change of the momentum: mu + (after - before) takes two additions for each
         # component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # At its beginning a run computes m = inward(q, mu) and outward(q, m), where mu is the momentum of the
-        # state. At its end it computes outward(q', m') from the new state; see class Carried.
+        # A run begins by computing m = inward(q, mu) and outward(q, m), where q is the position and mu the
+        # momentum of the state. A run ends by computing outward(q', m') from the last position q' and
+        # momentum m' (see class Carried).
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")

@@ -1,9 +1,8 @@
-"""Outlined functions: a tree of operations that a step repeats becomes one function, which the step calls
-several times.
+"""Outlined functions: a tree of operations that a step repeats becomes one function.
 
-The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. If an
-input or a coefficient is the same constant in every call, it is not an argument. A function computes only
-those results of the tree that the step reads.
+The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. An input
+or a coefficient that is the same constant in every call is not an argument. A function computes only those
+results of the tree that the step reads.
 """
 
 from __future__ import annotations
@@ -42,8 +41,8 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Format the coefficient ``c`` of a term: the name of its symbol ``x``, or its value if ``x`` is a
         constant. A factor h follows for each power of h."""
-        # The header of emitted code shows the name of the argument without the prefix, which is the
-        # function's name.
+        # The header of emitted code shows the name of the argument without the name of the function, which is
+        # a prefix of the symbol.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
@@ -66,8 +65,8 @@ def function(
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The tree is executed again with symbols as inputs, because the step's own expressions were simplified
-    # for particular operands and are not general.
+    # The tree is executed again with symbols as inputs. The expressions of the step cannot be used, because
+    # they were simplified for particular operands.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -161,9 +160,9 @@ class WithFunctions:
 def _sum(
     coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
 ) -> Values:
-    """Return a linear combination whose coefficients are symbols. Vectors with equal coefficients are added
-    before they are multiplied by this coefficient."""
-    # c x + c y = c (x + y), so terms with equal coefficients take one product together for each component.
+    """Return a linear combination of vectors. ``symbol`` maps each coefficient to its symbol. Vectors with
+    equal coefficients are added before the multiplication."""
+    # c x + c y = c (x + y), so terms with the same coefficient c need only one product for each component.
     groups: dict[Coefficient, Values] = {}
     for c, x in zip(coefficients, args, strict=True):
         groups[c] = tuple(a + b for a, b in zip(groups[c], x, strict=True)) if c in groups else x
@@ -177,8 +176,8 @@ def _sum(
 def rewritten(
     roots: Sequence[Expr], calls: Mapping[int, tuple[str, int, list[Expr]]], space: Space
 ) -> list[Expr]:
-    """Return the roots with calls in place of some nodes. ``calls`` maps the id of such a node to the name of
-    a function, the index of a result, and the arguments. The arguments are rewritten in the same way."""
+    """Return the expressions ``roots`` with calls in place of some nodes. ``calls`` maps the id of a replaced
+    node to the name of a function, the index of a result, and the arguments."""
     new: dict[int, Expr] = {}
     for root in roots:
         # Arguments of replaced nodes are rewritten as well. The traversal uses an explicit stack, because

@@ -2,10 +2,9 @@
 
 Operations of a program are joined into trees (:mod:`codegen.kernel.repeated_trees`). Trees of one shape
 differ only in their operands and in the coefficients of their sums. Operands and coefficients become the
-arguments of one function (:mod:`codegen.kernel.outlined_functions`). The function computes only the results
-that are read, and has only the arguments on which these results depend. Separate calls cannot share common
-subexpressions, such as the sine and cosine of one angle, and compute them again. Smaller code is worth this
-cost only for long steps, so only long steps are outlined.
+arguments of one function (:mod:`codegen.kernel.outlined_functions`). Two calls cannot share common
+subexpressions, such as the sine and cosine of one angle. Each call computes them again. Smaller code is worth
+this cost only for long steps, so only long steps are outlined.
 
 The rewriting is exact. To verify it, the old and the new expressions are evaluated at one point.
 """
@@ -30,8 +29,8 @@ LONG, LONG_EXPLICIT = 700, 500
 """Two limits, for implicit and for explicit steps: a step with fewer assignments than its limit is not
 outlined.
 
-An explicit step has no loop, so its code fills the instruction cache sooner: with outlining, a step of cg:cg5
-on the dipole has 545 lines instead of 2345, and takes a third less time. In a test with nine methods of the
+An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining reduces a
+step of cg:cg5 on dipole from 2345 lines to 545, and its time by a third. In a test with nine methods of the
 gallery, no kernel changed when either limit was doubled. To choose the limits again, set both to 0 and run
 ``orderconds bench dipole`` for methods whose steps have lengths near the limits."""
 
@@ -39,24 +38,24 @@ WORTH = 0.85
 """The outlined step is used if its number of assignments is at most this fraction of the number without
 outlining.
 
-Calls cost time, too, so the step must become much shorter. The exact limit hardly matters: the fraction is
-between 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4``
-on heavy_top. It is 0.86 for one variant of ``cg:cg5`` on heavy_top. :mod:`codegen.kernel.translate` computes
-the fraction."""
+Calls cost time, so the step must become much shorter. The exact limit hardly matters: the fraction is between
+0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4`` on
+heavy_top. The fraction is 0.86 for one variant of ``cg:cg5`` on heavy_top. :mod:`codegen.kernel.translate`
+computes the fraction."""
 
 AGREE = 1e-9
 """Largest relative difference of values that are equal up to rounding.
 
 Outlining hardly changes the operations, so the difference is at most 1.4e-17 for the methods named at
-:data:`WORTH`. A wrong argument or result would change the leading digits. Any limit well between these two
-sizes is suitable."""
+:data:`WORTH`. A wrong argument or result would change the leading digits. The limit only has to separate
+these two cases."""
 
 ATTEMPTS, DIGITS = 8, 60
 """The verification needs one point at which all values are finite. It tries ATTEMPTS points in doubles, then
 as many points in numbers with DIGITS digits, which do not overflow."""
 
 Shape = tuple[Key, tuple[int, ...]]
-"""A function is identified by the key of its trees and by the indices of the results that are read."""
+"""The identification of a function: the key of its trees, and the indices of the results that are read."""
 
 
 @dataclass
@@ -77,8 +76,9 @@ class Outline:
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
-        # The level of a value is the last block on which the value depends. A tree is outlined only if its
-        # inputs and results belong to the same loop, and the levels decide this (``_even``).
+        # The level of a value is the number of the last block on which the value depends. A tree is outlined
+        # only if its inputs and results have the same level (``_even``), because a call must be in the same
+        # loop as its results.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -143,8 +143,8 @@ class Outline:
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
         """Return the trees to outline, grouped by shape and by the results that are read."""
-        # Removing a tree changes which results of the other trees are read, so repeat until no tree is
-        # removed.
+        # Removing a tree changes which results of the other trees are read. Therefore the loop repeats until
+        # no tree is removed.
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
@@ -188,15 +188,14 @@ class Outline:
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Return True if all results of a tree that are read depend on the same blocks as the inputs of the
-        tree.
+        """Return True if each result of a tree that is read has the largest level of the tree's inputs.
 
-        The results must also have been created after the inputs: a node that is older than an input is shared
+        The results must also have been created after the inputs. A node that is older than an input is shared
         with another operation.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # A result that depends on fewer blocks than the inputs should be computed outside the loop, but the
-        # call is inside.
+        # A result with a lower level than the inputs should be computed outside the loop, but the call is
+        # inside the loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
         # Later nodes have larger numbers, so a node with a smaller number than an input was not computed from
         # this input.
@@ -206,8 +205,8 @@ class Outline:
     def _verify(self, before: Sequence[Expr], after: Sequence[Expr]) -> None:
         """Raise :class:`codegen.ir.verify.IllFormed` if the expressions ``after``, which contain calls, have
         other values than ``before``. Raise MethodError if ``before`` is not finite at any test point."""
-        # The test values are sines of fixed arguments and the names are sorted, so every verification of the
-        # same step uses the same points.
+        # The test values are sines of fixed arguments, and the names are sorted. Therefore every verification
+        # of the same step uses the same points.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}

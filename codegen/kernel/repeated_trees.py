@@ -1,9 +1,8 @@
-"""Repeated trees: groups of assignments that occur several times. Each of these groups becomes one outlined
-function.
+"""Finds repeated trees: groups of assignments that occur several times and can become one outlined function.
 
 If only one operation reads a value, one function can execute both the operation that computes the value and
-the operation that reads it. The two operations then form a tree. Pairs of trees that occur often are joined
-to larger trees. Pairs whose joining saves the most lines are joined first. Trees with equal keys have the
+the operation that reads the value. The two operations then form a tree. Pairs of trees that occur often are
+joined to larger trees. The pairs that save the most lines are joined first. Trees with equal keys have the
 same operations, but may have different operands and different coefficients in their sums.
 """
 
@@ -26,15 +25,15 @@ NEVER = (Advance, Zero, Identity, *FLOWS)
 NODES = 3
 """The average number of operations on a line of emitted code, over the gallery.
 
-This number converts operations to lines. The values 2, 3 and 5 give the same emitted files (to repeat this
-comparison, edit the value and run ``orderconds regenerate --check``). The value matters for longer steps: on
-dipole, cg:cg5 has 6611, 6155 and 6467 operations and 471, 454 and 394 assignments for the values 2, 3 and
-5."""
+This number converts operations to lines. The values 2, 3 and 5 give the same emitted files. To repeat this
+comparison, edit the value and run ``orderconds regenerate --check``. The value matters for longer steps. For
+the values 2, 3 and 5, the step of cg:cg5 on dipole has 6611, 6155 and 6467 operations, and 471, 454 and 394
+assignments."""
 
 Values = tuple[Expr, ...]
 
 Key = Hashable
-"""A description of a tree: two trees have equal keys if one function can compute both of them."""
+"""A description of a tree. If two trees have equal keys, one function can compute both trees."""
 
 PairKey = tuple[Key, Key, Key]
 """The keys of two trees, and the key of the tree that results from joining them."""
@@ -43,7 +42,7 @@ PairKey = tuple[Key, Key, Key]
 @dataclass(frozen=True)
 class Execution:
     """One executed assignment with the values of its arguments and of its results. ``place`` is the number of
-    its block, or -1 outside blocks. If ``joined`` is false, it is not joined with other assignments."""
+    its block, or -1 outside blocks. If ``joined`` is false, the assignment is not joined with others."""
 
     assign: Assign
     args: tuple[Values, ...]
@@ -59,8 +58,8 @@ class Execution:
 
 @dataclass
 class Tree:
-    """Assignments that one function can execute. ``members`` are their indices in the order of execution. The
-    last assignment depends, directly or indirectly, on all others."""
+    """Assignments that one function can execute. ``members`` are the indices of the assignments in the order
+    of execution. The last assignment depends, directly or indirectly, on all others."""
 
     members: list[int]
 
@@ -130,16 +129,15 @@ class Trees:
         owner = {i: i for i in trees}
         while True:
             pairs: dict[PairKey, list[tuple[int, int]]] = {}
-            # The keys are computed once per round and stored, because computing a key takes a walk through
-            # the whole tree.
+            # Computing a key visits the whole tree, so each key is computed only once in a round.
             keys = {i: self.key(t) for i, t in trees.items()}
             count: dict[Key, int] = {}
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
                 user = self._only_user(i)
-                # If a value is joined with its only reader, it is neither computed twice nor returned from
-                # the function.
+                # A value that is joined with its only reader is neither computed twice nor returned from the
+                # function.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
                     # The kind of a pair includes the key of the joined tree, because two equal trees may be
@@ -173,8 +171,8 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # If a tree of the pair also occurs outside such pairs, the function of this tree remains, and the
-        # function of the joined tree repeats the lines of the remaining function.
+        # A tree of the pair may also occur outside pairs of this kind. The function of this tree then
+        # remains, and the function of the joined tree repeats its lines.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Joining replaces two calls by one at each occurrence, which saves about three lines of text.
         return k * 3 - copies
@@ -208,8 +206,11 @@ class Trees:
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
-        """Return the only assignment that reads the results of assignment ``i``. Return None if there are
-        several readers, or if the only reader is in another block or outside all trees."""
+        """Return the index of the only assignment that reads the results of assignment ``i``.
+
+        Return None if there are several readers, or if the only reader is in another block or outside all
+        trees.
+        """
         # The readers are collected in a set, because an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
         if len(users) != 1:
@@ -242,7 +243,8 @@ class Trees:
         return list(given), wires
 
     def key(self, tree: Tree) -> Key:
-        """Return the shape of a tree; it records which coefficients are equal, but not their values."""
+        """Return the shape of a tree. The shape records which coefficients are equal, but not their
+        values."""
         _, wires = self.wiring(tree)
         shape = []
         for i, places in zip(tree.members, wires, strict=True):

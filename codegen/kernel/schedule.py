@@ -1,9 +1,9 @@
-"""Converts a kernel to statements that can be printed. One call computes all Stumpff functions of an
-argument, and powers become products.
+"""Converts a kernel to statements that can be printed.
 
-There are five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
-results), :class:`Invocation` (a call of an outlined function), :class:`Beginning` and :class:`Iteration`.
-No statement after a loop reads the names that this module adds inside the loop.
+One call computes all Stumpff functions of an argument, and powers become products. There are five kinds of
+statement: :class:`Assignment`, :class:`SharedCall` (one call, several results), :class:`Invocation` (a call
+of an outlined function), :class:`Beginning` and :class:`Iteration`. No statement after a loop reads the names
+that this module adds inside the loop.
 """
 
 from __future__ import annotations
@@ -51,8 +51,10 @@ class SharedCall:
 
 @dataclass(frozen=True)
 class Invocation:
-    """The statement ``name = function(arguments)``, in which one call returns all results of an outlined
-    function or of a vector function. The arguments of a vector function are passed as arrays.
+    """The statement ``name = function(arguments)``, where one call returns all results of a function.
+
+    The function is an outlined function or a vector function. The arguments of a vector function are passed
+    as arrays.
     """
 
     name: str
@@ -167,7 +169,8 @@ class Arrangement:
 
 
 def arrange(kernel: Kernel) -> Arrangement:
-    """Return the printable statements of a kernel, in the kernel's order and with the same roundings."""
+    """Return the printable statements of a kernel. Statements keep their order, and operations keep their
+    rounding."""
     # The step and all its loops share one counter of names, because in some target languages a loop has no
     # scope of its own.
     scope = _Scope(
@@ -223,9 +226,8 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # The Stumpff functions of the loop body are recorded separately from the Stumpff functions before the
-    # loop: the arguments in the body depend on the unknowns, so no call before the loop computes these
-    # values.
+    # The Stumpff functions of the loop body are recorded separately from those before the loop. The arguments
+    # in the body depend on the unknowns, so no call before the loop computes these values.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)
@@ -247,8 +249,8 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return a dictionary whose keys are all names of the kernel. The scope adds its counters of new names to
-    this dictionary."""
+    """Return a dictionary whose keys are all names of the kernel. The scope later adds counters of new
+    names."""
     # All names of the kernel are keys, so that no new name is equal to one of them.
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
@@ -284,16 +286,15 @@ class _Scope:
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
         """Return the rewritten assignments and values of a nested block; later statements cannot read their
         names."""
-        # The block has its own scope: it may be skipped at run time, so no later statement may use a name
-        # from it.
+        # The block may be skipped at run time, so no later statement may use a name from the block.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
         return (*body, *inner.take()), rewritten
 
     def inside(self, expressions: list[Expr]) -> _Scope:
-        """Return the scope of a nested block or loop body with these expressions. The body can read all names
-        that are defined before it."""
+        """Return the scope of a nested block or loop body with these expressions. The nested scope can read
+        all names that are defined before the block."""
         # The tables of names are copied, because names of the loop body must not be read outside the loop.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
@@ -314,17 +315,14 @@ class _Scope:
         ``kept`` is false, no assignment is returned, and later expressions use the name of the call."""
         value = self.rewrite(let.value)
         before = self.take()
-        # The shared call has already given this result a name. A second name would only be a copy of the
-        # value.
+        # A call has already given this result a name. A second name would only copy the value.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
         return [*before, Assignment(let.name, value)]
 
     def take(self) -> list[Simple]:
-        """Return the pending statements, which must precede the next statement, and clear the list of pending
-        statements.
-        """
+        """Return the pending statements and clear the list. They must precede the next statement."""
         pending, self.pending = self.pending, []
         return pending
 

@@ -1,10 +1,10 @@
 """Shared angles: arguments that are equal as polynomials become one expression.
 
 Variational methods need the exponentials of h xi, h xi/2 and -h xi/2 in one stage. Each exponential contains
-Stumpff functions of a sum of squares. The sum for h xi/2, the sum for -h xi/2 and a quarter of the sum for h
-xi are equal numbers, but different expressions. Without this module the Stumpff functions of each expression
-would be computed separately. This module detects that the expressions are equal as polynomials in symbols and
-in the results of earlier calls.
+Stumpff functions of the squared norm of its argument. The squared norms of h xi/2 and of -h xi/2, and a
+quarter of the squared norm of h xi, are equal numbers but different expressions. Without this module a step
+would compute the Stumpff functions of each expression separately. This module detects that the expressions
+are equal as polynomials in symbols and in the results of earlier calls.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
 LONGEST = 64
 """Arguments with more nodes than this are not compared.
 
-Equal angles occur in implicit stages, as functions of the unknowns. On the gallery such arguments have 12 to
-42 nodes. Arguments of explicit stages have hundreds or thousands of nodes. Limits of 64, 128 and 256 give the
-same kernels for nine methods of the gallery. With the limit 32 the kernel of one of these methods changes: a
-step of vcf:cf4 on dipole has 286 and not 301 operations."""
+Equal angles occur in implicit stages, as functions of the unknowns. In the methods of the gallery these
+angles have 12 to 42 nodes. Arguments of explicit stages have hundreds or thousands of nodes. Limits of 64,
+128 and 256 give the same kernels for nine methods of the gallery. With the limit 32 the kernel of one of
+these methods changes: a step of vcf:cf4 on dipole has 286 operations instead of 301."""
 
 
 class SharedArguments(ExprDomain):

@@ -31,9 +31,12 @@ EVALUATED = (Field, HamiltonianDerivatives)
 
 @dataclass(frozen=True)
 class Content:
-    """The content of a sweep: the description ``about``, and the pairs ``stored``. Each pair contains rows,
-    and the variable whose value is stored in these rows. ``unknowns`` are the unknowns that the sweep
-    replaces by their images. In the rows ``measured`` the sweep stores how much the unknowns change."""
+    """The content of a sweep over the sites.
+
+    ``about`` describes the sweep. Each pair of ``stored`` contains rows of the lattice's arrays, and the
+    variable whose value the sweep stores in these rows. ``unknowns`` are the unknowns u of equations u = g(u)
+    that the sweep replaces by g(u). In the rows ``measured`` the sweep stores the changes of the unknowns.
+    """
 
     about: str
     stored: tuple[tuple[tuple[Row, ...], Var], ...]
@@ -48,9 +51,12 @@ def blocks_of(problem: Problem) -> tuple[slice, ...]:
 
 
 class Execution:
-    """The symbolic execution of one sweep. ``rows`` maps each stored variable to its rows in the arrays of
-    the lattice, and ``given`` are the variables of the old state. ``coupled`` are the indices of those blocks
-    of the state that the field reads at neighbours."""
+    """The symbolic execution of one sweep.
+
+    ``rows`` maps each stored variable to its rows in the arrays of the lattice. ``given`` are the variables
+    of the old state. ``coupled`` are the indices of the blocks of the state that the field reads at
+    neighbours.
+    """
 
     def __init__(
         self,
@@ -106,8 +112,8 @@ class Execution:
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
     def _field(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> tuple[Expr, ...]:
-        """Return the field at a point. The field also reads this point at neighbours; an earlier sweep has
-        stored these values for all sites."""
+        """Return the field at a point. The field also reads the points of neighbouring sites, which an
+        earlier sweep has stored."""
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])

@@ -1,5 +1,4 @@
-"""Translates splitting methods on a lattice to sweeps. The flow of a part is one loop over sites, or over
-pairs of sites."""
+"""Translates splitting methods on a lattice to sweeps over sites or over pairs of sites."""
 
 from __future__ import annotations
 

@@ -1,10 +1,9 @@
 """Translates programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
 
-All operations of a step program act on one site alone, except the field, which reads the states of
-neighbours. The point at which the field is evaluated must therefore be known at all sites before the
-evaluation: one sweep stores the point, and the next sweep evaluates the field. A sweep stores a sum of
-vectors if it then need not store one of the terms. Later sweeps compute all other sums again from stored
-terms.
+Every operation of a step program except the field acts on one site alone. The field also reads the states of
+neighbours. Therefore one sweep stores, at all sites, the point at which the field is evaluated. The next
+sweep evaluates the field. A sweep stores a sum of vectors if one of the terms then need not be stored. Later
+sweeps compute all other sums again from stored terms.
 """
 
 from __future__ import annotations
@@ -47,12 +46,12 @@ class SiteMethod:
 
 
 def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMethod:
-    """Return the compiled method. The optimisation passes do not read the formulas of the field, so they are
-    verified on one site whose neighbours do not move. With ``newton``, Newton's method solves the equations
-    of a chain.
+    """Return the compiled method.
 
-    A step may evaluate only the field or the derivatives of H; splitting methods use exact flows instead.
-    MethodError is raised for all other methods.
+    The optimisation passes do not read the formulas of the field, so the passes are verified on one site
+    whose neighbours do not move. If ``newton`` is true, Newton's method solves the implicit equations on a
+    one-dimensional lattice. A step may evaluate only the field, the derivatives of the Hamiltonian H, or
+    exact flows of a splitting. MethodError is raised for all other methods.
     """
     lowering = lowering_of(method.family)
     if isinstance(lowering, FlowLowering):

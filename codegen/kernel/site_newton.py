@@ -1,8 +1,10 @@
-"""The matrix of Newton's method for the equations of a chain, to first order in h.
+"""The matrix of Newton's method for implicit equations on a chain (a one-dimensional lattice), to first order
+in h.
 
-The images of the unknowns of a site depend on the unknowns of the site and of its two neighbours, because the
-field reads the stages of the neighbours. The stages of all three sites are expressed as functions of the
-unknowns of these sites. The images are then differentiated with respect to these unknowns.
+Each unknown u of a site satisfies an equation u = g, and g is called the image of u. The image depends on the
+unknowns of the site and of its two neighbours, because the field reads the stages of the neighbours. The
+stages of all three sites are expressed as functions of the unknowns of these sites. The images are then
+differentiated with respect to these unknowns.
 """
 
 from __future__ import annotations
@@ -35,9 +37,9 @@ LEFT, RIGHT = (-1,), (1,)
 class Linearisation:
     """The derivatives of the images of one block with respect to the unknowns of three sites.
 
-    ``rows`` maps each stored variable to its rows, ``given`` are the variables of the old state, and
-    ``makers`` maps each computed variable to its assignment. ``coupled`` are the indices of those blocks of
-    the state that the field reads at neighbours.
+    ``rows`` maps each stored variable to its rows in the arrays of the lattice. ``given`` are the variables
+    of the old state. ``makers`` maps each computed variable to its assignment. ``coupled`` are the indices of
+    those blocks of the state that the field reads at neighbours.
     """
 
     problem: Problem
@@ -53,8 +55,8 @@ class Linearisation:
     inside: set[Var] = field(default_factory=set)
 
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
-        """Return the matrix for a block. ``places`` contains four numbers: the number of unknowns, the first
-        row of the residuals, the first row of the border, and the first row of the matrix.
+        """Return the matrix for the equations ``solve``. ``places`` contains four numbers: the number of
+        unknowns of a site, and the rows at which the residuals, the border and the matrix begin.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
         the field at another stage of the same block.
@@ -87,9 +89,9 @@ class Linearisation:
         return SiteNewton(kernel, loads, exists, size, residual, border, matrix)
 
     def _columns(self) -> tuple[int | None, int, int | None]:
-        """Return three numbers of sites: the left neighbour, the site itself, and the right neighbour. The
-        three blocks of a matrix row belong to the unknowns of these sites. The number of a neighbour that the
-        field does not read is None."""
+        """Return the indices of the left neighbour, of the site itself, and of the right neighbour. The index
+        of a neighbour that the field does not read is None. The three blocks of a matrix row belong to the
+        unknowns of these sites."""
         offsets = self.sites.offsets
         left, right = (offsets.index(x) if x in offsets else None for x in (LEFT, RIGHT))
         return left, OWN, right
@@ -138,7 +140,7 @@ class Linearisation:
         return tuple(map(self.domain.space.sym, names))
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
-        """Return the field at a stage of the site; the field also reads this stage at the neighbours."""
+        """Return the field at a stage of the site. The field also reads the same stage at the neighbours."""
         if site != OWN:
             raise MethodError(
                 "Newton's method cannot solve for stages that depend on the field at other stages",

@@ -1,9 +1,9 @@
-"""The distribution of a program's assignments among sweeps over the sites of a lattice.
+"""Distributes the assignments of a program among sweeps over the sites of a lattice.
 
-A value that the field reads at neighbours is stored by one sweep and read by a later sweep. The equations
-of an implicit method are a block of sweeps that are repeated. Values from outside the block are stored before
-the block begins, and the last sweep of the block replaces the unknowns by their images. Statements after the
-block read the unknowns in place of the images.
+If the field reads a value at neighbours, one sweep stores the value and a later sweep reads it. The equations
+u = g(u) of an implicit method become a block of sweeps that are repeated. The values that the block needs are
+stored before the block begins. The last sweep of the block replaces the unknowns u by their images g(u).
+Statements after the block read the unknowns in place of the images.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from codegen.scene.problem import Problem
 from codegen.scene.sites import Sites
 
 MEASURED = 2
-"""The number of rows that describe an iteration: for each site, one row stores the largest change of an
-unknown, the other row the largest absolute value of an unknown."""
+"""The number of rows for the stopping rule. For each site, one row stores the largest change of an unknown,
+and the other row the largest absolute value of an unknown."""
 
 
 @dataclass
@@ -41,15 +41,18 @@ class _Needs:
 
 @dataclass(frozen=True)
 class _Block:
-    """The equations of a block, and the indices of the first and the last sweep of an iteration."""
+    """The equations of a block, and the indices of the first and the last sweep that an iteration repeats."""
 
     solve: Solve
     first: int
     last: int
 
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
-        """Return the unknowns that the sweep with index ``number`` sets, as pairs (unknown, new value). The
-        sweep before the block sets the starting values; the last sweep of the block sets the images."""
+        """Return the unknowns that the sweep with index ``number`` sets, as pairs (unknown, new value).
+
+        The sweep before the block sets the unknowns to their starting values. The last sweep of the block
+        sets the unknowns to their images.
+        """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
 
@@ -126,8 +129,8 @@ class Planner:
         )
 
     def _points(self, assign: Assign) -> tuple[Var, ...]:
-        """Return the arguments that an assignment reads both at its own site and at neighbours. There are
-        none if its operation does not evaluate the field."""
+        """Return the arguments that an assignment reads both at its own site and at neighbours. Only an
+        evaluation of the field has such arguments."""
         if not isinstance(assign.operation, EVALUATED):
             return ()
         return tuple(assign.args[k] for k in self.coupled)
@@ -181,11 +184,12 @@ class Planner:
             self.makers[target] = assign
 
     def _choose_sums(self) -> None:
-        """Find the sums to store: those that are the only reader of a term which the same sweep computes.
+        """Find the sums to store.
 
-        If such a sum were not stored, the term would have to be stored. A 2N scheme (a low-storage
-        Runge-Kutta method) then stores only one element of the Lie algebra, whatever the number of stages. In
-        programs with equations no sums are stored.
+        A sum is stored if it is the only reader of a term that the same sweep computes. Otherwise the term
+        would have to be stored. With this rule a 2N scheme (a low-storage Runge-Kutta method) stores only one
+        element of the Lie algebra, whatever the number of stages. In programs with implicit equations no sums
+        are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -238,8 +242,8 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # A sweep may overwrite a value that it reads at its own site if no later sweep reads the value.
-            # If it reads the value at neighbours, only the next sweep may overwrite the value.
+            # The last sweep that reads a value only at its own site may overwrite the value. If the last
+            # sweep reads the value at neighbours, only the next sweep may overwrite the value.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]

@@ -1,7 +1,7 @@
-"""Kernels of Taylor polynomials: their coefficients, unrolled or in a loop, and conversions of the state.
+"""Kernels that compute the coefficients of Taylor polynomials, by unrolled code or by a loop.
 
-Unrolled code for degree P contains about P^2 operations for each product in the formulas of the field.
-Unrolled code is faster than a loop if it fits into the instruction cache. Otherwise a loop is used.
+For the degree P, unrolled code contains about P^2 operations for each product in the formulas of the field.
+If unrolled code fits into the instruction cache, it is faster than a loop. Otherwise a loop is used.
 """
 
 from __future__ import annotations
@@ -24,14 +24,17 @@ UNROLLED = 5000
 """The code is unrolled if the estimated number of its operations, the number of products times P^2, is at
 most this number.
 
-The instruction cache of most processors holds 32 KB, about 4000 operations. On heavy_top, with 18 products, a
-step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. If all coordinates of the matrix
-are computed, with 24 products, the step takes 1.5 us with unrolled code and 0.82 us with a loop."""
+P is the degree of the polynomial. The instruction cache of most processors holds 32 KB, about 4000
+operations. On heavy_top, the formulas of the field have 18 products, and a step of taylor(16) takes 0.53 us
+with unrolled code and 0.64 us with a loop. If all coordinates of the rotation matrix are computed, there are
+24 products, and the step takes 1.5 us with unrolled code and 0.82 us with a loop."""
 
 
 def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | None:
-    """Return the kernel that computes the Taylor coefficients in a loop. Return None if unrolled code is
-    used, because it is short enough or because the momentum is in the body frame."""
+    """Return the kernel that computes the Taylor coefficients in a loop, or None if unrolled code is used.
+
+    Code is unrolled if it is short enough, or if the momentum is in the body frame.
+    """
     if problem.body_group is not None:
         return None
     assert problem.evolution is not None
@@ -78,7 +81,8 @@ def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: 
     domain = SharedArguments()
     space = domain.space
     state = tuple(map(space.sym, work.inner.symbols))
-    # The polynomial is in powers of the time and not of t/h, because the step size is not known yet.
+    # The polynomial is written in powers of t and not of t/h, because step-size control chooses h from the
+    # coefficients.
     rows = work.coefficients(domain, degree, state, space.sym(TIME), space.one)
     ends = [space.zero if row[n] is None else row[n] for n in range(1, degree + 1) for row in rows]
     return _kernel(kernel, fields, ends, _names(kernel))
@@ -124,8 +128,11 @@ def _names(kernel: Kernel) -> Callable[[str], str]:
 def _kernel(
     kernel: Kernel, state: Sequence[Field], ends: Sequence[Expr], name: Callable[[str], str]
 ) -> Kernel:
-    """Return a kernel that computes the expressions ``ends`` from the blocks ``state``. It has the name and
-    the scalars of ``kernel``; ``name`` chooses the names of intermediate values."""
+    """Return a kernel that computes the expressions ``ends`` from the blocks ``state``.
+
+    The new kernel has the name and the scalars of ``kernel``. The function ``name`` chooses the names of
+    intermediate values.
+    """
     schedule = Assignments((), ends, {}, name)
     body = tuple(x for x in schedule.run() if isinstance(x, Let))
     return Kernel(kernel.name, tuple(state), kernel.scalars, body, schedule.outputs)

@@ -1,7 +1,7 @@
 """Translates a step program to a kernel: executes the program symbolically, then orders scalar assignments.
 
-Every value becomes a tuple of expressions; equal expressions are a single node (hash-consing). A block
-becomes a loop (:mod:`codegen.kernel.equations`). Expressions become assignments
+Every value becomes a tuple of expressions. Equal expressions are a single node (hash-consing). A block of
+implicit equations becomes a loop (:mod:`codegen.kernel.equations`). Expressions become assignments
 (:mod:`codegen.kernel.assignments`).
 """
 
@@ -48,9 +48,10 @@ from codegen.passes.series_sums import SeriesSums
 from codegen.scene.problem import TIME, Problem
 
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
-"""Four ways to treat the critical path, that is, the longest chain of dependent operations: leave it
-unchanged; multiply step sizes and constants first; order the assignments; apply all methods of
-:mod:`codegen.kernel.critical_path`.
+"""Four ways to treat the critical path, which is the longest chain of dependent operations.
+
+AS_WRITTEN leaves the operations unchanged. COMBINED multiplies step sizes and constants first. ORDERED orders
+the assignments. SHORTENED applies all methods of :mod:`codegen.kernel.critical_path`.
 """
 
 
@@ -69,9 +70,9 @@ def to_kernel(
     ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON; all other
     blocks are solved by fixed-point iteration. With ``variations`` the kernel also propagates a variation of
     the state (``Kernel.vary``). Values of ``chains`` other than :data:`AS_WRITTEN` require a program without
-    blocks. A ``whole`` step, or a step with variations, reads and returns the momentum in the frame that
-    emitted code uses (:mod:`codegen.kernel.carried_momentum`). Without ``outlining``, repeated computations
-    of a long step do not become functions (:mod:`codegen.kernel.outlining`).
+    blocks. If ``whole`` is true or ``variations`` are given, the step reads and returns the momentum in the
+    frame that callers of the emitted code use (:mod:`codegen.kernel.carried_momentum`). If ``outlining`` is
+    true, repeated computations of a long step become functions (:mod:`codegen.kernel.outlining`).
 
     Raises :class:`codegen.errors.SceneError` if an operation of the group has no closed form,
     :class:`codegen.ir.differentiate.NotDifferentiable` if the matrix of Newton's method contains a derivative
@@ -104,8 +105,7 @@ class _Translation:
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.blocks: list[Block] = []
-        # Names chosen by users are reserved first. If a generated name is equal to such a name, the generated
-        # name is changed.
+        # Names chosen by users are reserved first. A generated name that equals a reserved name is changed.
         self.taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
@@ -114,8 +114,8 @@ class _Translation:
     def name(self, base: str) -> str:
         """Return a name that is not taken."""
         candidate = base if base not in self.taken else base + "_"
-        # Underscores are appended, not numbers: xi1_2 is a component, so a number could be misread as an
-        # index.
+        # Underscores are appended, not numbers. A name such as xi1_2 denotes component 2 of xi1, so a reader
+        # could mistake an appended number for an index.
         while candidate in self.taken:
             candidate += "_"
         self.taken.add(candidate)
@@ -146,15 +146,15 @@ class _Translation:
                 "power series, but no emitted code",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # The arguments are treated as symbols. If they were expanded, their terms would no longer be
-            # shared.
+            # The arguments are treated as symbols. If the arguments were expanded, their terms would no
+            # longer be shared.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # An outlined function accepts numbers only, so an operation that samples run-time inputs cannot be
-        # part of it.
+        # An outlined function accepts numbers only. Therefore an operation that samples run-time inputs
+        # cannot be part of an outlined function.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
-        # A block is appended after its body, so the index of this block is the number of blocks that are
-        # already in the list.
+        # A block is appended to the list after its body is executed. Therefore the index of the current block
+        # is the present length of the list.
         place = len(self.blocks) if self.inside else -1
         self.outline.trees.note(assign, args, results, place, joined=nested is None and not reads)
         for target, value in zip(assign.targets, results, strict=True):
@@ -187,8 +187,8 @@ class _Translation:
         # With variations, the images g(u) are differentiated, so residuals must not replace the images.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
-        # If the block has residuals, they are used with a first-order matrix, because this matrix costs less
-        # than the exact matrix.
+        # If the block has residuals, Newton's method uses the residuals and a first-order matrix, which costs
+        # less than the exact matrix.
         if residuals is not None:
             entered = residuals
         elif solver != FIXED_POINT:
@@ -221,8 +221,8 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and the new state of the embedded method. The second is empty if there is no
-        embedded method. All statements must have been executed before."""
+        """Return the new state, and the new state of the embedded method. The second tuple is empty if there
+        is no embedded method. All statements must have been executed before."""
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
         # Both states are transformed to the same frame, because their difference is the error estimate.
@@ -234,20 +234,21 @@ class _Translation:
         # Chains of dependent operations are rewritten before expressions are split into assignments, because
         # rewriting needs whole expressions.
         if self.chains in (COMBINED, SHORTENED):
-            # These symbols are constant in a run of equal steps: a compiler moves products of them out of the
-            # loop.
+            # These symbols are constant in a run of equal steps. A compiler moves products of these symbols
+            # out of the loop over the steps.
             constant = frozenset({"h", LEAD, ELAPSED, *self.scene.runtime})
             outputs = critical_path.run(outputs, constant, spread=self.chains == SHORTENED)
         return outputs, lower
 
     def varied(self, variations: Variations, outputs: State) -> State:
-        """Return the variation of the new state; add equations for the variations of all unknowns."""
+        """Return the variation of the new state, and add equations for the variations of all unknowns to
+        ``blocks``."""
         space, seeds = self.domain.space, variations.seeds(self.domain)
         # The equations for the variations of the unknowns follow their block, because the coefficients of
         # these equations are values at the solution of the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
-        # Tangents are exact derivatives of the executed step, except that the stopping rule is not
+        # Tangents are exact derivatives of the step. Only the stopping rule of the iteration is not
         # differentiated.
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
 
@@ -265,12 +266,12 @@ class _Translation:
             # The kernel for a Jacobian contains no error estimate.
             outputs, lower = self.varied(self.variations, outputs), ()
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
-        # The solutions are subtracted as expressions, so that their common terms cancel exactly.
+        # The two new states are subtracted as expressions, so that their common terms cancel exactly.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # Error estimates and outputs are ordered together, so that they share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # A program with deferred flows may read one of two durations: that of a flow which is joined with the
-        # first flow of the next step (LEAD), or that of all steps of a run (ELAPSED).
+        # A program with deferred flows may read one of two durations. LEAD is the duration of the flow that
+        # is joined with the first flow of the next step. ELAPSED is the duration of all steps of a run.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
@@ -284,18 +285,18 @@ class _Translation:
         return _sampled(kernel, self.scene, self.domain)
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
-        """Return the body, outputs and functions of the kernel; outline functions if this shortens the
-        body."""
-        # The names in use are saved here. The schedule with outlined functions replaces the first schedule,
-        # so both may use the same names.
+        """Return the body, outputs and functions of the kernel. Repeated computations become functions if the
+        code is then shorter."""
+        # The names in use are saved here. If a schedule with outlined functions replaces the first schedule,
+        # the new schedule may use the same names again.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
         # Assignments are counted, not operations, because lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # After chains have been rewritten, the results of repeated operations no longer occur as nodes, so
-        # calls could not replace them.
+        # After the critical path has been rewritten, the results of repeated operations no longer occur as
+        # nodes. Calls could not replace these results.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
@@ -332,9 +333,9 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # ``kept`` contains values of the last sweep, which expressions after the loop correct for the last change
-    # of the unknowns. Values that no root reads are removed, so that functions which only these values call
-    # do not count as used.
+    # ``kept`` contains values of the last sweep. Expressions after the loop correct these values for the last
+    # change of the unknowns. A value that no root reads is removed, so that a function which is called only
+    # for this value does not count as used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # All roots are in one flat list, so that trees that occur in several blocks are found.
@@ -380,16 +381,17 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
     """
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
-    # The equations are linear, so convergence does not depend on the initial value, and zero is used.
+    # The starting values are zero. The equations are linear, so convergence does not depend on the starting
+    # values.
     starts = (space.zero,) * len(own)
     return Block(f"{VARIED}{block.label}", tuple(own), starts, tangents(block.images, seeds))
 
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
-    """Return the kernel with its samples. A sample is the values of the run-time inputs at one time; only
-    samples that the kernel reads are added."""
-    # Passes may have removed every reader of a sample. Such a sample is removed, so that emitted code does
-    # not evaluate the inputs in vain.
+    """Return the kernel with the samples that it reads. A sample consists of the values of all run-time
+    inputs at one time."""
+    # Passes may have removed every reader of a sample. The sample is then removed, so that emitted code does
+    # not evaluate the inputs unnecessarily.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     samples = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))

@@ -1,8 +1,8 @@
 """Variations of a state: the coordinates in which the Jacobian of a step is expressed.
 
-The variation of a group element q is given by an element xi of the Lie algebra: dq = xi.q (right
-trivialisation). Momenta, and points that are not group elements, vary component by component. The Jacobian on
-T*SO(3) is therefore 6 x 6, and the Jacobian on the sphere 3 x 3.
+A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). Momenta,
+and points that are not group elements, are varied in each component. Therefore the Jacobian is a 6 x 6 matrix
+on T*SO(3), and a 3 x 3 matrix on the sphere.
 """
 
 from __future__ import annotations
@@ -32,7 +32,8 @@ class Variations:
         represented in the Lie algebra."""
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
-            # A point that is itself a group element, moved by left multiplication, varies as a group element.
+            # If the group acts on itself by left multiplication, a point is a group element and is varied as
+            # a group element.
             moved = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
             bundle = scene.group.offers(CotangentBundle) if moved else None
             if bundle is not None:
@@ -77,8 +78,8 @@ class Variations:
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # The rates of the new element are converted to the algebra: ``rate`` is the inverse of
-            # ``velocity`` on tangent vectors.
+            # ``rate`` converts the derivatives of the new group element to an element of the algebra. It is
+            # the inverse of ``velocity`` on tangent vectors.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 

@@ -1,4 +1,6 @@
-"""Measurements of emitted integrators. Errors are measured against reference solutions that use no Lie group.
+"""Measurements of emitted integrators.
+
+Errors are measured against reference solutions, which are computed without Lie groups.
 
 A :class:`Measurement` is one section of the report. :func:`register` adds a measurement, and :func:`listing`
 returns all measurements.

@@ -1,9 +1,8 @@
-"""The right-hand side of the ambient equation y' = f(y).y of a scene, as a Python function of Arb balls.
+"""The right-hand side of the differential equation y' = f(y).y of a scene, as a Python function of Arb balls.
 
-A ball is a number with an error radius. A reference solution evaluates the right-hand side a million times.
-Therefore the right-hand side is a compiled function on Arb balls, which are several times faster than mpmath
-numbers. The radii are not used as error bounds: the integrator uses only the midpoints, and a second run
-measures the uncertainty.
+A ball is a number with an error radius. A reference solution evaluates the right-hand side about a million
+times. Therefore it uses Arb balls, which are several times faster than mpmath numbers. The radii are not used
+as error bounds. The integrator uses only the midpoints, and a second run measures the uncertainty.
 """
 
 from __future__ import annotations

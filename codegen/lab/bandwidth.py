@@ -1,12 +1,13 @@
 """The time of a step on a large lattice, and the fraction of the memory bandwidth that the step uses.
 
-The module is run on a lattice whose arrays are larger than the last-level cache, so that each sweep reads and
-writes main memory. The bytes that a step moves are counted from its sweeps
-(:meth:`codegen.ir.site_step.SiteStep.bytes_moved`). The memory bandwidth is that of the triad
-a[i] = b[i] + s c[i] of the STREAM benchmark (McCalpin 1995), compiled with the same flags and run in the same
-process on arrays of the same total size. In both cases each number that a loop reads or stores is counted
-once. The processor also reads a cache line before it writes to the line. This traffic is not counted, so a
-loop with few stores may exceed the bandwidth of the triad, which reads two numbers and stores one.
+The emitted module is run on a lattice whose arrays are larger than the last-level cache. Each sweep then
+reads and writes main memory. The bytes that a step moves are counted from its sweeps
+(:meth:`codegen.ir.site_step.SiteStep.numbers_moved`). The step is compared with the triad a[i] = b[i] + s
+c[i] of the STREAM benchmark (McCalpin 1995), compiled with the same flags and run in the same process on
+arrays of the same total size. In both cases each number that a loop reads or stores is counted once. The
+processor also reads a cache line before it writes to the line, but this traffic is not counted. Therefore a
+loop with few stores may exceed the bandwidth of the triad, which reads two numbers for each number that it
+stores.
 """
 
 from __future__ import annotations
@@ -39,24 +40,24 @@ if TYPE_CHECKING:
     from codegen.ir.site_step import SiteStep
 
 COMPILE_SECONDS = 8.0
-"""A module that takes longer to compile is not measured. The module of the rod with cf4 takes 2 seconds."""
+"""A module that takes more than this number of seconds to compile is not measured. The module for the scene
+of a rod and the method cf4 takes 2 seconds."""
 
 STEP_SECONDS = 0.5
-"""The lattice has so few sites that a step takes about this number of seconds, if its arrays are then smaller
-than the arrays that are chosen from the size of the cache."""
+"""The largest time of a step in seconds. If a step on the lattice chosen from the size of the cache would
+take longer, a smaller lattice is used."""
 
 RESOLVED = 0.01
-"""A timed run has as many steps as are necessary for this number of seconds, which is far above the
-resolution of the clock."""
+"""The least duration of a timed run in seconds, far above the resolution of the clock."""
 
 REPEATED = 5
-"""The number of timed runs; the least time is used, because other processes can only increase a time."""
+"""The number of timed runs. The least time is used, because other processes can only increase a time."""
 
 CACHES = 8
 """The arrays are this number of times as large as the last-level cache, if the memory suffices."""
 
 FREE_SHARE = 8
-"""The arrays take at most this fraction of the free memory: one part in FREE_SHARE."""
+"""The arrays take at most the fraction 1/FREE_SHARE of the free memory."""
 
 USUAL_CACHE, USUAL_MEMORY = 32 << 20, 1 << 30
 """The sizes of the last-level cache and of the free memory in bytes, if the system does not state them."""
@@ -65,12 +66,12 @@ FEW_SITES = 4096
 """The number of sites of the first run, from which the time of a step is estimated."""
 
 SHORTER, ATTEMPTS = 64, 4
-"""If a step from the initial state fails, the step size is divided by SHORTER. Equal states at all sites may
-be far from equilibrium. At most ATTEMPTS step sizes are tried."""
+"""If a step from the initial state fails, the step size is divided by SHORTER. At most ATTEMPTS step sizes
+are tried. A step may fail because equal states at all sites can be far from equilibrium."""
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""The sweeps of implicit equations are counted in this number of steps, on a small lattice with these numbers
-of sites in each dimension, by the dimension of the lattice; in higher dimensions there are 4."""
+"""The sweeps over implicit equations are counted in COUNTED_STEPS steps on a small lattice. SIDES maps the
+dimension of the lattice to its number of sites in each dimension. In higher dimensions this number is 4."""
 
 TRIAD = """\
 #include <stddef.h>
@@ -198,8 +199,9 @@ def _step_size(compiled: Compiled, step: SiteStep) -> float:
     """Return the step size of the example in the emitted file; an explicit method has a shorter step."""
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # If a rotation has more than about one radian, the loops are repeated without vector instructions. The
-    # time of an explicit step does not depend on h otherwise.
+    # If an angle of rotation exceeds about one radian, the loops are repeated without vector instructions.
+    # The shorter step of an explicit method avoids this repetition. Otherwise the time of an explicit step
+    # does not depend on h.
     return h if step.blocks else h / SHORTER
 
 
@@ -226,8 +228,8 @@ class _Runs:
         return precision(self.lattice.interface.precision).bits // 24 * 4
 
     def side(self, sites: int) -> int:
-        """Return the number of sites in each dimension for about this number of sites. It is even, because
-        pairs of neighbours need an even number of sites."""
+        """Return the number of sites in each dimension of a lattice with about ``sites`` sites. The number is
+        even, because splittings into pairs of neighbours need an even number."""
         return max(4, int(sites ** (1 / self.dimension)) // 2 * 2)
 
     def shortened(self, side: int) -> Status:
@@ -266,7 +268,7 @@ class _Runs:
         while status == Status.OK and pace * sites * steps < RESOLVED:
             steps *= 2
             status, pace = self.timed(side, steps)
-        # A run that is too long for the method may fail; the shorter run was successful.
+        # The longest run may fail because the method is unstable. Half the number of steps was successful.
         steps = steps if status == Status.OK else max(steps // 2, 1)
         return self.timed(side, steps, REPEATED)[1]
 
@@ -282,8 +284,11 @@ class _Counting(Machine):
 
 
 def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs) -> tuple[float, ...]:
-    """Return the mean number of sweeps over each implicit block in the first steps. The emitted functions are
-    executed in Python on a small lattice, because emitted modules for lattices do not report their sweeps."""
+    """Return the mean number of sweeps over each implicit block in the first steps.
+
+    Emitted modules for lattices do not report their sweeps. Therefore the emitted functions are executed in
+    Python on a small lattice.
+    """
     if not step.blocks:
         return ()
     interface = runs.lattice.interface

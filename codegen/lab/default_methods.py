@@ -1,8 +1,8 @@
 """The methods and scenes that commands measure if the user names none.
 
-The report omits a default method if the method cannot be compiled for the scene, or if its order on the scene
-is not the order listed in this module. A splitting method, for example, needs exact flows of the parts of the
-scene, and its order depends on these parts.
+The report omits a default method in two cases: the method cannot be compiled for the scene, or its order on
+the scene is not the order listed in this module. For example, a splitting method needs exact flows of the
+parts of the scene, and its order depends on these parts.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ first dictionary is for scenes that are given by a field, the second for Hamilto
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
 """Default methods of the report with step-size control. A figure has only eight colours for methods, and
-methods with equal steps need seven colours on Hamiltonian scenes. On these scenes, therefore, only the first
-method of this list is used."""
+methods with equal steps need seven colours on Hamiltonian scenes. Therefore only the first method of this
+list is used on Hamiltonian scenes."""
 
 README_METHODS = {
     "dipole": (
