@@ -1,4 +1,5 @@
-"""A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each file a test of its claims.
+"""A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` tests the orders that each file
+claims.
 
 The plugin is active only if one of its flags is given. The following flags correspond to options of
 ``orderconds check``: ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,

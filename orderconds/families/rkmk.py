@@ -1,5 +1,5 @@
 """Runge-Kutta-Munthe-Kaas methods. ``rkmk(r)`` truncates dexpinv after the power r of ad; ``rkmk`` does not
-truncate dexpinv.
+truncate dexpinv. Here dexpinv is the inverse of the differential of exp, a power series in ad.
 
 The left-hand sides of conditions are values of the Lie-Butcher series of the method on Lyndon words. No
 theorem about the order is used to derive these conditions. They imply the order min(p, R + 2), where p is the
@@ -81,7 +81,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b), else None."""
+        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
+        is the case for every tableau (A, b)."""
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
@@ -105,9 +106,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
         Without truncation, their number is the number of rooted trees, 1, 1, 2, 4, 9, .... The reason is that
         the method applies a Runge-Kutta method in the Lie algebra, which is a vector space. If dexpinv is
-        truncated, there is one more condition at order R + 3, and no tableau satisfies it. Up to order
-        :data:`RANKED`, ranks of matrices select the conditions; this requires NumPy. Beyond this order, all
-        of :meth:`conditions` are returned.
+        truncated, there is one additional condition at order R + 3, with R as in the module docstring. No
+        tableau satisfies this condition. Up to order :data:`RANKED`, ranks of matrices select the conditions,
+        which requires NumPy. Beyond this order, all of :meth:`conditions` are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]

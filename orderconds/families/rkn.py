@@ -111,7 +111,8 @@ class NystroemFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a splitting whose file contains the key ``rkn``, else None."""
+        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
+        is the case for a splitting whose file contains the key ``rkn``."""
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 

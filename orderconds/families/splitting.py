@@ -119,7 +119,8 @@ class SplittingFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for splittings, and for compositions of a method and its adjoint; else None."""
+        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
+        is the case for splittings, and for compositions of a method and its adjoint."""
         method = tableau.method
         if isinstance(method, AdjointComposition):
             return cls()

@@ -97,7 +97,8 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b) without zero weights, else None."""
+        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
+        is the case for a tableau (A, b) without zero weights."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

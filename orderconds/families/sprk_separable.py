@@ -84,7 +84,8 @@ class SeparableFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a symplectic pair of tableaux, else None."""
+        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
+        is the case for a symplectic pair of tableaux."""
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
         return cls() if pair else None

@@ -101,7 +101,8 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for compositions of symmetric methods with palindromic step sizes, else None."""
+        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
+        is the case for compositions of symmetric methods with palindromic step sizes."""
         method = tableau.method
         if not isinstance(method, Composition):
             return None

@@ -89,8 +89,9 @@ class VariationalCommutatorFree(ActionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method without zero weights, else None. The file of a
-        tableau (A, b) claims its order in the family ``vcg`` instead."""
+        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
+        is the case for a commutator-free method without zero weights. The file of a tableau (A, b) claims an
+        order in the family ``vcg`` instead."""
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):
             return None

@@ -1,10 +1,11 @@
-"""Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: ``vrkmk(r)``.
+"""Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: ``vrkmk(r)``. Here
+dexpinv is the inverse of the differential of exp, a power series in ad.
 
-Equation (3.16) of Bogfjellmo and Marthinsen defines the method with the power series of dexpinv in ad. Here
-the powers above r are omitted. The series of the method shows that the order is min(p, R + 2), where p is the
-order as a symplectic partitioned Runge-Kutta method. In this formula, R = r if r is 0 or odd, and R = r + 1
-if r >= 2 is even. For some r this order is higher than the bound in Theorem 3.5.3 of Bogfjellmo and
-Marthinsen. The tests of the project verify the formula.
+Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. Here the powers above r
+are omitted. The series of the method shows that the order is min(p, R + 2), where p is the order as a
+symplectic partitioned Runge-Kutta method. In this formula, R = r if r is 0 or odd, and R = r + 1 if r >= 2 is
+even. For some r this order is higher than the bound in Theorem 3.5.3 of Bogfjellmo and Marthinsen. The tests
+of the project verify the formula.
 """
 
 from __future__ import annotations

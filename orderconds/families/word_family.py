@@ -56,8 +56,8 @@ class WordFamily(Family):
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return random methods of the family, one for each sample of ``ring``. They have enough coefficients
-        to distinguish all conditions up to ``order``."""
+        """Return random methods of the family, one for each sample of ``ring``. The methods have enough
+        coefficients to distinguish all conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
         """Return the Lyndon words of weight ``order``. Their conditions are independent. Together with the

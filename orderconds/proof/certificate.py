@@ -41,9 +41,9 @@ class Certificate:
 
     ``tableau`` contains the coefficients of the solution, as balls. ``facts`` are pairs (family, order): the
     orders that the equations imply. ``equations`` is the number of equations. ``radius`` bounds the distance
-    of every decimal of the file from the solution. ``printed`` maps each number printed in the source to a
-    bound of its distance from the solution. ``misrounded`` contains the decimals that differ from the
-    correctly rounded solution. ``lower_facts`` are the orders that the equations imply for the embedded
+    of every decimal of the file from the solution. ``printed`` maps each number that the source of the method
+    prints to a bound of the distance from the solution. ``misrounded`` contains the decimals that differ from
+    the correctly rounded solution. ``lower_facts`` are the orders that the equations imply for the embedded
     method.
     """
 

@@ -13,19 +13,19 @@ verified exactly, from the formulas in the file and not from the decimals:
                  A(t) at the nodes. The interpolation error is orthogonal to all polynomials of degree below
                  s and changes the flow of Y' = A(t) Y by O(h^(2s + 1)). Up to order 2s, the letters 1, ...,
                  s therefore suffice (Iserles and Norsett 1999).
-``low-storage``  a 2N scheme (two registers). Its order on a group is equal to its order on a vector
-                 space (see below).
-``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
-                 Wanner, Theorem II.7.4).
+``low-storage``  a 2N scheme, a method that stores two registers. The order of the scheme on a group is
+                 equal to its order on a vector space (see below).
+``simplifying``  Butcher's simplifying assumptions B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2)
+                 (Butcher 1964; Hairer, Norsett and Wanner, Theorem II.7.4).
 ``spelling``     coefficients that are formulas in other coefficients define a sub-family, in which some of
                  the conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-2N schemes. The module :mod:`orderconds.series.two_registers` states the theorem, and selects rooted trees
-whose conditions are independent for these schemes. If the file has a second update that applies one further
-exponential to the first update, the equations contain the conditions of rooted trees for this second update.
-These conditions imply the order of the second update on groups (docs/explanation/two_registers.md). From
-order 6 on, the conditions of some rooted trees are dependent: at order 6, the conditions of 18 of the 20
-rooted trees are independent.
+For 2N schemes, the module :mod:`orderconds.series.two_registers` states the theorem, and selects rooted
+trees whose conditions are independent. From order 6 on, the conditions of some rooted trees are dependent: at
+order 6, the conditions of 18 of the 20 rooted trees are independent. The file may contain a second update,
+which applies one further exponential to the first update. The equations then also contain the conditions of
+rooted trees for the second update. These conditions imply the order of the second update on groups
+(docs/explanation/two_registers.md).
 """
 
 from __future__ import annotations

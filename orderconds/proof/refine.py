@@ -1,7 +1,7 @@
-"""Newton's method in high precision, starting from the digits printed in a source.
+"""Newton's method in high precision, starting from the digits that the source of a method prints.
 
 If there are more decimals than equations, elimination on the Jacobian with complete pivoting selects the
-decimals that the equations determine best. The other decimals are pinned: they keep their printed digits
+decimals that the equations determine best. The other decimals are pinned: they keep the printed digits
 exactly.
 """
 

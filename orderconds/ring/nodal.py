@@ -5,8 +5,8 @@ Gauss, Radau and Lobatto methods. Each vector x over the stages is then p(c) for
 modulo M. The componentwise product of vectors is the product of polynomials modulo M, and a matrix A is a
 linear map of polynomials. Let b be the vector of weights. Suppose that for all k < s, A c^k is a polynomial
 in c with *rational* coefficients, and b.c^k is a rational number. Then the order conditions are computed over
-Q. For example, five Radau nodes generate a field of degree 24. Then the product of two vectors requires one
-product of rational polynomials modulo M, and not five products in this field.
+Q. For example, five Radau nodes generate a field of degree 24. The product of two vectors then requires one
+product of rational polynomials modulo M, and not five products in the field of degree 24.
 
 Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
 field. The polynomial ``A p`` is computed as ``int_0^z p`` modulo M, plus a correction for each power z^k in p
@@ -117,7 +117,7 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 class _Key:
     """A cache key for a method. Two keys are equal if their methods contain the same coefficient objects.
-    Therefore the checks of all orders of one method use the same algebra."""
+    Therefore the algebra of a method is constructed only once."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b

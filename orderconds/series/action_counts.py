@@ -31,7 +31,7 @@ def velocity_count(vertices: int) -> int:
 
 
 def class_count(vertices: int) -> int:
-    """Return the number of classes of g-valued trees with ``vertices`` copies of H. Two trees are in the same
+    """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in the same
     class if they differ only in the choice of the root.
 
     A class corresponds to an unrooted tree. The root can move across some edges of this tree, and the number

@@ -1,6 +1,9 @@
 """Enumeration of the action trees with a given number of vertices. The trees are generated on demand,
 simplest trees first.
 
+A g-valued tree denotes an element of the Lie algebra g, and a g*-valued tree an element of the dual g*. The
+vertices of a tree are copies of the Hamiltonian H.
+
 The cost of a tree measures how difficult its condition is to read. The cost is a sum of non-negative terms,
 among them the costs of the subtrees. Hence a tree whose cost is at most a limit has only subtrees whose costs
 are at most this limit. Subtrees are tried in order of cost, so the search ends at the first subtree whose
@@ -34,7 +37,7 @@ limit but not the limit of the part."""
 
 
 def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
-    """Yield all g-valued trees with ``vertices`` copies of H, simplest first.
+    """Yield all g-valued trees with ``vertices`` vertices, simplest first.
 
     >>> next(velocities_in_turn(20)).vertices
     20
@@ -48,7 +51,7 @@ def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
 
 @cache
 def velocities(vertices: int) -> tuple[Velocity, ...]:
-    """Return all g-valued trees with ``vertices`` copies of H, simplest first.
+    """Return all g-valued trees with ``vertices`` vertices, simplest first.
 
     >>> [len(velocities(n)) for n in range(1, 5)]
     [1, 3, 17, 111]
@@ -59,7 +62,7 @@ def velocities(vertices: int) -> tuple[Velocity, ...]:
 
 
 def words(vertices: int) -> tuple[Word, ...]:
-    """Return all words of g-valued trees with ``vertices`` copies of H in total. Words of low cost come
+    """Return all words of g-valued trees with ``vertices`` vertices in total. Words of low cost come
     first.
 
     >>> words(2)
@@ -69,7 +72,7 @@ def words(vertices: int) -> tuple[Word, ...]:
 
 
 def momenta(vertices: int) -> Momenta:
-    """Return all g*-valued trees with ``vertices`` copies of H, simplest first.
+    """Return all g*-valued trees with ``vertices`` vertices, simplest first.
 
     >>> [len(momenta(n)) for n in range(1, 5)]
     [2, 8, 48, 328]
@@ -78,7 +81,7 @@ def momenta(vertices: int) -> Momenta:
 
 
 def multisets(vertices: int) -> tuple[Momenta, ...]:
-    """Return all multisets of g*-valued trees with ``vertices`` copies of H in total, each in canonical
+    """Return all multisets of g*-valued trees with ``vertices`` vertices in total, each in canonical
     order.
 
     >>> multisets(1)
@@ -89,7 +92,7 @@ def multisets(vertices: int) -> tuple[Momenta, ...]:
 
 @cache
 def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
-    """Return the g-valued trees with ``vertices`` copies of H and with a cost of at most ``limit``, in no
+    """Return the g-valued trees with ``vertices`` vertices and with a cost of at most ``limit``, in no
     particular order."""
     trees = []
     for k in range(vertices):
@@ -104,7 +107,7 @@ def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
 
 @cache
 def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
-    """Return pairs (cost, word) for the words with ``vertices`` copies of H and with a cost of at most
+    """Return pairs (cost, word) for the words with ``vertices`` vertices and with a cost of at most
     ``limit``, sorted by cost."""
     if vertices == 0:
         return ((0, ()),)
@@ -132,7 +135,7 @@ def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
 
 @cache
 def _momenta(vertices: int, limit: float) -> Momenta:
-    """Return the g*-valued trees with ``vertices`` copies of H and with a cost of at most ``limit``, simplest
+    """Return the g*-valued trees with ``vertices`` vertices and with a cost of at most ``limit``, simplest
     first."""
     trees: list[Momentum] = []
     for j in range(vertices):
@@ -152,7 +155,7 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return pairs (cost, multiset) for the multisets of g*-valued trees with ``vertices`` copies of H in
+    """Return pairs (cost, multiset) for the multisets of g*-valued trees with ``vertices`` vertices in
     total and with a cost of at most ``limit``, sorted by cost."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 

@@ -7,8 +7,8 @@ methods give linear equations for the coefficients of the combination. The equat
 primes, and the rational coefficients are reconstructed from the residues.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
-commutator-free methods. They follow from the equation ``psi_{L(H|L)} = 3 psi_{L(HH)} - psi_{L(H)}^2``, where
-psi_p is the coefficient of the tree p at a stage (:mod:`orderconds.series.action`).
+commutator-free methods. They follow from the equation ``psi_{L(o(|L(o)))} = 3 psi_{L(o o)} - psi_{L(o)}^2``,
+where psi_p is the coefficient of the tree p at a stage (:mod:`orderconds.series.action`).
 """
 
 from __future__ import annotations

@@ -7,9 +7,9 @@ vertices. There are two kinds of trees, and a tree of either kind may contain su
 - g-valued ``t = (w, M)``, a :class:`Velocity`, with a word w of g-valued trees and a multiset M of g*-valued
   trees: the derivative of ``D_mu H`` along the right-invariant fields of w (the first letter acts first) and
   along the covectors of M;
-- g*-valued ``p``: a :class:`Force` ``H(u * v | M)``, a derivative of ``D_q H`` in which the free direction is
-  between the words u and v; or a :class:`Transport` ``L(t_1 ... t_k)``, the covector ``x -> <mu, ad t_1 ...
-  ad t_k x>``.
+- g*-valued ``p``, in two forms. A :class:`Force` ``H(u * v | M)`` is a derivative of ``D_q H`` in which the
+  free direction is between the words u and v. A :class:`Transport` ``L(t_1 ... t_k)`` is the covector ``x ->
+  <mu, ad t_1 ... ad t_k x>``.
 
 A velocity also denotes the elementary Hamiltonian with the same root vertex: ``o(w | M)`` is the coefficient
 of ``H_{q..mu..}[w; M]`` in the generating function. Equal trees are identical objects, because all nodes are

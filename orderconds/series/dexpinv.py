@@ -54,7 +54,8 @@ class DexpinvSeries:
         return self._exponential(1, forest)[0]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value on a forest of exp(u_i), which maps y0 to stage i (counted from 0)."""
+        """Return the value of exp(u_i) on a forest. This exponential maps y0 to stage i. Stages are counted
+        from 0."""
         return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:

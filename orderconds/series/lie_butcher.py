@@ -99,7 +99,7 @@ class ExponentialsSeries:
         return self._word(forest)[self._ends[i]]
 
     def stage_values(self, tree: Tree) -> list[Element]:
-        """Return the coefficient of a tree in k_1, ..., k_s."""
+        """Return the coefficients of a tree in the stage values k_1, ..., k_s."""
         values = self._values.get(tree)
         if values is None:
             word = self._word(branches(tree))
