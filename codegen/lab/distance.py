@@ -1,9 +1,10 @@
 """The error norm of a scene: the distance of a computed state from the reference solution.
 
-The error norm is the sum of the norms of all parts of the state, such as a group element and a momentum: the
-spectral norm for group elements that are matrices, the Euclidean norm for all other parts. For the dipole on
-a stick, the error norm is |mu - mu_ref|_2 + |g - g_ref|_2 (H. Marthinsen, *On symplectic integration in Lie
-groups and manifolds*, Fig. 3.2). For a point on the sphere it is the Euclidean distance.
+A state consists of parts, such as a group element and a momentum. The error norm is the sum of the norms of
+the differences of all parts. The spectral norm is used for group elements that are matrices, and the
+Euclidean norm for all other parts. For the dipole on a stick, the error norm is |mu - mu_ref|_2 + |g -
+g_ref|_2, where mu is the momentum and g the rotation matrix (H. Marthinsen, *On symplectic integration in Lie
+groups and manifolds*, Fig. 3.2). For a point on the sphere, the error norm is the Euclidean distance.
 """
 
 from __future__ import annotations
@@ -40,8 +41,8 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
 def _norm(group: LieGroup, gap: Sequence[float]) -> float:
     """Return the norm of the difference ``gap`` of two group elements.
 
-    It is the spectral norm for matrices, otherwise the Euclidean norm. For a product group it is the sum of
-    the norms of the factors.
+    The norm is the spectral norm for matrices, and the sum of the norms of the factors for a product group.
+    For all other groups it is the Euclidean norm.
     """
     product = group.offers(DirectProduct)
     if product is not None:

@@ -1,2 +1,2 @@
-"""Work-precision diagrams of emitted methods and of peers (other integrators), and the fastest method for
-each accuracy."""
+"""Work-precision diagrams of emitted methods and of peers (other integrators), and the search for the fastest
+method that reaches an accuracy."""

@@ -1,7 +1,8 @@
 """A method with step-size control by its embedded error estimate, as a candidate of a work-precision diagram.
 
-In the measured rows (:class:`Row`) of this candidate, ``control`` is both the relative and the absolute
-tolerance. ``steps`` counts accepted steps only; the evaluations and the time include rejected steps.
+Each measured row (:class:`Row`) of this candidate describes one run. ``control`` is both the relative and the
+absolute tolerance of the run. ``steps`` counts accepted steps only. The evaluations and the time include
+rejected steps.
 """
 
 from __future__ import annotations
@@ -17,15 +18,14 @@ from codegen.lab.runner import RunFailed
 from codegen.lab.timing import span_times
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""Tolerances, from loose to tight. The first tolerance is looser than the first tolerance of peers, because
-some emitted methods have an error estimate of low order. For tight tolerances these methods need too many
-steps."""
+"""Tolerances, from loose to tight. The first tolerance is looser than the first tolerance of peers. Some
+emitted methods have an error estimate of low order, and need too many steps for tight tolerances."""
 
 
 @dataclass
 class AdaptiveCandidate(EmittedCandidate):
-    """A candidate: a method with an embedded error estimate. The method is emitted to a target and run over
-    the span with step-size control.
+    """A candidate: a method with an embedded error estimate, emitted to a target and run with step-size
+    control.
 
     Raises MethodError for a method without an error estimate.
     """
@@ -52,8 +52,8 @@ class AdaptiveCandidate(EmittedCandidate):
         return self.arrive(control, spans=spans).accepted
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
-        """Run over ``spans`` time spans with this tolerance, and return the state and the numbers of steps at
-        the end. Raise RunFailed if a step fails."""
+        """Run over ``spans`` time spans with this tolerance. Return the final state and the numbers of
+        accepted and rejected steps. Raise RunFailed if a step fails."""
         first, last = map(float, self.scene.span)
         try:
             return self.runner.integrator.adaptive(

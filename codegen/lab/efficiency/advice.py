@@ -1,5 +1,6 @@
-"""The Python function that recommends a method: the fastest method of the library that reaches an error on a
-scene and satisfies given needs (for example, that the method is symplectic).
+"""The Python function that recommends the fastest method of the library for a scene and an error.
+
+The user may also state needs, for example that the method is symplectic.
 """
 
 from __future__ import annotations
@@ -27,10 +28,11 @@ SECONDS = 50.0
 
 @dataclass(frozen=True)
 class AdvisedMethod:
-    """A method that reaches the error: its name, its step size or its tolerance, and the measured values.
+    """A method that reaches the error, with its step size or tolerance and the measured values.
 
-    ``h`` is None for a method with step-size control, ``tolerance`` is None for equal steps. ``form`` is the
-    key of the form of the equations. ``command`` is the shell command that emits the integrator.
+    The step size ``h`` is None for a method with step-size control. ``tolerance`` is None for equal steps.
+    ``form`` is the key of the form of the equations. ``command`` is the shell command that emits the
+    integrator.
     """
 
     method: str
@@ -51,9 +53,11 @@ class AdvisedMethod:
 
 @dataclass(frozen=True, repr=False)
 class Advice:
-    """``best`` is the fastest method, and ``runner_up`` is the second fastest method. ``best`` is None if no
-    method reaches the error, ``runner_up`` is None if fewer than two methods reach the error. ``search``
-    contains all details. In an ``if`` statement, the object counts as true if there is a best method.
+    """The result of :func:`recommend`: the fastest method ``best`` and the second fastest method
+    ``runner_up``.
+
+    ``best`` is None if no method reaches the error. ``runner_up`` is None if fewer than two methods reach the
+    error. ``search`` contains all details. The truth value of the object is True if there is a best method.
     """
 
     scene: str
@@ -99,8 +103,8 @@ def recommend(
 ) -> Advice:
     """Search the library for the fastest method that reaches an error at the end of the span.
 
-    The arguments are those of ``orderconds recommend``; ``needs`` are names such as ``"symplectic"``. Wrong
-    arguments raise SceneError, UnknownName or InputError.
+    The arguments are the arguments of the command ``orderconds recommend``. ``needs`` are names such as
+    ``"symplectic"``. Wrong arguments raise SceneError, UnknownName or InputError.
     """
     words = needs.split(",") if isinstance(needs, str) else texts(needs, "needs", "symplectic")
     text(scene, "scene", "a name of the gallery, or a path of a Python file")
@@ -120,8 +124,8 @@ def recommend(
 
 
 def _interval(span: object) -> tuple[Fraction, Fraction]:
-    """Return a time interval. Raise InputError unless ``span`` is a pair of rational numbers, the first less
-    than the second."""
+    """Return ``span`` as a pair of fractions. Raise InputError if ``span`` is not a pair of rational numbers
+    in increasing order."""
     try:
         first, last = (Fraction(t) for t in span)  # type: ignore[attr-defined]
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):

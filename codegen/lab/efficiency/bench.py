@@ -1,4 +1,4 @@
-"""The bench: measure emitted methods and peers on a scene, rank them, and write a table and a diagram."""
+"""The bench: measures emitted methods and other integrators (peers) on a scene, and ranks the results."""
 
 from __future__ import annotations
 
@@ -61,8 +61,8 @@ class Result:
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """For each candidate: its name, the time of emission, and the longest time to compile the code of a
-        run, in seconds.
+        """For each candidate: its name, the time of emission, and the longest time of compilation, in
+        seconds.
 
         If a candidate was measured on several forms of the equations, there is one entry for each form,
         because each form is emitted and compiled separately.
@@ -76,9 +76,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Bench:
-    """Candidates on one scene. :meth:`run` measures the candidates and writes the results to ``folder``,
-    unless ``folder`` is None.
-    """
+    """The candidates on one scene. If ``folder`` is given, :meth:`run` writes the results to this folder."""
 
     scene: Problem
     exact: Reference
@@ -89,7 +87,7 @@ class Bench:
         """Measure all rows that are not in the cache, rank the candidates, and write the files.
 
         ``done`` is called with each row. The default cache is a hidden folder beside the files, so that an
-        interrupted bench can continue. This folder is deleted when the files are complete.
+        interrupted bench can continue. The hidden folder is deleted when the files are complete.
         """
         name, stem = self.scene.name, scenes.file_stem(self.scene)
         own = MeasurementCache(self.folder / f".{stem}.measured" if self.folder else None)
@@ -123,11 +121,11 @@ def bench(
 ) -> Bench:
     """Return a bench of methods and peers on a scene.
 
-    If no methods are named, the default methods for the scene are used (:func:`methods_for`). The methods in
-    ``adaptive`` run with step-size control by their embedded methods. ``forms`` selects classical forms of
-    the equations by their keys, for peers and for methods that integrate coordinates. By default all forms
-    are measured. Wrong names and options raise InputError before the first measurement. If a method cannot
-    be emitted for the scene, the only row of this method contains the reason.
+    If neither ``methods`` nor ``adaptive`` names a method, the default methods for the scene are used
+    (:func:`methods_for`). The methods in ``adaptive`` run with step-size control by their embedded methods.
+    ``forms`` selects classical forms of the equations by their keys, for peers and for methods that integrate
+    coordinates. By default all forms are measured. Wrong names and options raise InputError before the first
+    measurement. If a method cannot be emitted for the scene, its only row contains the reason.
     """
     for target in targets:
         if target not in names():
@@ -161,9 +159,10 @@ def emitted_forms(
     *,
     adaptive: bool = False,
 ) -> list[Candidate]:
-    """Return the candidates of a method: one for each form of the equations that suits the method.
+    """Return the candidates of a method.
 
-    A method that integrates on the manifold of the scene has one candidate.
+    A method that integrates coordinates has one candidate for each form of the equations. A method that
+    integrates on the manifold of the scene has one candidate.
     """
     suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]
     return [emitted(scene, method, exact, target, budget, adaptive=adaptive, equations=e) for e in suited]
@@ -174,8 +173,8 @@ def peer_forms(
 ) -> list[Candidate]:
     """Return the candidates of peers: one for each form of the equations.
 
-    A peer that projects its states onto the manifold has one candidate, for the equations as printed (in the
-    coordinates of the scene).
+    A peer that projects its states onto the manifold has only one candidate, which uses the coordinates of
+    the scene.
     """
     return [
         PeerCandidate(scene, peer, exact, budget, equations=e)

@@ -1,5 +1,6 @@
-"""The recipes of a scene: the methods of the library that can integrate the scene, with equal steps or with
-step-size control.
+"""The recipes of a scene: the methods of the library that can integrate the scene.
+
+A recipe also states the form of the equations, and equal steps or step-size control.
 """
 
 from __future__ import annotations
@@ -21,9 +22,9 @@ from orderconds.tableau.method_properties import explicit
 SEARCHED = 5
 """For orders up to this number, recipes without a cut-off are also tried.
 
-A recipe with a cut-off, for example ``rkmk(2)``, truncates dexp^{-1} after 2 brackets. A recipe without a
-cut-off uses the fewest brackets that give the order of the method. For higher orders the search for these
-brackets takes seconds.
+A recipe with a cut-off, for example ``rkmk(2)``, truncates the series of dexp^{-1} after 2 brackets. A recipe
+without a cut-off uses the fewest brackets that give the order of the method. For higher orders the compiler
+would need seconds to find the fewest brackets.
 """
 
 
@@ -36,9 +37,10 @@ class Recipe:
     """A way to integrate a scene: the name of a method, the form of the equations, and equal steps or
     step-size control.
 
-    ``order`` is the order that the file of the tableau claims; it is 0 if the file claims no order.
-    ``stages`` is the number of stages or factors of the tableau. If the family has no tableau, both numbers
-    are the degree. ``explicit`` is True if each stage of the tableau depends only on earlier stages.
+    ``order`` is the order that the file of the tableau claims, or 0 if the file claims no order. ``stages``
+    is the number of stages or factors of the tableau. For a family without a tableau, such as ``taylor``,
+    ``order`` and ``stages`` are the degree. ``explicit`` is True if each stage of the tableau depends only on
+    earlier stages.
     """
 
     method: str
@@ -84,9 +86,9 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 
 
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
-    """Yield the recipes for the equations of a scene as printed, that is, in the coordinates of the scene.
+    """Yield the recipes for the equations in the coordinates of the scene (the form as printed).
 
-    On an abelian group, several families reduce to the same classical family and give the same methods; only
+    On an abelian group, several families reduce to the same classical family and give the same methods. Only
     the first of these families is used. The compiler may refuse a recipe later.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
@@ -124,9 +126,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     """Yield the recipes of one tableau in one family, without and with step-size control.
 
     For each order only the smallest cut-off that gives this order is used. Up to the order :data:`SEARCHED`,
-    one recipe without a cut-off is added, which uses the fewest brackets that give the order of the method.
-    Orders below half the classical order are omitted, because other tableaux reach these orders with fewer
-    stages.
+    one recipe without a cut-off is added. Orders below half the classical order are omitted, because other
+    tableaux reach these orders with fewer stages.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -134,8 +135,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
     least = max((2 * stated.get("rk", 0) + 3) // 4, 1)
     if not kind.takes_cutoff:
-        # The order conditions of a family may depend on the scene: on R^n all brackets vanish. A method can
-        # then have a higher order than on a general group.
+        # The order conditions of a family may depend on the scene. For example, all brackets vanish on R^n,
+        # so a method can have a higher order there than on a general group.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
         except MethodError:
@@ -195,8 +196,10 @@ def method_of(recipe: Recipe, problem: Problem) -> Method:
 
 
 def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Recipe]:
-    """Yield the recipes of named methods, with or without step-size control, in every form of the equations
-    that they can integrate. The order of a method is the order that is proved for the scene.
+    """Yield the recipes of named methods in every form of the equations that the methods can integrate.
+
+    Each method is a pair: its name, and True for step-size control. The order of a recipe is the order that
+    is proved for the scene.
     """
     forms = [form.key for form in classical_forms(problem)]
     for label, adaptive in methods:

@@ -34,9 +34,9 @@ from codegen.scene.problem import Problem
 class EmittedCandidate:
     """A candidate: a method that is emitted to a target, compiled, and run over the span with equal steps.
 
-    ``equations`` are the equations in one form of the scene, by default the form as printed (in the
-    coordinates of the scene). ``precompiled`` may be the result of :func:`compile_method`. In this case
-    ``emit_seconds`` does not include the time of :func:`compile_method`.
+    ``equations`` are the equations in one form, by default in the coordinates of the scene. ``precompiled``
+    may be the result of :func:`compile_method`. In this case ``emit_seconds`` does not include the time of
+    compilation by :func:`compile_method`.
     """
 
     scene: Problem
@@ -61,7 +61,7 @@ class EmittedCandidate:
         self.overhead = Overhead(lambda: self.run(1.0, 0))
 
     def controls(self) -> Iterator[float]:
-        """Yield numbers of steps: 1, 2, 4, ..."""
+        """Yield the numbers of steps of the runs: 1, 2, 4, ..."""
         return doubled_steps()
 
     def prepare(self) -> None:

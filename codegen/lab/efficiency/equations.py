@@ -14,10 +14,10 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations of a scene in one form. If ``form`` is None, these are the equations on the manifold, as
-    the scene states them.
+    """The equations of a scene in one form, for example in Euler angles or as the scene states them.
 
-    ``alone`` is True if the scene has no other form; tables then omit the name of the form.
+    If ``form`` is None, the equations are those on the manifold, as the scene states them. ``alone`` is True
+    if the scene has no other form. Tables then omit the name of the form.
     """
 
     scene: Problem
@@ -26,19 +26,19 @@ class Equations:
 
     @property
     def printed(self) -> bool:
-        """True if the equations are those of the scene as printed, in the coordinates of the scene."""
+        """True if the equations are in the coordinates of the scene."""
         return self.form is None or self.form.printed
 
     @property
     def problem(self) -> Problem:
-        """The problem to integrate: the scene itself for the form as printed, otherwise the problem of the
+        """The problem to integrate: the scene itself in its own coordinates, otherwise the problem of the
         form.
         """
         return self.scene if self.form is None or self.form.printed else self.form.problem
 
     @property
     def name(self) -> str:
-        """The name of the form; '' if the scene has no other form."""
+        """The name of the form, or '' if the scene has no other form."""
         return "" if self.alone or self.form is None else self.form.name
 
     def error(self, state: Sequence[float], exact: Reference) -> float:

@@ -1,15 +1,15 @@
-"""The exhaustive search: every recipe of the library is run, and no recipe is left out because of its order,
-its family or a time limit for predictions. A benchmark compares the usual search with this search.
+"""The exhaustive search runs every recipe of the library, to check the usual search for the fastest method.
 
-Each recipe is first run by the interpreter with more and more steps, as long as a compiled run with this
-number of steps may be fast enough. The counted operations give the time of a step, and the measured error
-gives the number of steps for the required error. The product of this time and this number, divided by the
-safety factor SAFE, is a lower bound of the time of the recipe. If this bound exceeds WORST times the best
-known time for every required error, the recipe is excluded; WORST is the largest acceptable ratio of a time
-to the best time. If the interpreted runs of a recipe have large errors, and the recipe
-is implicit or has step-size control, its bound is not reliable, and the recipe is not excluded. All recipes
-that are not excluded are emitted, compiled and raced. A sample of the excluded recipes is also raced. The
-times of the sample show whether the bound is safe.
+A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter
+first runs each recipe with more and more steps, as long as a compiled run with the same number of steps may
+be fast enough. The counted operations give the time of a step, and the measured error gives the number of
+steps for the required error. The product of the two, divided by the safety factor SAFE, is a lower bound of
+the time of the recipe.
+
+A recipe is excluded if, for every required error, its lower bound exceeds WORST times the best known time.
+The bound is not reliable if the interpreted runs have large errors, and the recipe is implicit or has
+step-size control. Such a recipe is not excluded. All other recipes are emitted, compiled and timed. A sample
+of the excluded recipes is also timed, to show whether the bound is safe.
 """
 
 from __future__ import annotations
@@ -34,24 +34,24 @@ WORST = 1.25
 """The largest accepted ratio of the time of a recommended recipe to the best time."""
 
 SAFE = 8.0
-"""A safety factor. The search assumes that a predicted time (the number of steps times the time of a step) is
-too large by at most this factor."""
+"""The safety factor of predicted times. The search assumes that a predicted time (the number of steps times
+the time of a step) is too large by at most this factor."""
 
 T = TypeVar("T")
 
 SAMPLE = 12
-"""The number of excluded recipes that are also raced. Half of them are the recipes closest to the bound."""
+"""The number of excluded recipes that are also timed. Half of these recipes are the closest to the bound."""
 
 
 @dataclass
 class Exhausted:
     """The result of an exhaustive search.
 
-    ``known`` is the time of a known recipe for each error, ``results`` contains the runs for each error, and
-    ``recipes`` is the number of recipes of the library. Four further numbers count recipes: ``raced`` those
-    that were emitted and measured, ``refused`` those that cannot be compiled for the scene, ``copies`` those
-    with the same code as another recipe, and ``excluded`` those that were not measured because their bounds
-    were too large. ``nearest`` is the smallest ratio of the time of a sampled excluded recipe to the best
+    ``known`` maps each error to the time of a known recipe in seconds, and ``results`` maps each error to the
+    measured runs. ``recipes`` is the number of recipes of the library. ``raced`` recipes were emitted and
+    timed. ``refused`` recipes cannot be compiled for the scene. ``copies`` recipes have the same code as
+    another recipe. ``excluded`` recipes were not timed because their bounds were too large. A sample of
+    recipes with large bounds was timed: ``nearest`` is the smallest ratio of a time in the sample to the best
     time for the same error. ``complete`` is False if the time limit ended the search.
     """
 
@@ -67,8 +67,8 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least time, in seconds, for an error: of the known recipe and of all measured recipes
-        that reach the error."""
+        """Return the least time in seconds for an error, over the known recipe and all measured recipes that
+        reach the error."""
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 
@@ -126,8 +126,8 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return the predictions for all recipes, which are computed by interpreted runs. A recipe with step-size
-    control and the same recipe with equal steps share a prediction."""
+    """Return predictions from interpreted runs for all recipes. A recipe with step-size control and the same
+    recipe with equal steps share a prediction."""
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
     jobs = [(recipe, bars) for recipe in recipes]
@@ -145,12 +145,13 @@ def _key(recipe: Recipe) -> Key:
 
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
     """Return the smallest ratio of the predicted time for an error to the limit for the same error.
-    ``limits`` maps each error to its limit in seconds. If the ratio is above 1, the recipe is excluded.
 
-    Three kinds of recipes have the ratio 0 and are not excluded, unless a single step exceeds all limits.
-    First, recipes whose interpreted runs fail: emitted code may succeed, because it solves equations by
-    Newton's method. Second, implicit recipes with rough predictions, for the same reason. Third, recipes with
-    step-size control (``adaptive``) and rough predictions, because these predictions are for equal steps.
+    ``limits`` maps each error to its limit in seconds. A recipe with a ratio above 1 is excluded. The ratio
+    is 0 if the prediction is not reliable and a single step does not exceed all limits. There are three
+    cases. First, the interpreted runs fail. Emitted code may still succeed, because it can solve equations by
+    Newton's method. Second, the prediction is rough and the recipe is implicit, for the same reason. Third,
+    the prediction is rough and the recipe has step-size control (``adaptive``), because the prediction is for
+    equal steps.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
@@ -169,8 +170,10 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
 
 
 def sampled(excluded: Sequence[T]) -> list[T]:
-    """Return a sample of the excluded recipes, which must be sorted by :func:`least_ratio`. Half of the
-    sample are the first recipes; the other half is spread over the rest.
+    """Return a sample of the excluded recipes, which must be sorted by :func:`least_ratio`.
+
+    The first half of the sample consists of the first recipes. The second half is spread over the other
+    recipes.
 
     >>> sampled(range(102))
     [0, 1, 2, 3, 4, 5, 6, 22, 38, 54, 70, 86]
@@ -186,8 +189,8 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 
 
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
-    """Race a recipe for each error. Return the least ratio of its time to the best time of other recipes, or
-    infinity if it reaches no error."""
+    """Measure the time of a recipe for each error. Return the least ratio of this time to the best time of
+    other recipes, or infinity if the recipe reaches no error."""
     done.codes.add(candidate.code)
     done.raced += 1
     racer = search.racer(candidate)

@@ -15,10 +15,10 @@ from codegen.printers import target as known_target
 class Features:
     """Properties of an emitted method.
 
-    ``on_manifold``: a step acts by group elements, so the state stays on the manifold up to rounding.
-    ``explicit``: no equations are solved, so all steps take the same time. ``stack`` is an upper bound of the
-    stack memory of a call in bytes; it is 0 if no bound is known. ``lines`` is the number of lines of the
-    file that contains the step.
+    ``on_manifold`` is True if a step acts by group elements, so that the state stays on the manifold up to
+    rounding. ``explicit`` is True if no equations are solved, so that all steps take the same time. ``stack``
+    is an upper bound of the stack memory of a call in bytes, or 0 if no bound is known. ``lines`` is the
+    number of lines of the file that contains the step.
     """
 
     label: str
@@ -49,8 +49,8 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 def is_symplectic(compiled: Compiled) -> bool:
     """Return True if steps of constant size are symplectic maps.
 
-    The result is False for methods with step-size control, because with variable steps symplectic methods
-    lose their good behaviour over long times.
+    The result is False for methods with step-size control. With variable steps, symplectic methods lose their
+    good behaviour over long times.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:

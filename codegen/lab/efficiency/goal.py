@@ -17,7 +17,7 @@ from orderconds.errors import InputError, UnknownName
 
 @dataclass(frozen=True)
 class Need:
-    """A requirement on recipes: its name and its meaning. ``long`` is True if the requirement includes the
+    """A requirement on methods: its name and its meaning. ``long`` is True if the requirement includes the
     behaviour over long times.
     """
 
@@ -39,8 +39,8 @@ NEEDS = (
 
 @dataclass(frozen=True)
 class Goal:
-    """A goal: the error at the end of the span, the needs, and the largest stack memory of a call in
-    bytes.
+    """A goal of a search: the largest error at the end of the span, the names of the needs, and the largest
+    stack memory of a call in bytes.
     """
 
     error: float
@@ -101,8 +101,8 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
 def possible_needs(
     recipe: Recipe, choices: Iterable[tuple[str, ...]], problem: Problem
 ) -> set[tuple[str, ...]]:
-    """Return the choices whose needs a recipe may satisfy. A choice is a tuple of needs; a need that occurs
-    in several choices is tested once."""
+    """Return the choices whose needs a recipe may satisfy. A choice is a tuple of needs. A need that occurs
+    in several choices is tested only once."""
     choices = set(choices)
     never = {need for need in set().union(*choices) if not possible(recipe, (need,), problem)}
     return {needs for needs in choices if never.isdisjoint(needs)}

@@ -1,10 +1,10 @@
 """Interpreted runs of a step program over the span: with equal steps, and with step-size control.
 
-Runs with equal steps solve implicit blocks by fixed-point iteration, because the difference quotients of
-Newton's method take long. Runs with step-size control solve implicit blocks by Newton's method, because they
-are used for stiff scenes, where fixed-point iteration does not converge in long steps. The step sizes are
-chosen as in emitted code (:mod:`codegen.run.step_control`), but each step size depends on the error estimate
-of the last step only.
+Runs with equal steps solve implicit equations by fixed-point iteration, because the difference quotients of
+Newton's method take long. Runs with step-size control are used for stiff scenes, where fixed-point iteration
+does not converge in long steps. Therefore these runs use Newton's method. The step sizes are chosen as in
+emitted code (:mod:`codegen.run.step_control`), except that each step size depends on the error estimate of
+the last step only.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ MOST_SWEEPS, MOST_NEWTON = 40, 15
 iteration, then for Newton's method."""
 
 SETTLED = 1e-9
-"""The iteration of an interpreted implicit block ends when the relative change is at most SETTLED. The error
-of the method itself is much larger than SETTLED.
+"""The iteration for implicit equations ends when the relative change of the unknowns is at most SETTLED. The
+error of the method itself is much larger.
 """
 
 
@@ -41,8 +41,11 @@ class CountingDomain(FloatDomain):
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Count one sweep. Return a pair: True if the iteration may end, and the change of the unknowns. The
-        iteration may also end as soon as the relative change is at most SETTLED."""
+        """Count one sweep. Return True if the iteration may end, and the change of the unknowns.
+
+        In addition to the rule of the base class, the iteration may end when the relative change is at most
+        SETTLED.
+        """
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
         return done or change <= SETTLED * max(map(abs, old), default=0.0), change
@@ -55,7 +58,7 @@ class NewtonDomain(CountingDomain):
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Return the state at the end of the span after equal steps, and the average number of sweeps over an
+    """Return the state after equal steps over the span, and an estimate of the number of sweeps over an
     implicit block that an emitted program needs in a step.
 
     Raises ArithmeticError if a state is not finite, or if the process has used ``end`` CPU seconds before the

@@ -1,8 +1,8 @@
-"""The order in which recipes are predicted, and the bar of each recipe.
+"""The order in which the search predicts the times of recipes, and the bar of each recipe.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. The bar of a recipe
-is an error and a time. The interpreter executes steps of the recipe only if the recipe can reach the error in
-this time.
+A recipe is a method with equal steps or step-size control, on one form of the equations. A bar consists of an
+error and a time. The interpreter executes steps of a recipe only if the recipe may reach the error in this
+time.
 """
 
 from __future__ import annotations
@@ -18,20 +18,23 @@ from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 
 MARGIN = 5.0
-"""The prediction of a recipe ends when the recipe is certain to take more than MARGIN times the least time
-that is predicted for any recipe.
+"""The interpreted runs of a recipe end when the recipe is certain to take more than MARGIN times the least
+time predicted for all recipes.
 """
 
 FRESH = 8
-"""The bars (limits on the error and on the time of a recipe) depend on all predictions. The bars are computed
-again when the number of predictions has grown by the factor 1 + 1/FRESH.
+"""A bar (limits on the error and on the time of a recipe) is computed again when the number of predictions
+has grown by the factor 1 + 1/FRESH.
 """
 
 
 EVEN = 4.0
-"""Recipes wait in queues, and the queue with the smallest delay is next. The delay increases by one for every
-EVEN recipes that were taken from the queue, and for every EVEN orders between the order of the queue and the
-usual order. It also increases by one for every factor of two in the predicted time of the recipes.
+"""A constant in the delay of a queue of recipes. The next recipe is taken from the queue with the smallest
+delay.
+
+The delay increases by one for every EVEN recipes that were taken from the queue. It also increases by one for
+every EVEN orders between the order of the queue and the usual order, and for every factor of two in the
+predicted time of the recipes.
 """
 
 FAILED = 4.0
@@ -65,10 +68,12 @@ class Jobs(Sequence[Job]):
 
     A job is created only when a worker process is free, so its bars use all predictions up to this time. The
     queues take turns, and queues of orders that are usual for an error are first. Queues of slow kinds of
-    recipes are delayed by the binary logarithm of a ratio: the least predicted time of this kind divided by
-    the least predicted time of all kinds. ``controlled`` maps each recipe that can also run with step-size
-    control to the goals that it may then satisfy. The recipes of the methods ``early`` are predicted first,
-    so that slow recipes are recognised early.
+    recipes are delayed. The delay is log2(a/b), where a is the least predicted time of this kind and b the
+    least predicted time of all kinds.
+
+    ``controlled`` maps each recipe that can also run with step-size control to the goals that the recipe may
+    then satisfy. The recipes of the methods ``early`` are predicted first, so that slow recipes are
+    recognised early.
     """
 
     def __init__(
@@ -130,11 +135,12 @@ class Jobs(Sequence[Job]):
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the part of the delay that depends on predicted times: log2(a/b), where a is the least
-        predicted time of this kind of recipe and b the least predicted time of all kinds. If there are
-        several goals, the goal with the smallest a/b is used.
+        """Return the part of the delay that depends on predicted times.
 
-        The result is FAILED if all predictions of this kind of recipe failed, and 0 if there are none yet.
+        The result is log2(a/b), where a is the least predicted time of this kind of recipe and b the least
+        predicted time of all kinds. If there are several goals, the goal with the smallest a/b is used. The
+        result is FAILED if all predictions of this kind of recipe failed, and 0 if there are no predictions
+        yet.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -148,9 +154,10 @@ class Jobs(Sequence[Job]):
         return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
-        """Use a prediction for later jobs. Failed predictions are not used. Vague predictions are used only
-        if they contain a prediction with step-size control, because their times for equal steps are too
-        short.
+        """Use a prediction for later jobs.
+
+        Failed predictions are not used. The time for equal steps in a vague prediction is too short.
+        Therefore a vague prediction is used only if it contains a prediction with step-size control.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -165,7 +172,8 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
-        """Return the bar that a recipe must reach for a goal. The bar may ignore the most recent predictions.
+        """Return the bar that a recipe must reach for a goal. The bar may not include the most recent
+        predictions.
 
         For a recipe that can run with step-size control, rough predictions for equal steps are not used.
         """
@@ -181,7 +189,7 @@ class Jobs(Sequence[Job]):
 
 
 def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: float) -> Bar:
-    """Return the bar for methods of an order, given the predictions for a goal."""
+    """Return the bar for methods of an order, given the predictions ``known`` for a goal."""
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
