@@ -70,8 +70,8 @@ class Reductions(Struct, frozen=True):
         return self.even and n % 2 == 0
 
     def rest_follows(self, n: int) -> bool:
-        """Return True if the family in ``substitute`` implies all required conditions of order n. The
-        function evaluates the conditions of this family."""
+        """Return True if the method satisfies the conditions of order n of the family in ``substitute``.
+        These conditions imply all required conditions of order n."""
         if self.substitute is None:
             return False
         family, method = self.substitute.family, self.substitute.method
@@ -79,6 +79,6 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Return True if the condition of order n with this key holds because the truncation of dexpinv does
-        not change it."""
+        """Return True if the truncation of dexpinv does not change the condition of order n with this key.
+        The condition then holds, because the method without truncation satisfies it."""
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

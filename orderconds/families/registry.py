@@ -167,8 +167,8 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        # The import of the module registers the family. If the module contains a mistake, the message below
-        # is clearer than "unknown family".
+        # The import of the module registers the family. If the module does not register the family, the
+        # message below is clearer than "unknown family".
         import_module(BUILT_IN[name])
         assert name in _registered, (
             f"{BUILT_IN[name]} has no class with this name and the decorator @register"

@@ -1,4 +1,4 @@
-"""Relations that express the left-hand sides of dependent conditions as polynomials in those of independent
+"""Relations of dependent conditions: each left-hand side is a polynomial in left-hand sides of independent
 conditions.
 
 Two laws make conditions dependent. First, let phi(t) be the elementary weight of a tree t, and let u o v be

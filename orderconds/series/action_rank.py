@@ -5,8 +5,8 @@ order n and of products of values of lower order. The coefficients must be const
 be valid for every method **and for the exact flow**. Such dependences are computed from the values of the
 trees for many random methods and for the exact flow. Pivots are chosen in the canonical order of the trees,
 so that the simplest trees are selected. The values for the exact flow are necessary. Without these values, a
-condition that no method of the family satisfies would count as dependent. Such conditions exist, for example,
-for VRKMK with too few terms of dexpinv.
+condition that no method of the family satisfies would count as dependent. An example of this case is
+variational Runge-Kutta-Munthe-Kaas methods with too few terms of dexpinv.
 """
 
 from __future__ import annotations
