@@ -1,7 +1,8 @@
-"""Step programs whose operations are Python functions of doubles, for many interpreted steps.
+"""Step programs whose operations are Python functions of doubles, so that the interpreter runs many steps
+fast.
 
-Each operation is evaluated once with symbols. Its expressions become one Python function, which replaces the
-operation. The interpreter then runs about ten times as fast as with the original operations.
+Each operation is evaluated once with symbols. The resulting expressions become one Python function, which
+replaces the operation. The interpreter then runs about ten times as fast as with the original operations.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ Shape = tuple[tuple[str, int], ...]
 
 @dataclass(frozen=True)
 class Symbolic:
-    """An operation of a problem on symbols: the expressions of its results, and the width (number of
-    components) of each result.
+    """An operation evaluated on symbols: the expressions of its results, and the width (number of components)
+    of each result.
 
     ``symbols`` are the names of the components of the arguments, followed by the step size.
     """
@@ -70,7 +71,7 @@ def _called(name: str) -> Callable[..., float | tuple[float, ...]]:
 
 @dataclass(frozen=True)
 class Numeric(Operation):
-    """An operation as a Python function of doubles; ``parts`` are the kinds and widths of its results."""
+    """An operation as a Python function of doubles. ``parts`` are the kinds and widths of its results."""
 
     function: Evaluate
     parts: Shape
@@ -100,7 +101,8 @@ class Numeric(Operation):
 
 @dataclass(frozen=True)
 class NumericLinear(Operation):
-    """A linear combination, whose coefficients are doubles times powers of the step size."""
+    """A linear combination. ``coefficients`` contains pairs (c, k), which denote the coefficients c h^k for
+    the step size h."""
 
     coefficients: tuple[tuple[float, int], ...]
     name = "lin"
@@ -117,14 +119,12 @@ class NumericLinear(Operation):
 
 @dataclass
 class NumericPrograms:
-    """Replaces the operations of step programs by Python functions. Each function is compiled when it is
-    first needed, and used again for equal operations.
-    """
+    """Replaces the operations of step programs by Python functions. Equal operations share one function."""
 
     functions: dict[object, Evaluate] = field(default_factory=dict)
 
     def of(self, program: Program, problem: Problem, widths: dict[Var, int]) -> Program:
-        """Return the program in which Python functions replace the operations; ``widths`` contains the number
+        """Return the program in which Python functions replace the operations. ``widths`` contains the number
         of components of each variable.
         """
 

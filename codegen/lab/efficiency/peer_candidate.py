@@ -27,8 +27,7 @@ class PeerCandidate:
     """A peer on a scene. If the peer does not support the scene, the only row of the candidate contains the
     reason.
 
-    ``equations`` are the equations in one form of the scene, by default the form as printed (in the
-    coordinates of the scene).
+    ``equations`` are the equations in one form, by default in the coordinates of the scene.
     """
 
     scene: Problem
@@ -50,8 +49,8 @@ class PeerCandidate:
         return iter(TOLERANCES) if self.peer.controlled == "tolerance" else doubled_steps()
 
     def prepare(self) -> None:
-        """Do nothing. The code of a peer may depend on the tolerance, so it is prepared separately for each
-        run.
+        """Do nothing. The code of a peer may depend on the tolerance, so :meth:`measure` prepares the peer
+        for each run.
         """
 
     def measure(self, control: float) -> Row:

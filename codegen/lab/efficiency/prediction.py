@@ -1,12 +1,14 @@
-"""The predicted time of a recipe for an error, from a few interpreted steps and counted operations.
+"""Predicts the time in which a recipe reaches an error, from a few interpreted steps and counted operations.
 
-The step program is interpreted with a small number of steps. The error of this run and the order of the
-method give the number of steps for another error. If the error of equal steps remains large, for example on
-stiff scenes, a run with step-size control is interpreted, too. The cost of a step is the sum of the costs of
-its operations. The cost of an operation is computed once for each scene from its expressions. The prediction
-ignores common subexpressions of different operations, which the compiler computes once. Therefore the
-prediction only decides which recipes are compiled and measured first, and which recipes are too slow to be
-compiled.
+A recipe is a method with equal steps or step-size control, on one form of the equations. The step program is
+interpreted with a small number of steps. The error of this run and the order of the method give the number of
+steps for another error. If the error of equal steps remains large, for example on stiff scenes, a run with
+step-size control is also interpreted. The cost of a step is the sum of the costs of its operations. The cost
+of an operation is computed once for each scene from its expressions.
+
+The compiler computes common subexpressions of different operations only once, but the prediction ignores
+this. Therefore the prediction is only used to decide which recipes are compiled and measured first, and which
+recipes are too slow to be compiled.
 """
 
 from __future__ import annotations
@@ -43,34 +45,37 @@ PATIENCE = 0.4
 """The interpretation of one recipe ends after this CPU time in seconds."""
 
 PARTS = 64
-"""If no run on the whole span succeeds, for example because more steps are necessary for stability, the first
-of PARTS equal parts of the span is interpreted. The error on the whole span is then predicted as PARTS times
-the error on this part.
+"""The span is divided into PARTS equal parts. If no run on the whole span succeeds, only the first part is
+interpreted.
+
+For example, the runs may have too few steps to be stable. The error on the whole span is then predicted as
+PARTS times the error on the first part.
 """
 
 TRIES = 3
-"""If the runs of TRIES methods of one kind failed on the whole span, one after another, other methods of this
-kind are interpreted on the first part only.
+"""If the runs of TRIES consecutive methods of one kind failed on the whole span, other methods of this kind
+are interpreted on the first part only.
 """
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""The smallest and the usual number of sweeps (iterations) over an implicit block. If a method is too slow
-with USUAL_SWEEPS sweeps, it is not interpreted.
+"""The smallest and the usual number of sweeps (iterations) over an implicit block. A method that is too slow
+with USUAL_SWEEPS sweeps is not interpreted.
 """
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
-"""Methods "do not come close" to an error if their least error is more than FAR times this error."""
+"""Methods cannot reach an error if methods of higher order have an error of more than FAR times this
+error."""
 
 CALL = 8.0
 """The time in nanoseconds of the loop around a step, which reads and writes the state."""
 
 DIGITS = 16
-"""Emitted code solves an implicit block to this number of decimal digits. The interpreter solves it to half
-as many digits.
+"""Emitted code solves implicit equations to this number of decimal digits. The interpreter computes half as
+many digits.
 """
 
 
@@ -78,14 +83,16 @@ as many digits.
 class Prediction:
     """The error of a recipe with ``steps`` steps, and the cost of a step.
 
-    A step takes ``outside`` + ``sweeps`` * ``sweep`` nanoseconds: ``sweep`` is the time of one iteration over
-    all implicit blocks, ``sweeps`` the average number of iterations, ``outside`` the time of the remaining
+    A step takes ``outside`` + ``sweeps`` * ``sweep`` nanoseconds. ``sweep`` is the time of one iteration over
+    all implicit blocks, ``sweeps`` the average number of iterations, and ``outside`` the time of all other
     operations. ``explicit`` is True if no equation is solved. If the interpreted runs failed, ``error`` is
-    infinite. ``rough`` is True if no interpreted run on the whole span had a small error, for example because
-    the motion is fast in a part of the span. Step-size control may then save a large part of the time;
-    ``controlled`` is the prediction with step-size control, if a run with it succeeded. ``vague`` is True if
-    ``error`` is large; the predicted time for a small error is then too short.
-    ``failure`` is the reason if the scene or the family does not accept the method.
+    infinite.
+
+    ``rough`` is True if no interpreted run on the whole span had a small error. A possible reason is a fast
+    motion in a part of the span. Step-size control may then save a large part of the time. If an interpreted
+    run with step-size control succeeded, ``controlled`` is the prediction with step-size control. ``vague``
+    is True if ``error`` is large. The predicted time for a small error is then too short. ``failure`` is the
+    reason if the scene or the family does not accept the method.
     """
 
     method: str
@@ -103,7 +110,7 @@ class Prediction:
     failure: str = ""
 
     def count(self, error: float) -> float:
-        """Return the predicted number of steps for an error; infinite if the interpreted runs failed."""
+        """Return the predicted number of steps for an error, or infinity if the interpreted runs failed."""
         if not math.isfinite(self.error):
             return math.inf
         return max(1.0, self.steps * math.pow(self.error / error, 1 / max(self.order, 1)))
@@ -121,8 +128,8 @@ class Prediction:
         return 1e-9 * count * (CALL + self.outside + max(sweeps, FEWEST_SWEEPS) * self.sweep)
 
     def error_within(self, seconds: float) -> float:
-        """Return the predicted error of a run that takes the given time in seconds; infinite if a single step
-        takes longer.
+        """Return the predicted error of a run that takes the given time in seconds, or infinity if a single
+        step takes longer.
         """
         steps = seconds / (1e-9 * (CALL + self.outside + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
         return self.error * math.pow(self.steps / steps, self.order) if steps >= 1 else math.inf
@@ -132,10 +139,10 @@ class Prediction:
 class Bar:
     """The bar that a recipe must reach: an error of at most ``error`` in at most ``seconds``.
 
-    ``least`` contains the least errors that methods of the next two orders reach in this time, as triples:
-    family, explicit or not, error. The family '' denotes the least error of all families. ``steps`` is the
-    number of steps of the first interpreted run. If ``explicit`` is true, methods that solve equations are
-    excluded.
+    ``least`` contains the least errors that methods of the next two higher orders reach in this time. Each
+    entry is a triple: the family, True for explicit methods, and the error. The family '' denotes all
+    families. ``steps`` is the number of steps of the first interpreted run. If ``explicit`` is true, methods
+    that solve equations are excluded.
     """
 
     error: float
@@ -147,8 +154,8 @@ class Bar:
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
         """Return True if a method whose step takes at least ``step_seconds`` cannot reach the bar.
 
-        The method also cannot reach the bar if the methods of the next two orders miss the error by more than
-        the factor :data:`FAR`.
+        The result is also True if methods of the next two higher orders miss the error by more than the
+        factor :data:`FAR`.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -157,8 +164,10 @@ class Bar:
 
     def most(self, step_seconds: float) -> float:
         """Return the largest number of steps to interpret, for steps that take ``step_seconds`` in compiled
-        code. A compiled run with more steps would exceed ``seconds``. The result is at least ``steps``, and
-        otherwise at most :data:`MANY_STEPS`.
+        code.
+
+        A compiled run with more steps would exceed ``seconds``. The result is at least ``steps``. It exceeds
+        :data:`MANY_STEPS` only if ``steps`` does.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -171,10 +180,10 @@ class Bar:
 class Predictor:
     """Predicts the times of recipes for one form of a scene. The cost of each operation is computed once.
 
-    ``beginning`` returns the equations on the first of :data:`PARTS` parts of the span, with the reference at
-    the end of this part. ``failures`` counts, for each kind of method (family, explicit or not), the methods
-    whose runs on the whole span failed since the last success; ``uncontrolled`` counts the failed runs with
-    step-size control.
+    ``beginning`` returns the equations on the first of :data:`PARTS` parts of the span, and the reference at
+    the end of this part. A kind of method is a family, and True for explicit methods. For each kind,
+    ``failures`` counts the methods whose runs on the whole span failed since the last success.
+    ``uncontrolled`` counts the failed runs with step-size control in the same way.
     """
 
     equations: Equations
@@ -186,11 +195,11 @@ class Predictor:
     numeric: NumericPrograms = field(default_factory=NumericPrograms)
 
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
-        """Return the prediction for a method of the given order; raise InputError if the scene does not
-        accept the method. ``controlled`` is the same method with step-size control.
+        """Return the prediction for a method of the given order. Raise InputError if the scene does not
+        accept the method.
 
-        A bar is an error and a time. If the method cannot reach any bar, no step is interpreted and the error
-        is infinite.
+        Each bar is an error and a time. If the method can reach no bar, no step is interpreted, and the
+        predicted error is infinite. ``controlled`` is the same method with step-size control.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -311,8 +320,8 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Return the number of steps of the first run with a small error, its error, and its average number of
-    sweeps in a step. If no run has a small error, the results belong to the most accurate run.
+    """Return the number of steps, the error, and the average number of sweeps in a step of the first run with
+    a small error. If no run has a small error, the results belong to the most accurate run.
 
     The number of steps is doubled up to ``most``, and until the process has used ``end`` CPU seconds. The
     error is infinite if all runs failed.
@@ -336,9 +345,9 @@ def _reached(
 def matrix(block: Solve, widths: Mapping[Var, int], sweep: float) -> float:
     """Return the time in nanoseconds for the matrix of Newton's method and its inversion.
 
-    ``sweep`` is the time of one evaluation of the equations. All stages contain the same field, so one
+    ``sweep`` is the time of one evaluation of the equations. All stages evaluate the same field, so one
     evaluation of all equations gives one column of the derivative for every stage. Therefore the number of
-    evaluations for the matrix is the largest number of components of an unknown.
+    evaluations equals the number of components of the longest unknown.
     """
     own = [widths[u] for u in block.unknowns]
     return max(own) * sweep + WEIGHTS.arithmetic * sum(own) ** 2 + WEIGHTS.cubes * sum(own) ** 3

@@ -1,10 +1,9 @@
-"""The race: each recipe is emitted as C and run, and the fastest run that reaches an error is found and
-timed.
+"""The race measures, for each recipe, the time of the fastest run that reaches an error.
 
-A run has a control: a number of equal steps, or the exponent k of a tolerance 10^-k. First the number of
-steps is increased, or the tolerance reduced, until two consecutive runs reach the error. A single run is not
-enough, because its error may be small by accident. Then bisection finds a run with fewer steps or a larger
-tolerance that also reaches the error.
+A recipe is a method with equal steps or step-size control, on one form of the equations. Recipes are emitted
+as C. A run has a control: a number of equal steps, or the exponent k of a tolerance 10^-k. First the control
+is increased until two consecutive runs reach the error. A single run is not enough, because its error may be
+small by accident. Then bisection finds a run with a smaller control that also reaches the error.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED
 
 HALVINGS = 6
-"""The largest number of bisections, of the number of steps or of the exponent of the tolerance."""
+"""The largest number of bisections of the control."""
 
 FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
@@ -61,8 +60,8 @@ class Entry:
 
     @property
     def code(self) -> str:
-        """The code of the step without comments and names. It is equal for two recipes that differ only in
-        comments and names.
+        """The code of the step without the header comment and without names that depend on the method. Two
+        recipes with equal code compute the same steps.
         """
         manifest = self.artifact.manifest
         source = self.artifact.files[known_target(manifest["target"]).step_file(manifest["module"])]
@@ -76,8 +75,8 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # A method in coordinates does not know the manifold of the scene, so its states need not stay on the
-        # manifold.
+        # A method that integrates coordinates does not use the manifold of the scene, so its states need not
+        # stay on the manifold.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 
@@ -108,8 +107,8 @@ class Result:
 
 @dataclass
 class Racer:
-    """Runs one entry. ``equations`` are the equations in the form that the recipe of the entry integrates;
-    ``exact`` is the reference solution at the end of the span.
+    """Runs one entry. ``equations`` are the equations in the form that the entry integrates. ``exact`` is the
+    reference solution at the end of the span.
     """
 
     equations: Equations
@@ -184,7 +183,7 @@ class Racer:
         return replace(result, control=control, steps=steps, error=error, seconds=self.seconds(control))
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
-        """Return the first control with which two consecutive runs reach the error, and True; if there is no
+        """Return the first control at which two consecutive runs reach the error, and True. If there is no
         such control, return the last control and False.
         """
         control, seen = 1.0, [self.error(1.0)]
@@ -201,8 +200,8 @@ class Racer:
         return control, False
 
     def _at_rounding(self, values: list[float]) -> bool:
-        """Return True if the error is as small as rounding errors and the last three refinements did not
-        reduce it.
+        """Return True if the last three refinements did not reduce the error, and the error is as small as
+        rounding errors.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
@@ -211,8 +210,10 @@ class Racer:
         return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
 
     def _coarsened(self, control: float, error: float) -> float:
-        """Return the coarsest control (fewest steps or largest tolerance) that reaches the error. It is found
-        by bisection between ``control``, which reaches the error, and the next coarser control.
+        """Return the coarsest control (fewest steps or largest tolerance) that reaches the error.
+
+        ``control`` reaches the error, and the next coarser control does not. The function bisects between the
+        two.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

@@ -1,8 +1,7 @@
-"""The time to reach an accuracy, interpolated between runs, and the fastest candidate for each decade of
-accuracy.
+"""Ranks the candidates of a bench by the time to reach an error, for each power of ten.
 
-A candidate may have runs on several forms of the equations. Its time for an accuracy is the time of the
-fastest form.
+A candidate is a method or another integrator. The time to reach an error is interpolated between runs. If a
+candidate has runs on several forms of the equations, the fastest form counts.
 """
 
 from __future__ import annotations
@@ -17,10 +16,11 @@ from codegen.lab.efficiency.work_precision import Row
 @dataclass(frozen=True)
 class Place:
     """The fastest candidate ``winner`` and the second fastest candidate ``second`` for an error of
-    10^-decade. Their CPU times are ``seconds`` and ``behind``, in seconds.
+    10^-decade.
 
-    If a candidate was measured on several forms, its label is followed by the name of the form. If only one
-    candidate reaches the error, ``second`` is '' and ``behind`` is None.
+    ``seconds`` is the CPU time of the fastest candidate, and ``behind`` the CPU time of the second. If a
+    candidate was measured on several forms of the equations, the name of the form follows its label. If only
+    one candidate reaches the error, ``second`` is '' and ``behind`` is None.
     """
 
     decade: int
@@ -45,13 +45,13 @@ def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
 
 
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the CPU seconds that a candidate needs to reach ``error``; None if it does not reach the error.
+    """Return the CPU seconds that a candidate needs to reach ``error``, or None if no run reaches the error.
 
-    The search begins at the row with the smallest error and continues to coarser runs while their errors are
+    The search begins at the row with the smallest error, and continues to coarser runs while their errors are
     at most ``error``. In this way an accidentally small error of a coarse run is not used. Time and error are
     interpolated logarithmically between the last row found and the next coarser row. If there is no coarser
-    row, the time of the coarsest row is returned. If a more accurate run took less time, this time is
-    returned, so that the result never increases with ``error``.
+    row, the time of the last row is used. If a more accurate run took less time, the time of the more
+    accurate run is returned.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -67,8 +67,8 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the CPU seconds to reach ``error`` in rows of one form of the equations; None if no row reaches
-    it."""
+    """Return the CPU seconds to reach ``error`` in rows of one form of the equations, or None if no row
+    reaches ``error``."""
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None
@@ -93,10 +93,9 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful rows. A row is left out if another form of the equations reaches the error of
-    this row in less time.
+    """Return the successful rows that are not slower than another form of the equations for the same error.
 
-    The rows of several forms are ordered by their errors, from large to small.
+    If there are several forms, the rows are ordered by their errors, from large to small.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]

@@ -1,5 +1,7 @@
-"""The recommendation: the fastest recipe of the library that reaches the error of a request and satisfies its
-needs."""
+"""Recommends the fastest recipe of the library that reaches an error and satisfies the needs of the user.
+
+A recipe is a method with equal steps or step-size control, on one form of the equations.
+"""
 
 from __future__ import annotations
 
@@ -56,11 +58,11 @@ class Recommendation:
     """The result of a search. ``places`` are the fastest runs of the recipes that reach the error, fastest
     first.
 
-    ``best`` is the most accurate run if no recipe reaches the error, otherwise None. ``predicted`` is the
+    If no recipe reaches the error, ``best`` is the most accurate run, otherwise None. ``predicted`` is the
     number of predictions, and ``raced`` the number of measured recipes. ``complete`` is False if the budget
     ended the search. ``lost`` contains the labels of recipes that lose a conserved quantity in a long run.
     ``referred`` is the fraction of the budget that the reference solution used. ``kinks`` is the number of
-    points of the solution where the field is not smooth.
+    times at which the field is not smooth along the solution.
     """
 
     request: Request
@@ -116,7 +118,7 @@ def place_json(task: Task, place: Result) -> dict[str, object]:
 
 
 def step_of(task: Task, place: Result) -> float | None:
-    """Return the step size of a run; None for a run with step-size control, or if every run failed."""
+    """Return the step size of a run, or None for a run with step-size control or without steps."""
     first, last = task.problem().span
     return None if place.entry.recipe.adaptive or not place.steps else float((last - first) / place.steps)
 

@@ -1,6 +1,4 @@
-"""The requirements and the errors for which a table recommends methods: one column for each requirement, one
-row for each error.
-"""
+"""The requirements (columns) and the errors (rows) of a table that recommends methods."""
 
 from __future__ import annotations
 

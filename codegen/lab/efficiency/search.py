@@ -1,15 +1,19 @@
 """The search for the fastest recipes of the library for several goals.
 
-The search has three stages. First, each recipe is predicted by a few interpreted steps
-(:mod:`codegen.lab.efficiency.prediction`). A recipe is dropped without interpreted steps if one step takes
-too long, or if methods of higher order do not come close to the error. Where equal steps have large errors,
-for example on stiff scenes, a run with step-size control is interpreted, too. Second, recipes are emitted and
-measured in C, in the order of their predicted times. For each kind of recipe, the ratio of measured to
-predicted times corrects later predictions. A recipe is not emitted if its corrected prediction is larger than
-the best measured time, multiplied by a safety factor. Third, the fastest recipes are timed again with more
-repetitions.
+A recipe is a method with equal steps or step-size control, on one form of the equations. A goal is an error
+with needs, such as a symplectic method. The search has three stages.
 
-Several goals, which differ in the error and in the needs, share predictions, compiled modules and runs.
+First, a few interpreted steps predict the time of each recipe (:mod:`codegen.lab.efficiency.prediction`). A
+recipe is dropped without interpreted steps if one step takes too long, or if methods of higher order are far
+from the error. If equal steps have large errors, for example on stiff scenes, a run with step-size control is
+also interpreted.
+
+Second, recipes are emitted as C and measured, in the order of their predicted gains. For each kind of recipe,
+the ratio of measured to predicted times corrects later predictions. A recipe is not emitted if its corrected
+prediction exceeds the best measured time multiplied by a safety factor.
+
+Third, the fastest recipes are timed again with more repetitions. All goals share predictions, compiled
+modules and runs.
 """
 
 from __future__ import annotations
@@ -46,9 +50,10 @@ LEADERS, CLOSE = 4, 1.4
 """At most LEADERS recipes are timed again. Their times are at most CLOSE times the best time."""
 
 CONTROLLED = 100.0
-"""An additional safety factor where equal steps have large errors. It applies to recipes with step-size
-control if no recipe of the same kind was measured yet. On stiff scenes, equal steps can take some hundred
-times as long as controlled steps.
+"""An additional safety factor for recipes with step-size control if equal steps have large errors.
+
+The factor is used if no recipe of the same kind was measured yet. On stiff scenes, equal steps can take some
+hundred times as long as controlled steps.
 """
 
 ROUND = 6
@@ -64,12 +69,12 @@ PREDICTING = 0.5
 """When the reference solution is known, predictions may use this fraction of the remaining time budget."""
 
 UNREACHED = 1e-3
-"""The predicted gain of a recipe for a goal if no recipe is predicted to reach the goal, or if the recipe can
-be the fastest only by an unknown gain of step-size control. The number is small, so that such recipes are
+"""The predicted gain of a recipe in two cases: no recipe is predicted to reach the goal, or the recipe can be
+the fastest only through an unknown gain of step-size control. The number is small, so that these recipes are
 measured late."""
 
 LONG_STEPS = 20_000
-"""The number of steps of the long run that tests recommendations for long times."""
+"""The number of steps of a long run, which tests whether a recommended method keeps conserved quantities."""
 
 SHORTER = 5
 """If the long run of a recipe loses a conserved quantity, the step size is halved at most this number of
@@ -77,8 +82,8 @@ times.
 """
 
 Kind = tuple[str, bool, bool]
-"""A kind of recipe: its family, True if it is explicit, True if it has step-size control. Within a kind, the
-ratios of measured to predicted times are similar.
+"""A kind of recipe: the family, True for explicit recipes, and True for recipes with step-size control.
+Within a kind, the ratios of measured to predicted times are similar.
 """
 
 Key = tuple[str, str]
@@ -130,7 +135,7 @@ class Search:
     def predict(self) -> None:
         """Predict all recipes until the part of the budget for predictions is used.
 
-        Families and forms take turns (:class:`Jobs`); slow families and slow forms have fewer turns.
+        Families and forms take turns (:class:`Jobs`). Slow families and slow forms have fewer turns.
         """
         methods: dict[Recipe, list[Goal]] = defaultdict(list)
         for recipe, suited in self.suited.items():
@@ -149,9 +154,11 @@ class Search:
                 return
 
     def expected(self, recipe: Recipe, error: float) -> float:
-        """Return a cautious (short) estimate of the time of a recipe for an error, in seconds. It is the
-        predicted time, corrected by the ratio of measured to predicted times for this kind of recipe, and
-        divided by a safety factor. The result is infinite if the recipe has no prediction.
+        """Return a short estimate of the time of a recipe for an error, in seconds.
+
+        The estimate is the predicted time, multiplied by the ratio of measured to predicted times for this
+        kind of recipe, and divided by a safety factor. The result is infinite if the recipe has no
+        prediction.
         """
         prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
@@ -170,8 +177,10 @@ class Search:
         return seconds / CONTROLLED if unknown and self.kind(recipe) not in self._of_kind else seconds
 
     def prediction(self, recipe: Recipe) -> Prediction | None:
-        """Return the prediction for a recipe; None if the recipe was not predicted. If there is no prediction
-        with step-size control, the prediction for equal steps is returned.
+        """Return the prediction for a recipe, or None if the recipe was not predicted.
+
+        For a recipe with step-size control, the prediction for equal steps is returned if there is no other
+        prediction.
         """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
@@ -191,8 +200,10 @@ class Search:
         return recipe.family, prediction is None or prediction.explicit, recipe.adaptive
 
     def race(self) -> None:
-        """Emit and measure recipes, in the order of their predicted gains. Stop when no remaining recipe may
-        be the fastest. If the budget is used before that, stop and set ``complete`` to False.
+        """Emit and measure recipes, in the order of their predicted gains.
+
+        The function returns when no remaining recipe may be the fastest. It also returns when the budget is
+        used, and then sets ``complete`` to False.
         """
         while True:
             self._correct()
@@ -216,12 +227,12 @@ class Search:
     def _next(self) -> list[Recipe]:
         """Return the next recipes to emit: the recipes with the largest predicted gains for all goals.
 
-        The predicted gain for a goal is log(best measured time/predicted time). If no measured recipe
-        reaches the goal, the safety factor times the least predicted time replaces the best measured time.
-        Recipes whose gain from step-size control is unknown are last.
+        The predicted gain for a goal is log(a/b), where a is the best measured time and b the predicted time.
+        If no measured recipe reaches the goal, a is the safety factor times the least predicted time. Recipes
+        whose gain from step-size control is unknown come last.
 
-        If no recipe of a kind was measured yet, only one recipe of this kind is returned. At most
-        :data:`ROUND` recipes are returned.
+        If no recipe of a kind was measured yet, the result contains only one recipe of this kind. The result
+        contains at most :data:`ROUND` recipes.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -253,14 +264,15 @@ class Search:
         return prediction is not None and not prediction.failure
 
     def best(self, goal: Goal) -> float:
-        """Return the least measured time, in seconds, for a goal; infinity if no recipe has reached it."""
+        """Return the least measured time in seconds for a goal, or infinity if no recipe has reached the
+        goal."""
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
         """Return the fastest result of each recipe that reaches a goal and satisfies its needs.
 
-        A run for a smaller error than the error of the goal also reaches the goal. Recipes that a long run
-        excluded are omitted.
+        A run that was measured for a smaller error also reaches the goal. Recipes that a long run excluded
+        are omitted.
         """
         fastest: dict[Recipe, Result] = {}
         for error, results in self.results.items():
@@ -292,8 +304,8 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If a recipe did not reach the error, its time is unknown; it counts as twice the safety
-                # factor times the best time.
+                # If a recipe did not reach the error, its time is unknown. Its time then counts as twice the
+                # safety factor times the best time.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
@@ -311,7 +323,7 @@ class Search:
                         results[recipe] = replace(results[recipe], seconds=seconds)
 
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
-        """Time the fastest recipes for a goal again; return the ranking, and the labels of recipes that a
+        """Time the fastest recipes for a goal again. Return the ranking, and the labels of recipes that a
         long run excludes.
 
         If long runs exclude all measured recipes, further recipes are measured.
@@ -352,8 +364,8 @@ class Search:
         return ranked
 
     def _loses(self, result: Result, steps: int) -> bool:
-        """Return True if a run of ``steps`` steps loses a conserved quantity or fails; the run has the step
-        size of the given result.
+        """Return True if a run of ``steps`` steps, with the step size of ``result``, loses a conserved
+        quantity or fails.
         """
         racer = self.racers[result.entry.recipe]
         h = (racer.last - racer.first) / result.steps

@@ -1,6 +1,4 @@
-"""The task of a search: the scene, its span and the methods; and the functions that worker processes
-execute.
-"""
+"""The task of a search for the fastest methods, and the functions that its worker processes execute."""
 
 from __future__ import annotations
 
@@ -27,10 +25,10 @@ BUDGET = 50.0
 class Task:
     """The name of a scene, and the extent of the search.
 
-    If ``span`` is not None, it replaces the span of the scene. ``budget`` is the longest time of the search
-    in seconds. If ``tableaux`` is not empty, only methods with these tableaux are searched. ``methods``
-    contains pairs: the label of a method to search, and True if the method has step-size control. If
-    ``methods`` is empty, all methods of the library are searched.
+    If ``span`` is not None, ``span`` replaces the span of the scene. ``budget`` is the longest time of the
+    search in seconds. If ``tableaux`` is not empty, only methods with these tableaux are searched.
+    ``methods`` contains pairs: the label of a method to search, and True if the method has step-size control.
+    If ``methods`` is empty, all methods of the library are searched.
     """
 
     scene: str
@@ -94,9 +92,10 @@ def _beginning(task: Task, form: str) -> tuple[Equations, Reference]:
 def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:
     """Return the predicted errors and times of a recipe; this function runs in a worker process.
 
-    ``job`` contains the recipe and one bar (the largest error and time that are of use) for each goal of the
-    search. The prediction is for equal steps. If the recipe has step-size control and equal steps have large
-    errors, a prediction with step-size control is added. The result is None if there is no bar.
+    ``job`` contains the recipe and the bars. A bar is the largest error and the largest time that are of use
+    for a goal of the search. The prediction is for equal steps. If the recipe has step-size control and equal
+    steps have large errors, a prediction with step-size control is added. The result is None if there is no
+    bar.
     """
     recipe, bars = job
     if not bars:
