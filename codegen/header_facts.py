@@ -1,5 +1,8 @@
-"""The content of the header of an emitted module: facts about the method and the scene, and the parts of a
-general step that the module does not need."""
+"""The content of the header of an emitted module.
+
+The header states facts about the method and the scene. It also lists the features of a general step that the
+module does not need.
+"""
 
 from __future__ import annotations
 
@@ -21,15 +24,18 @@ from orderconds import __version__
 if TYPE_CHECKING:
     from codegen.emitter import Compiled
 
-SINGLE_IS = "single: exact constants are rounded to single precision, to which implicit stages converge"
+SINGLE_IS = (
+    "single: exact constants are rounded to single precision, and implicit stages converge to this precision"
+)
 
 NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
 """A remark in the header of emitted code, for a scene whose field is not smooth."""
 
 COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
 COUNTED = "; the numbers of sweeps above are for double precision"
-"""A remark in the header of a module in single precision. The header lists numbers of sweeps, which were
-measured in double precision."""
+"""A remark in the header of a module in single precision. The header lists numbers of sweeps (iterations),
+which were measured in double precision.
+"""
 
 
 def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: Precision) -> Recipe:
@@ -81,8 +87,9 @@ def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
 
 
 def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the line of the header about the memory that a step needs, if the family of the method describes
-    it."""
+    """Return the header line about the memory that a step needs, if the family of the method describes this
+    memory.
+    """
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:
         text = f"{text}; for each site, and two more copies of the state, because sites read their neighbours"
@@ -90,8 +97,9 @@ def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
 
 
 def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
-    """Return the line of the header about the coordinate map of the scene; no line if the method does not
-    use the map."""
+    """Return the header line about the coordinate map of the scene, or no line if the method does not use the
+    map.
+    """
     used = compiled.scene.coordinates if lowering(compiled.method.family).reads_coordinates else None
     if used is None:
         return ()
@@ -125,8 +133,9 @@ def site_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
 
 
 def _mode_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the line of the header about the linear operator of a semilinear equation; no line for other
-    equations."""
+    """Return the header line about the linear operator of a semilinear equation, or no line for other
+    equations.
+    """
     semilinear = compiled.scene.semilinear
     return () if semilinear is None else (("operator", semilinear.text()),)
 
@@ -150,7 +159,9 @@ def substeps_of(kernel: Kernel) -> str:
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:
-    """Return a line for each part of a general step that a module for this scene and method does not need."""
+    """Return a line for each feature of a general step that a module for this scene and method does not
+    need.
+    """
     kernel, scene = compiled.kernel, compiled.scene
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
@@ -167,5 +178,5 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
 
 
 def flows_of(problem: Problem) -> str:
-    """Describe the exact flows that a splitting composes."""
+    """Describe the exact flows that a splitting method composes."""
     return "; ".join(f"{name}, {flow.text()}" for name, flow in problem.flows.items())

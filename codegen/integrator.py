@@ -1,6 +1,6 @@
 """The interface of loaded modules: steps, runs, trajectories, adaptive runs and Jacobians.
 
-A state is a flat sequence of numbers, a NumPy array, or a pair (q, mu) in this order; a batch of states is an
+A state is a flat sequence of numbers, a NumPy array, or a pair (q, mu) in this order. A batch of states is an
 array with one state in each row (:mod:`codegen.state_form`). Results have the form of the argument.
 """
 
@@ -30,8 +30,11 @@ from codegen.state_form import Fields, State, batch_of, read
 
 
 class Integrator(RunToEnd):
-    """A loaded module. ``interface`` lists the arguments of its functions, and ``defaults`` contains the
-    values that the scene gives to the parameters."""
+    """A loaded module.
+
+    ``interface`` lists the arguments of its functions. ``defaults`` contains the values of the parameters in
+    the scene.
+    """
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
         self.interface, self.defaults = interface, dict(defaults)
@@ -39,19 +42,26 @@ class Integrator(RunToEnd):
 
     @cached_property
     def fields(self) -> Fields:
-        """The name and the size of each part of a state, such as q and mu. If a state is given as a tuple,
-        its parts have this order. The result is empty if the integrator was not loaded from an artifact."""
+        """The name and the size of each part of a state, such as q and mu, in the order of a state given as a
+        tuple.
+
+        The result is empty if the integrator was not loaded from an artifact.
+        """
         entries = () if self.artifact is None else self.artifact.manifest.get("state", ())
         return tuple((entry["name"], len(entry["symbols"])) for entry in entries)
 
     @property
     def initial(self) -> list[float]:
-        """The initial state of the scene; TypeError if the integrator was not loaded from an artifact."""
+        """The initial state of the scene. TypeError is raised if the integrator was not loaded from an
+        artifact.
+        """
         return [float(x) for x in self._manifest("initial")]
 
     @property
     def span(self) -> tuple[float, float]:
-        """The interval of time of the scene; TypeError if the integrator was not loaded from an artifact."""
+        """The time interval of the scene. TypeError is raised if the integrator was not loaded from an
+        artifact.
+        """
         first, last = self._manifest("span")
         return float(first), float(last)
 
@@ -84,9 +94,10 @@ class Integrator(RunToEnd):
         inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the state after one step of size h; raise StepFailed if the step fails.
+        """Return the state after one step of size h. StepFailed is raised if the step fails.
 
-        ``inputs`` are the run-time inputs, in the interface's order; they are constant during the step.
+        ``inputs`` are the run-time inputs, in the order of the interface. The inputs are constant during the
+        step.
         """
         held = None if inputs is None else numbers(inputs)
         function = None if held is None else lambda t: held
@@ -102,9 +113,9 @@ class Integrator(RunToEnd):
         inputs: Signals | None = None,
         **parameters: float,
     ) -> State:
-        """Return the state after ``steps`` steps of size h from time t; raise StepFailed if a step fails.
+        """Return the state after ``steps`` steps of size h from time t. StepFailed is raised if a step fails.
 
-        ``inputs`` is a function from the time to the run-time inputs, in the interface's order.
+        ``inputs`` is a function from the time to the run-time inputs, in the order of the interface.
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             return batch.joined(
@@ -129,9 +140,9 @@ class Integrator(RunToEnd):
     ) -> State:
         """Return a list of states: the initial state and every stride-th state after it.
 
-        ``t_eval`` is a monotone sequence of times; if it is given, the result is a list of the states at
-        these times. ``t`` is the time of the initial state. Between two successive times all steps have the
-        same size, whose absolute value is at most that of h.
+        If a monotone sequence of times is given as ``t_eval``, the result is a list of the states at these
+        times. ``t`` is the time of the initial state. Between two successive times all steps have the same
+        size, whose absolute value is at most that of h.
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             rows = [
@@ -149,8 +160,10 @@ class Integrator(RunToEnd):
         return begun.form.restore(states)
 
     def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
-        """Return the states at ``times``. From each time to the next the steps are equal, and their absolute
-        value is at most that of h."""
+        """Return the states at ``times``.
+
+        Between two successive times all steps have the same size, whose absolute value is at most that of h.
+        """
         if not math.isfinite(h) or h == 0:
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
@@ -188,8 +201,8 @@ class Integrator(RunToEnd):
         """Integrate from t to end with steps as large as the tolerances allow; the first step has size ``h``.
 
         If ``t_eval`` is given, the result also has the states at these times, and a step ends at each of
-        them. ``end`` is then by default the last of these times. A batch is integrated state by state; the
-        result has an array of states, and numbers of steps that are sums over the batch.
+        these times. The default of ``end`` is the last of these times. A batch is integrated state by state.
+        The result of a batch has an array of states, and the numbers of steps are sums over the batch.
 
         TypeError is raised if the module has no run with step control (``emit(..., adaptive=True)`` adds it).
         StepFailed is raised if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps
@@ -231,16 +244,18 @@ class Integrator(RunToEnd):
         tolerances: tuple[float, float],
         limit: int,
     ) -> Arrival:
-        """Run with step control to each of the ``times`` in turn; the last of them is the end of the run. The
-        result contains the states at all other times."""
+        """Run with step-size control to each of the ``times`` in turn. The last time is the end of the run.
+
+        The result contains the states at all other times.
+        """
         rows: list[Sequence[float]] = []
         accepted = rejected = 0
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # If a time is close, a single short step reaches it, and the step size ``arrival.h`` that is
-            # proposed after this step is too small. In this case the larger one of ``h`` and ``arrival.h``
-            # is used next.
+            # If the next time is close, a single short step reaches this time. The step size ``arrival.h``
+            # that is proposed after this short step is too small, so the larger of ``h`` and ``arrival.h`` is
+            # used next.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -261,9 +276,9 @@ class Integrator(RunToEnd):
         """Return the states of many independent systems after ``steps`` steps of size h from time t.
 
         ``states`` has shape (N, size), one state in each row, or is a tuple of such arrays for the parts of a
-        state. A parameter is a number, or an array of N numbers. ``inputs`` are constant in all steps: an
-        array of shape (number of inputs,) or (N, number of inputs). ``out`` is an array of shape (N, size) in
-        Fortran order, which receives the result; if ``out is states``, no state is copied.
+        state. A parameter is a number, or an array of N numbers. ``inputs`` are constant in all steps. They
+        are given as an array of shape (number of inputs,) or (N, number of inputs). ``out`` is an array of
+        shape (N, size) in Fortran order that receives the result. If ``out is states``, no state is copied.
 
         A failed system raises no error: the result contains its status (:class:`Status`), its number of
         completed steps, and its last good state. Other systems are not affected. Emit the module with
@@ -316,10 +331,11 @@ class Integrator(RunToEnd):
         inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the derivative of one step with respect to the state, as a matrix. The header of the emitted
+        """Return the derivative of one step with respect to the state as a matrix. The header of the emitted
         module describes the rows and columns of the matrix.
 
-        TypeError is raised if the module was emitted without ``jacobian=True``, StepFailed if the step fails.
+        TypeError is raised if the module was emitted without ``jacobian=True``. StepFailed is raised if the
+        step fails.
         """
         if not self.interface.variations:
             raise TypeError("this module has no derivative of its step; emit it with jacobian=True")
@@ -337,8 +353,9 @@ class Integrator(RunToEnd):
         inputs: Signals | None,
         statistics: Statistics | None,
     ) -> Begun:
-        """Return the checked arguments; raise TypeError for wrong names or inputs, ValueError for a wrong
-        state."""
+        """Return the checked arguments. TypeError is raised for wrong names or inputs, ValueError for a wrong
+        state.
+        """
         names = self.interface.inputs
         if bool(names) != (inputs is not None):
             raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
@@ -368,7 +385,7 @@ class Integrator(RunToEnd):
         return [real(values[name], name) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Add ``counts``, which emitted code has returned, to the caller's ``statistics``."""
+        """Add the iteration counts that emitted code has returned to the caller's ``statistics``."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -390,13 +407,15 @@ class Integrator(RunToEnd):
     def _adapt(
         self, begun: Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
     ) -> Arrival:
-        """Run with step control; ``span`` is (t, end, h)."""
+        """Run with step-size control. ``span`` is (t, end, h)."""
 
 
 def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
-    """Return the name of each run-time input of a batch, and its value or its values for all systems.
+    """Return the name of each run-time input of a batch with its common value, or with one value for each
+    system.
 
-    ValueError is raised for an array of another shape.
+    ValueError is raised if ``inputs`` does not have the shape (number of inputs,) or (number, number of
+    inputs).
     """
     import numpy as np
 
@@ -413,7 +432,9 @@ def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, 
 def _loaded(
     target: str, interface: dict[str, Any], defaults: Mapping[str, float], artifact: Artifact
 ) -> Integrator:
-    """Return the integrator that is loaded from the emitted files in ``artifact``; pickles call this."""
+    """Return the integrator that is loaded from the emitted files in ``artifact``. Pickles call this
+    function.
+    """
     integrator = known_target(target).load(Interface.from_json(interface), defaults, artifact.files)
     integrator.artifact = artifact
     return integrator

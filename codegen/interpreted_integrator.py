@@ -84,9 +84,12 @@ class InterpretedIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[dict[str, Any]]:
-        """Yield the keyword argument ``statistics`` for a call of the module; empty if the module has no
-        statistics. At the end its counts are added to the caller's statistics. If the module raises its own
-        error StepFailed, :class:`StepFailed` of this package is raised instead."""
+        """Yield the keyword argument ``statistics`` for a call of the module, or nothing if the module has no
+        statistics.
+
+        At the end of the block, the counts are added to the caller's statistics. If the module raises its own
+        error StepFailed, :class:`StepFailed` of this package is raised instead.
+        """
         counts = self.module.Statistics() if self.interface.blocks else None
         try:
             yield {} if counts is None else {"statistics": counts}

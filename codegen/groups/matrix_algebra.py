@@ -1,4 +1,6 @@
-"""Lie algebras of matrices with a rational basis: dual basis and structure constants by sparse arithmetic."""
+"""Lie algebras of matrices with a rational basis. The dual basis and the structure constants are computed by
+sparse arithmetic.
+"""
 
 from __future__ import annotations
 
@@ -11,17 +13,18 @@ from codegen.errors import SceneError
 from codegen.groups.linear_algebra import rational_inverse
 
 Sparse = tuple[tuple[int, Fraction], ...]
-"""The non-zero entries of a matrix or vector: pairs of an index and a value, in the order of the indices.
-Matrices are indexed row by row."""
+"""The non-zero entries of a matrix or vector: pairs of an index and a value, sorted by index. Matrices are
+indexed row by row.
+"""
 
 
 @dataclass(frozen=True)
 class MatrixAlgebra:
     """A vector space of n x n matrices that is closed under [A, B] = AB - BA, with a basis.
 
-    ``dual`` is the dual basis, which spans the same space: the coordinate i of a matrix A is the sum of the
-    products of the entries of ``dual[i]`` and A. ``constants`` are the non-zero structure constants: (i, j,
-    k, c) for the component c of [e_i, e_j] along e_k.
+    ``dual`` is the dual basis of the same space. The coordinate i of a matrix A is the sum of the products of
+    the entries of ``dual[i]`` and A. ``constants`` are the non-zero structure constants: (i, j, k, c) for the
+    component c of [e_i, e_j] along e_k.
     """
 
     n: int
@@ -31,14 +34,16 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """For each place (row, column), the basis matrices with a non-zero entry at this place: pairs of the
-        index of the basis matrix and the entry."""
+        """For each place (row, column), the basis matrices with a non-zero entry there, as pairs of the index
+        of the matrix and the entry.
+        """
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """For each place (row, column), the matrices of the dual basis with a non-zero entry at this place:
-        pairs of the index of the matrix and the entry."""
+        """For each place (row, column), the dual basis matrices with a non-zero entry there, as pairs of the
+        index of the matrix and the entry.
+        """
         return _by_place(self.dual, self.n**2)
 
     @cached_property
@@ -46,7 +51,8 @@ class MatrixAlgebra:
         """The least k such that every product of k matrices with the pattern of the basis is zero; 0 if there
         is no such k.
 
-        A matrix has this pattern if it is zero at every place where all basis matrices are zero."""
+        A matrix has the pattern of the basis if it is zero wherever all basis matrices are zero.
+        """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
         paths, k = {(i, i) for i in range(n)}, 0
@@ -57,9 +63,9 @@ class MatrixAlgebra:
 
 @cache
 def matrix_algebra(name: str, n: int, basis: tuple[Sparse, ...]) -> MatrixAlgebra:
-    """Return the algebra with a basis; ``name`` is printed in errors.
+    """Return the algebra with the given basis. ``name`` is printed in errors.
 
-    :class:`codegen.errors.SceneError` is raised for matrices that are no basis of a Lie algebra.
+    :class:`codegen.errors.SceneError` is raised if the matrices are not a basis of a Lie algebra.
     """
     # The result is cached, because every command constructs the groups of its scene several times.
     dual = _dual(name, basis)
@@ -74,7 +80,7 @@ def matrix_algebra(name: str, n: int, basis: tuple[Sparse, ...]) -> MatrixAlgebr
 
 
 def sparse(entries: Iterable[Fraction | int]) -> Sparse:
-    """Return the non-zero entries.
+    """Return the non-zero entries of a list, each with its index.
 
     >>> sparse([0, 2])
     ((1, Fraction(2, 1)),)
@@ -110,7 +116,7 @@ def _commutator(
 
 
 def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
-    """Return the dual basis; raise SceneError for a linearly dependent basis."""
+    """Return the dual basis. SceneError is raised for a linearly dependent basis."""
     gram: list[dict[int, Fraction]] = [{} for _ in basis]
     places: dict[int, list[tuple[int, Fraction]]] = {}
     for i, matrix in enumerate(basis):
@@ -121,8 +127,8 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
             for j, y in entries:
                 gram[i][j] = gram[i].get(j, Fraction(0)) + x * y
     dual: list[Sparse] = [()] * len(basis)
-    # Basis matrices in different components of the graph (see _components) are orthogonal, so the block of
-    # the Gram matrix for each component is inverted separately.
+    # Basis matrices in different components (see _components) are orthogonal. Thus each component gives a
+    # block of the Gram matrix, and each block is inverted separately.
     for component in _components(gram):
         inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
         if inverse is None or not all(basis[i] for i in component):
@@ -139,8 +145,11 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
 
 
 def _components(gram: Sequence[dict[int, Fraction]]) -> list[list[int]]:
-    """Return the connected components of a graph. Its vertices are the basis matrices, and its edges are the
-    non-zero entries of their Gram matrix."""
+    """Return the connected components of a graph.
+
+    The vertices are the basis matrices. Two vertices are joined by an edge if their entry in the Gram matrix
+    is not zero.
+    """
     components: list[list[int]] = []
     seen: set[int] = set()
     for start in range(len(gram)):
@@ -165,8 +174,9 @@ class _Coordinates:
         self.places = _by_place(dual, n * n)
 
     def of(self, matrix: dict[int, Fraction]) -> list[tuple[int, Fraction]]:
-        """Return the non-zero coordinates; raise SceneError for a matrix that is no combination of the
-        basis."""
+        """Return the non-zero coordinates. SceneError is raised if the matrix is not a combination of the
+        basis.
+        """
         x: dict[int, Fraction] = {}
         for place, value in matrix.items():
             for i, weight in self.places[place]:

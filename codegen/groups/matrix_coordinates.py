@@ -1,4 +1,4 @@
-"""The Cayley map of groups of matrices, and exponentials of their basis elements in closed form."""
+"""The Cayley map on groups of matrices, and exponentials of basis elements in closed form."""
 
 from __future__ import annotations
 
@@ -14,14 +14,17 @@ from orderconds.ring import QQ
 
 
 class MatrixCoordinates(MatrixElements, CayleyMap):
-    """A group of matrices with a rational basis of its algebra; it has a Cayley map if the algebra contains
-    x^3 for each of its elements x."""
+    """A group of matrices with a rational basis of its algebra.
+
+    The group has a Cayley map if the algebra contains x^3 for each of its elements x.
+    """
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group if it has the capability, and None if it does not have it.
+        """Return this group if it has the capability, otherwise None.
 
         A group has the capability :class:`CayleyMap` only if its algebra contains the cubes of all its
-        elements. Then the algebra contains all odd powers, and cay(x) = exp(2 artanh(x/2)) is in the group.
+        elements. In this case the algebra contains all odd powers, and cay(x) = exp(2 artanh(x/2)) is in the
+        group.
         """
         own = super().offers(capability)
         return None if capability is CayleyMap and not self._contains_cubes else own
@@ -31,11 +34,11 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         """True if the algebra contains x^3 for each of its elements x.
 
         x^3 is a polynomial of degree three in the coordinates of x. The test evaluates this polynomial at one
-        point with large coordinates. If not all x^3 are in the algebra, x^3 is in the algebra for at most a
-        fraction 3/2^61 of such points, so a wrong result of the test is practically impossible.
+        point with large coordinates. If some x^3 is not in the algebra, then x^3 is in the algebra for at
+        most a fraction 3/2^61 of such points. A wrong result is therefore practically impossible.
         """
-        # The coordinates are powers modulo the prime 2^61 - 1: integers without a pattern, and the same
-        # integers in each run.
+        # The coordinates are powers modulo the prime 2^61 - 1: integers without a pattern that are the same
+        # in each run.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)
@@ -72,9 +75,10 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         return tuple(i - e for i, e in pairs), tuple(i + e for i, e in pairs)
 
     def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
-        """Return exp(t B) for the basis matrix B: in closed form if B^3 = c B, else by :meth:`exp`.
+        """Return exp(t B) for the basis matrix B with the index k.
 
-        The closed form is 1 + t c_1(-c t^2) B + t^2 c_2(-c t^2) B^2 with the Stumpff functions.
+        If B^3 = c B for a number c, the closed form is 1 + t c_1(-c t^2) B + t^2 c_2(-c t^2) B^2 with the
+        Stumpff functions c_1 and c_2. Otherwise :meth:`exp` is used.
         """
         b = self._exact([Fraction(int(i == k)) for i in range(self.dim)])
         square = matmul(b, b, self.order)
@@ -94,7 +98,7 @@ def _ratio(a: Vector[Fraction], b: Vector[Fraction]) -> Fraction | None:
 
 
 def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
-    """Return c_1(-c t^2) and c_2(-c t^2)."""
+    """Return c_1(-c t^2) and c_2(-c t^2) for the Stumpff functions c_1 and c_2."""
     if not c:
         return d.rational(1), d.rational(1, 2)
     z: S = d.rational(-c.numerator, c.denominator) * (t * t)
@@ -106,7 +110,7 @@ def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
 
 
 def _plus(d: Domain, total: S, weights: tuple[Fraction, Fraction], values: tuple[S, S]) -> S:
-    """Return total + sum w_k v_k; terms with weight zero are omitted."""
+    """Return total + sum w_k v_k. Terms with weight zero are omitted."""
     for w, v in zip(weights, values, strict=True):
         if w:
             factor: S = d.rational(w.numerator, w.denominator)

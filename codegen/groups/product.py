@@ -32,8 +32,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     factor.
 
     For example, SO(3) x R^3 describes the attitude and the momentum of a rigid body, and G x R a
-    configuration and the time. SO(3) x R^3 is not the group of rigid motions, in which rotations also act on
-    translations. The product has a capability if all its factors have it.
+    configuration and the time. SO(3) x R^3 is not the group of rigid motions, because its rotations do not
+    act on translations. The product has a capability if all its factors have the capability.
     """
 
     def __init__(self, *factors: LieGroup) -> None:
@@ -48,10 +48,11 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         self.layout = ": " + "; ".join(f.name + f.layout for f in factors)
 
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
-        """Return the factors' coordinates of an element of the group, of the algebra, or of its dual.
+        """Split the coordinates of an element of the group, of the algebra, or of its dual into those of the
+        factors.
 
-        The length of x decides whether x is split as an element of the group, or of the algebra or its dual.
-        If ``size`` equals ``dim`` for the product, the same holds for every factor, and both splits agree.
+        The length of x decides whether x is an element of the group. If ``size`` equals ``dim`` for the
+        product, the same holds for every factor, and both cases give the same result.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)
@@ -59,7 +60,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 
     def offers(self, capability: type[C]) -> C | None:
         """Return this product if all factors have the operations of the class ``capability``, otherwise
-        None."""
+        None.
+        """
         own = super().offers(capability)
         # A product is a LieGroup and a DirectProduct, whatever its factors are.
         if issubclass(DirectProduct, capability):
@@ -67,8 +69,9 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
-        """Return the results of operation(factor, the factor's arguments) for all factors in order, joined to
-        one tuple."""
+        """Call operation(factor, the factor's arguments) for each factor, and join the results to one
+        tuple.
+        """
         rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
 
@@ -154,7 +157,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(CayleyMap, lambda f, a, b: f.sandwich(d, a, b), x, y)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return the element x of the algebra for which v = x.g, factor by factor."""
+        """Return the element x of the algebra with v = x.g, factor by factor."""
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
@@ -163,8 +166,10 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of all factors. The name of a symbol is ``name``, then the label of the factor,
-        then the index that the factor itself uses."""
+        """Return the symbols of all factors.
+
+        The name of a symbol is ``name``, the label of the factor, and the index that the factor itself uses.
+        """
         pairs = zip(self.factors, labels(len(self.factors)), strict=True)
         return [s for f, label in pairs for s in f.symbols(name + label)]
 
@@ -172,8 +177,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 def labels(count: int) -> Iterator[str]:
     """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
 
-    Labels of different lengths could give the same symbol to two factors: to factor ac of a product, and to
-    factor c of a nested product that is factor a.
+    Labels of different lengths could give the same symbol to two factors. For example, the symbols of factor
+    ac of a product would equal those of factor c of a nested product that is factor a.
 
     >>> list(labels(3)), list(labels(28))[-3:]
     (['a', 'b', 'c'], ['az', 'ba', 'bb'])

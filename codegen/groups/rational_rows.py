@@ -1,4 +1,4 @@
-"""Matrices that a user writes, as rows of exact rational numbers."""
+"""Matrices written by a user, as rows of exact rational numbers."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from codegen.ir.decimals import exact
 
 
 def rational_rows(name: str, matrix: object) -> tuple[tuple[Fraction, ...], ...]:
-    """Return the rows of a matrix as exact fractions; the matrix is a list of rows, a sympy matrix or a NumPy
-    array.
+    """Return the rows of a matrix as exact fractions.
 
-    A float is read as the shortest decimal number that rounds to it. :class:`SceneError` is raised for other
-    arguments and other entries; ``name`` is the name of the group in the message.
+    The matrix is a list of rows, a sympy matrix or a NumPy array. A float is read as the shortest decimal
+    number that rounds to this float. :class:`SceneError` is raised for other arguments and other entries.
+    ``name`` is the name of the group in the message.
 
     >>> rational_rows("A", [[0, 0.1], ["1/3", 0]])[0]
     (Fraction(0, 1), Fraction(1, 10))

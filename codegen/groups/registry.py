@@ -1,5 +1,8 @@
-"""Registries, which find a class by its name. They contain classes of this package, which are imported on
-first use, and classes that were added by :func:`codegen.groups.register`."""
+"""Registries, which find a class by its name.
+
+A registry contains classes of this package, which are imported on first use, and classes that were added by
+:func:`codegen.groups.register`.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +17,9 @@ T = TypeVar("T")
 
 
 class Registry(Generic[T]):
-    """A registry of groups or of actions by name. ``home`` is the package that has the built-in classes as
-    attributes."""
+    """A registry of groups or of actions by name. ``home`` is the package with the built-in classes as
+    attributes.
+    """
 
     def __init__(self, kind: str, home: str, built_in: Sequence[str]) -> None:
         self.kind, self.home, self.built_in = kind, home, tuple(built_in)
@@ -23,15 +27,15 @@ class Registry(Generic[T]):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """All names; the names of built-in classes come first."""
+        """All names. The names of built-in classes come first."""
         return (*self.built_in, *self._added)
 
     def add(self, cls: type[T]) -> None:
         """Add a class under its own name.
 
-        A second class of the same name replaces the first: a scene file that is read twice adds its classes
-        twice. :class:`SceneError` is raised for the name of a built-in class and for a class with abstract
-        methods.
+        A second class of the same name replaces the first, because a scene file that is read twice adds its
+        classes twice. :class:`SceneError` is raised if the name is that of a built-in class, or if the class
+        has abstract methods.
         """
         name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
         if missing:
@@ -46,8 +50,9 @@ class Registry(Generic[T]):
         self._added[name] = cls
 
     def remove(self, cls: type[T]) -> None:
-        """Remove an added class. Nothing happens if the class was not added, or if another class has replaced
-        it."""
+        """Remove an added class. Nothing happens if the class was not added or has been replaced by another
+        class.
+        """
         if self._added.get(cls.__name__) is cls:
             del self._added[cls.__name__]
 
@@ -61,7 +66,7 @@ class Registry(Generic[T]):
         return cls
 
     def listing(self) -> list[dict[str, str]]:
-        """Return, for every class, its name and (``about``) the first paragraph of its docstring."""
+        """Return the name and the first docstring paragraph (``about``) of every class."""
         return [{"name": n, "about": _first_paragraph(self.get(n).__doc__ or "")} for n in self.names]
 
 

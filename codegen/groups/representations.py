@@ -1,8 +1,8 @@
 """Linear representations of groups, from which semidirect products are built.
 
-A representation rho is a linear action of a group on a vector space V. A vector of V and a covector of its
-dual are flat tuples; <p, v> is their dot product. For x in the algebra, x.v is the derivative of rho(exp(eps
-x)) v at eps = 0.
+A representation rho is a linear action of a group on a vector space V. A vector v of V and a covector p of
+its dual are flat tuples, and <p, v> is their dot product. For x in the algebra, x.v is the derivative of
+rho(exp(eps x)) v at eps = 0.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ Pair = tuple[Vector[S], Vector[S]]
 class Representation(ABC):
     """A representation of a group on ``copies`` copies of a space.
 
-    A vector contains its components in all copies, copy by copy. The methods act on one copy. ``needs`` is
-    the class that a group must be derived from, because the formulas call methods of this class.
+    A vector contains its components in all copies, copy by copy. The methods act on one copy. The formulas
+    call methods of the class ``needs``, so a group must be derived from this class.
     """
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if rho is Ad. A group and its cover have the same Lie algebra and the same Ad."""
+    """True if the representation is Ad. A group and its cover have the same Lie algebra and the same Ad."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
@@ -85,8 +85,11 @@ class Representation(ABC):
         """Return phi(x) u = sum of x^k.u/(k+1)!, the translation of exp(x, u)."""
 
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
-        """Return the derivatives of <p, phi(x) u> with respect to x and u; needed if :meth:`closed` is
-        false."""
+        """Return the derivatives of <p, phi(x) u> with respect to x and u, where phi(x) u is
+        :meth:`translation`.
+
+        This method is needed if :meth:`closed` is false.
+        """
         raise self._missing("gradient")
 
     def closed(self, group: LieGroup) -> bool:
@@ -94,21 +97,27 @@ class Representation(ABC):
         return False
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the product ``word`` of functions of ad_(y, u), applied to (z, w). The argument ``x`` is the
-        pair (y, u), and ``v`` is the pair (z, w). The vectors u and w belong to one copy of the space."""
+        """Return the product ``word`` of functions of ad_(y, u), applied to (z, w), for ``x`` = (y, u) and
+        ``v`` = (z, w).
+
+        The vectors u and w belong to one copy of the space.
+        """
         raise self._missing("series")
 
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the product ``word`` of functions of ad*_(y, u), applied to (m, q). The argument ``x`` is
-        the pair (y, u), and ``p`` is the pair (m, q) of an element of the dual of the algebra and a covector
-        of one copy of the space."""
+        """Return the product ``word`` of functions of ad*_(y, u), applied to (m, q), for ``x`` = (y, u) and
+        ``p`` = (m, q).
+
+        m is an element of the dual of the algebra, and q is a covector of one copy of the space.
+        """
         raise self._missing("dual_series")
 
     def _missing(self, method: str) -> SceneError:
-        """Return the error for a subclass that does not define ``method``, but has to define it because of
-        the result of :meth:`closed`."""
+        """Return the error for a subclass that lacks a method. The result of :meth:`closed` decides which
+        methods are needed.
+        """
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
             expected="the methods series and dual_series if closed returns True, else the method gradient",
@@ -123,9 +132,9 @@ class Representation(ABC):
 class AlgebraVectors(Representation):
     """Copies of the Lie algebra, on which the group acts by Ad: for SO(3) these are vectors of R^3.
 
-    x.v = [x, v] and phi(x) = dexp_x. A pair (x, u) of an element of the algebra and a vector of one copy is
-    the dual number x + u e with e^2 = 0. The functions of ad_(x, u) are therefore computed by the formulas of
-    the group, evaluated with dual numbers.
+    Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. A pair (x, u) of an element of the
+    algebra and a vector of one copy is the dual number x + u e with e^2 = 0. The functions of ad_(x, u) are
+    therefore computed by the formulas of the group, evaluated with dual numbers.
     """
 
     of_algebra = True
@@ -173,8 +182,10 @@ class AlgebraVectors(Representation):
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the product ``word`` of functions of ad_x, applied to v. It is computed by the closed form
-        of the group, evaluated with dual numbers."""
+        """Return the product ``word`` of functions of ad_x, applied to v.
+
+        The closed form of the group is evaluated with dual numbers.
+        """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
         return tuple(a.real for a in result), tuple(a.rate for a in result)
@@ -182,19 +193,21 @@ class AlgebraVectors(Representation):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the product ``word`` of functions of ad*_x, applied to the pair ``p`` = (m, q). It is
-        computed by the closed form of the group, evaluated with dual numbers.
+        """Return the product ``word`` of functions of ad*_x, applied to the pair ``p`` = (m, q).
 
-        The pairing <m, y> + <q, v> is the coefficient of e in <q + m e, y + v e>. Therefore (m, q) becomes
-        the dual number q + m e, whose real part is q.
+        The closed form of the group is evaluated with dual numbers. The pairing <m, y> + <q, v> is the
+        coefficient of e in <q + m e, y + v e>. Therefore (m, q) becomes the dual number q + m e, whose real
+        part is q.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
         return tuple(a.rate for a in result), tuple(a.real for a in result)
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group if it consists of the rotation matrices of R^3. For other groups return None,
-        because Ad_g is not the matrix of g."""
+        """Return the group if it consists of the rotation matrices of R^3, otherwise None.
+
+        For other groups Ad_g is not the matrix of g.
+        """
         rotations = group.offers(Rotations)
         return rotations if rotations is not None and rotations.order == rotations.dim else None
 
@@ -240,13 +253,14 @@ class MatrixColumns(Representation):
         return matvec(_transposed(self._matrices(group).hat(d, x)), p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return p.(x v) for each basis vector x of the algebra."""
+        """Return the momentum map: p.(x v) for each basis vector x of the algebra."""
         basis: tuple[Vector[S], ...] = units(d, group.dim)
         return tuple(dot(p, self.velocity(d, group, e, v)) for e in basis)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
         """Return the last column of the exponential of the matrix [[x, u], [0, 0]], without its last
-        entry."""
+        entry.
+        """
         n, bordered = self._bordered(d, group, x, u)
         exponential: Vector[S] = d.vector(f"expm{n}", bordered)
         return tuple(exponential[n * i + n - 1] for i in range(n - 1))
@@ -254,8 +268,8 @@ class MatrixColumns(Representation):
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of p.translation(x, u) with respect to x and to u.
 
-        Both are computed by one derivative of the matrix exponential. Let M = [[x, u], [0, 0]]. The
-        derivative of exp at M is a linear map, and the transpose of this map is the derivative of exp at M^T.
+        One derivative of the matrix exponential gives both results. Let M = [[x, u], [0, 0]]. The derivative
+        of exp at M is a linear map, and the transpose of this map is the derivative of exp at M^T.
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)
@@ -268,7 +282,7 @@ class MatrixColumns(Representation):
         return forces, tuple(slope[n * i + n - 1] for i in range(n - 1))
 
     def _bordered(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> tuple[int, Vector[S]]:
-        """Return the number of rows of [[x, u], [0, 0]], and the matrix."""
+        """Return the number of rows of the matrix [[x, u], [0, 0]], and the matrix."""
         n, hat = len(u), self._matrices(group).hat(d, x)
         rows = (a for i in range(n) for a in (*hat[n * i : n * i + n], u[i]))
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
@@ -281,7 +295,8 @@ class MatrixColumns(Representation):
 class PlaneVectors(MatrixColumns):
     """Copies of R^2 with the rotations of SO(2).
 
-    With J(a, b) = (-b, a) and the Stumpff functions c_k: phi(w) = c_1(w^2) + c_2(w^2) w J.
+    The translation of exp(w, u) is c_1(w^2) u + c_2(w^2) w J u, with J(a, b) = (-b, a) and the Stumpff
+    functions c_k.
     """
 
     def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
@@ -293,11 +308,13 @@ class PlaneVectors(MatrixColumns):
         return self.act(d, group, g, p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return v_0 p_1 - v_1 p_0."""
+        """Return the momentum map v_0 p_1 - v_1 p_0."""
         return (v[0] * p[1] - v[1] * p[0],)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return c_1(w^2) u + c_2(w^2) w J u for x = (w,), with J(a, b) = (-b, a)."""
+        """Return c_1(w^2) u + c_2(w^2) w J u for x = (w,), with J(a, b) = (-b, a) and the Stumpff functions
+        c_k.
+        """
         z = x[0] * x[0]
         c1, turned = d.call("stumpff1", z), x[0] * d.call("stumpff2", z)
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
@@ -307,8 +324,11 @@ class PlaneVectors(MatrixColumns):
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the pair of y and q + (b + c w J)(w J q - y J u), where x = (w, u), v = (y, q) and J(a, b) =
-        (-b, a). The product ``word`` of functions of ad_x is equal to 1 + b ad_x + c ad_x^2."""
+        """Return the product ``word`` of functions of ad_x, applied to v.
+
+        The product equals 1 + b ad_x + c ad_x^2. For x = (w, u), v = (y, q) and J(a, b) = (-b, a), the result
+        is the pair of y and q + (b + c w J)(w J q - y J u).
+        """
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)
         first = (v[0][0] * u[1] - w * v[1][1], w * v[1][0] - v[0][0] * u[0])

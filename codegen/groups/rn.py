@@ -47,7 +47,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return tuple(-a for a in g)
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return x. The matrix X of x has X^2 = 0, so cay(X) = 1 + X, which is the translation by x."""
+        """Return x. The matrix X of x has X^2 = 0, so cay(X) = 1 + X is the translation by x."""
         return x
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -15,10 +15,10 @@ from codegen.ir.number import Number
 class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, CayleyMap):
     """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
 
-    The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6): [x, y] = x y - y x = 2 x
-    cross y, and exp(x) rotates vectors about x by the angle 2|x|. With the conjugate g^c, Ad_g x = g x g^c is
-    the rotation by g, Ad*_g mu = g^c mu g, ad*_x mu = -2 x cross mu. With z = x.x and the Stumpff functions
-    c_k: exp(x) = (c_0(z), c_1(z) x), dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
+    The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6). The bracket is [x, y] = x
+    y - y x = 2 x cross y, and exp(x) rotates vectors about x by the angle 2|x|. With the conjugate g^c, Ad_g
+    x = g x g^c is the rotation by g, Ad*_g mu = g^c mu g, and ad*_x mu = -2 x cross mu. With z = x.x and the
+    Stumpff functions c_k, exp(x) = (c_0(z), c_1(z) x) and dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
     """
 
     name, layout = "S^3", ", real part first"
@@ -76,7 +76,9 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return self.ad(d, mu, x)
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g x g^c = x + 2 q0 q cross x + 2 q cross (q cross x) for g = (q0, q) and its conjugate."""
+        """Return g x g^c = x + 2 q0 q cross x + 2 q cross (q cross x) for g = (q0, q) with the conjugate
+        g^c.
+        """
         return self._rotated(d, g[0], g[1:], x)
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -93,8 +95,10 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(a + real * b + c for a, b, c in zip(x, first, second, strict=True))
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu = dexp_{-x} mu = mu - c_2 v + c_3 (2x cross v). Here v = 2x cross mu, and c_2 and
-        c_3 are the Stumpff functions of 4 |x|^2."""
+        """Return dexp*_x mu = dexp_{-x} mu = mu - c_2 v + c_3 (2x cross v) with v = 2x cross mu.
+
+        c_2 and c_3 are the Stumpff functions of 4 |x|^2.
+        """
         twice = tuple(d.rational(2) * a for a in x)
         z = dot(twice, twice)
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
@@ -112,7 +116,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return self._rotated(d, -g[0], g[1:], x)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return one rule: it replaces q0^2 by 1 - q1^2 - q2^2 - q3^2."""
+        """Return one replacement rule: q0^2 becomes 1 - q1^2 - q2^2 - q3^2."""
         minus = Number.rational(-1)
         return (((q[0], q[0]), ((Number.rational(1), ()), *((minus, (a, a)) for a in q[1:]))),)
 
@@ -131,5 +135,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return rescaled(d, g, d.rational(1) - dot(g, g))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one equation, q.q = 1 for the quaternion q = g, as the pair of its text and the residual."""
+        """Return the equation |q|^2 = 1 for the quaternion q = g, as the pair of its text and its
+        residual.
+        """
         return (("|q|^2 = 1", dot(g, g) - d.rational(1)),)

@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     """Motions z -> R z + a of the plane as (c, s, a0, a1): R rotates by the angle with cosine c and sine s.
 
-    An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. With
-    J(a, b) = (-b, a): [(w, u), (w', u')] = (0, w J u' - w' J u). With the Stumpff functions c_k,
-    exp(w, u) rotates by w and translates by (c_1(w^2) + c_2(w^2) w J) u. Since ad_x^3 = -w^2 ad_x,
-    dexp_x = 1 + c_2(w^2) ad_x + c_3(w^2) ad_x^2.
+    An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. The
+    bracket is [(w, u), (w', u')] = (0, w J u' - w' J u) with J(a, b) = (-b, a). The motion exp(w, u) rotates
+    by w and translates by (c_1(w^2) + c_2(w^2) w J) u with the Stumpff functions c_k. Since ad_x^3 = -w^2
+    ad_x, dexp_x = 1 + c_2(w^2) ad_x + c_3(w^2) ad_x^2.
     """
 
     name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"
@@ -38,8 +38,10 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (c0, w * c1, c1 * u - turned * v, c1 * v + turned * u)
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the Cayley map of the 3 x 3 matrix of x = (w, u). The result has the translation
-        (1 - w J/2)^-1 u with J(a, b) = (-b, a)."""
+        """Return the Cayley map of the 3 x 3 matrix of x = (w, u).
+
+        The translation of the result is (1 - w J/2)^-1 u with J(a, b) = (-b, a).
+        """
         w, u, v = x
         one, half = d.rational(1), d.rational(1, 2) * w
         square = half * half
@@ -87,7 +89,9 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (mu[1] * v - mu[2] * u, w * mu[2], -(w * mu[1]))
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g x g^-1 = (w, R u - w J a) for x = (w, u) and g with rotation R and translation a."""
+        """Return g x g^-1 = (w, R u - w J a) for x = (w, u) and g with rotation R and translation a; J(a, b)
+        = (-b, a).
+        """
         c, s, a, b = g
         w, u, v = x
         return (w, c * u - s * v + w * b, s * u + c * v - w * a)
@@ -105,8 +109,10 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (m - p * b + r * a, p, r)
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu with the Stumpff functions c_k of w^2, where w is
-        the angular velocity in x."""
+        """Return mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu.
+
+        c_k are the Stumpff functions of w^2, where w is the angular velocity in x.
+        """
         z = x[0] * x[0]
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
         first = self.adt(d, x, mu)
@@ -114,18 +120,23 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return tuple(m + c2 * a + c3 * b for m, a, b in zip(mu, first, second, strict=True))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g for x = (w, u) and g = (c, s, a): the pair of w J (c, s) and w J a + u. The second part
-        is the velocity of the point a under x, and J(a, b) = (-b, a)."""
+        """Return x.g for x = (w, u) and g = (c, s, a): the pair of w J (c, s) and w J a + u, with J(a, b) =
+        (-b, a).
+
+        The second part is the velocity of the point a under x.
+        """
         w = x[0]
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g with (c, s) multiplied by 1 + e/2 + 3 e^2/8, where e = 1 - c^2 - s^2. For the result,
-        c^2 + s^2 - 1 is O(e^3)."""
+        """Return g with (c, s) multiplied by 1 + e/2 + 3 e^2/8, where e = 1 - c^2 - s^2.
+
+        For the result, c^2 + s^2 - 1 is O(e^3).
+        """
         return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one equation, c^2 + s^2 = 1, as the pair of its text and the residual c^2 + s^2 - 1."""
+        """Return the equation c^2 + s^2 = 1, as the pair of its text and its residual."""
         return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:

@@ -11,9 +11,9 @@ from codegen.groups.so3 import SO3
 class SE23(Semidirect):
     """Attitude R, velocity v and position p with (R, v, p)(S, u, q) = (R S, v + R u, p + R q), R row by row.
 
-    An element of the algebra is (w, a, u), and exp(w, a, u) = (exp w, dexp_w a, dexp_w u). The matrices are
-    [[R, v, p], [0, 1, 0], [0, 0, 1]] (A. Barrau and S. Bonnabel, IEEE Transactions on Automatic Control 62
-    (2017), 1797-1812).
+    An element of the algebra is (w, a, u): the rates of R, v and p at the identity. The exponential is exp(w,
+    a, u) = (exp w, dexp_w a, dexp_w u). The matrices are [[R, v, p], [0, 1, 0], [0, 0, 1]] (A. Barrau and S.
+    Bonnabel, IEEE Transactions on Automatic Control 62 (2017), 1797-1812).
     """
 
     covering_formula = f"{SO3.covering_formula}; the vectors are equal in both groups"

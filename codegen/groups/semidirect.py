@@ -47,11 +47,12 @@ class Semidirect(
 ):
     """G x V with (g, a)(k, b) = (g k, a + rho(g) b): a linear factor G and a vector space V on which G acts.
 
-    ``representation`` is rho. (g, a) maps the point z of V to rho(g) z + a. The coordinates of g come before
-    the coordinates of a. An element of the algebra is (x, u): the velocity of the point z is x.z + u. The
-    brackets are [(x, u), (y, v)] = ([x, y], x.v - y.u), and exp(x, u) = (exp x, phi(x) u) with phi(x) = sum
-    of x^k/(k+1)!. The product offers a capability, that is, the methods of a base class such as
-    :class:`Covered`, if the linear factor offers it and the representation has the formulas for it.
+    ``representation`` is rho. The element (g, a) maps the point z of V to rho(g) z + a. The coordinates of g
+    come before the coordinates of a. For an element (x, u) of the algebra, the velocity of the point z is x.z
+    + u. The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u), and the exponential is exp(x, u) = (exp x,
+    phi(x) u) with phi(x) = sum of x^k/(k+1)!. A capability is a base class such as :class:`Covered`. The
+    product has a capability if the linear factor has the capability and the representation has the necessary
+    formulas.
     """
 
     covering_formula = "the image of q in the linear factor; the vectors are those of q"
@@ -85,13 +86,15 @@ class Semidirect(
         return (tuple(v[i : i + self.width]) for i in range(0, len(v), self.width))
 
     def _each(self, operation: Callable[..., Vector[S]], *vectors: Vector[S]) -> Vector[S]:
-        """Apply an operation to each copy of the space; return the results joined to one tuple."""
+        """Apply an operation to each copy of the space, and join the results to one tuple."""
         rows = zip(*map(self._copies, vectors), strict=True)
         return tuple(chain.from_iterable(operation(*row) for row in rows))
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product if it has the methods of the class ``capability``. Return None if the linear
-        factor or the representation has no formulas for them."""
+        """Return this product if it has the methods of the class ``capability``, otherwise None.
+
+        The result is None if the linear factor or the representation has no formulas for these methods.
+        """
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
             return own
@@ -139,13 +142,14 @@ class Semidirect(
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return (exp(y) q, rho(exp y) a + phi(y) u) for x = (y, u) and g = (q, a)."""
         q, y = self._element(g)[0], self._split(x)[0]
-        # A variant of the linear factor may have a shorter formula for exp(x) g.
+        # The linear factor may have its own, shorter formula for exp(y) q.
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return (cay y, (1 - y/2)^-1 u) for x = (y, u).
 
-        The product has a Cayley map if rho(g) is the matrix of g. Then (1 - y/2)^-1 = (1 + rho(cay y))/2.
+        The product has a Cayley map if rho(g) is the matrix of g. In this case (1 - y/2)^-1 = (1 + rho(cay
+        y))/2.
         """
         y, u = self._split(x)
         half: S = d.rational(1, 2)
@@ -172,7 +176,9 @@ class Semidirect(
         return self.linear.require(CayleyMap).sandwich(d, a, b) + tail
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (q exp y, a + rho(q) phi(y) u) for g = (q, a) and x = (y, u)."""
+        """Return (q exp y, a + rho(q) phi(y) u) for g = (q, a) and x = (y, u), with phi(y) = sum of
+        y^k/(k+1)!.
+        """
         (q, a), (y, u) = self._element(g), self._split(x)
         moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
         ahead = self._each(lambda v: self.representation.act(d, self.linear, q, v), moved)
@@ -223,8 +229,10 @@ class Semidirect(
         return self.linear.Adt(d, q, central) + turned
 
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return (Ad*_{q^-1} m + J(a, p'), p') with p' = rho(q)^-T p, for g = (q, a), mu = (m, p) and the
-        momentum map J."""
+        """Return (Ad*_{q^-1} m + J(a, p'), p') with p' = rho(q)^-T p, for g = (q, a) and mu = (m, p).
+
+        J is the momentum map.
+        """
         (q, a), (m, p) = self._element(g), self._split(mu)
         turned = self._each(lambda v: self.representation.dual_inverse(d, self.linear, q, v), p)
         return _sum(self.linear.Adtinv(d, q, m), self._momentum(d, a, turned)) + turned
@@ -232,9 +240,10 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        With t = phi(y) u, dexp_x maps (z, 0) to the pair of dexp_y z and D phi(y)[z] u - (dexp_y z).t. Let
-        D_y and D_u be the derivatives with respect to y and u. Without a closed form, the result is therefore
-        the pair of dexp*_y (m - J(t, p)) + D_y <p, t> and D_u <p, t>, where J is the momentum map.
+        Let t = phi(y) u with phi(y) = sum of y^k/(k+1)!, and let D_y and D_u be the derivatives with respect
+        to y and u. dexp_x maps (z, 0) to the pair of dexp_y z and D_y phi(y)[z] u - (dexp_y z).t. Without a
+        closed form, the result is therefore the pair of dexp*_y (m - J(t, p)) + D_y <p, t> and D_u <p, t>,
+        where J is the momentum map.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -246,8 +255,9 @@ class Semidirect(
         return _sum(central, *(first for first, _ in slopes)) + tuple(q for _, part in slopes for q in part)
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product ``word`` of functions of ad_x, applied to v. If ``dual`` is true, the functions
-        are functions of ad*_x."""
+        """Return the product ``word`` of functions of ad_x, applied to v. If ``dual`` is true, ad*_x replaces
+        ad_x.
+        """
         rule = self.representation.dual_series if dual else self.representation.series
         (y, u), (w, vectors) = self._split(x), self._split(v)
         none: Vector[S] = tuple(d.rational(0) for _ in w)
@@ -270,8 +280,10 @@ class Semidirect(
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over the terms (f, W, v), where W is a product of functions. If
-        ``dual`` is true, ad*_x replaces ad_x. The argument ``total`` is not used."""
+        """Return the sum of f W(ad_x) v over the terms (f, W, v), where W is a product of functions.
+
+        If ``dual`` is true, ad*_x replaces ad_x. The argument ``total`` is not used.
+        """
         values = [self.series(d, word, dual, x, tuple(f * a for a in v)) for f, word, v in terms]
         return _sum(*values)
 
@@ -293,16 +305,16 @@ class Semidirect(
         return x + _difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the relations of the linear factor: the vector satisfies no equation."""
+        """Return the relations of the linear factor. The vector satisfies no equation."""
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g = (q, a) with q projected onto the linear factor; a is not changed."""
+        """Return g = (q, a) with q projected onto the linear factor. The vector a is not changed."""
         q, a = self._element(g)
         return self.linear.require(Projection).project(d, q) + a
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the linear factor: the vector satisfies no equation."""
+        """Return the equations of the linear factor. The vector satisfies no equation."""
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -311,7 +323,7 @@ class Semidirect(
         return _sum(self._each(lambda v: self.representation.act(d, self.linear, q, v), z), a)
 
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S], *, translated: bool = True) -> Vector[S]:
-        """Return y.z + u for x = (y, u); if ``translated`` is false, return y.z."""
+        """Return y.z + u for x = (y, u). If ``translated`` is false, return y.z."""
         y, u = self._split(x)
         turned = self._each(lambda v: self.representation.velocity(d, self.linear, y, v), z)
         return _sum(turned, u) if translated else turned
@@ -370,38 +382,45 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of q = (r, a): the covering map of the linear factor is applied to r, and a is not
-        changed."""
+        """Return the image of q = (r, a). The covering map of the linear factor is applied to r, and a is not
+        changed.
+        """
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the result of :meth:`covering` for the projection of q: only the linear part of q is
-        projected."""
+        """Return the result of :meth:`covering` for the projection of q. Only the linear part of q is
+        projected.
+        """
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the velocity x = (y, u) with y lifted to the cover of the linear factor; u is unchanged."""
+        """Return the velocity x = (y, u) with y lifted to the cover of the linear factor. The vector u is not
+        changed.
+        """
         y, u = self._split(x)
         return self._covered().lifted_velocity(d, y) + u
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pivots of the linear factor: a formula of :meth:`lift` is valid where its pivot is
-        positive."""
+        """Return the pivots of the linear factor. A formula of :meth:`lift` is valid where its pivot is
+        positive.
+        """
         return self._covered().pivots(d, self._element(g)[0])
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return an element of the cover whose image is g = (q, a): q is lifted by the formula with the index
-        ``formula``, and a is unchanged."""
+        """Return an element of the cover whose image is g = (q, a).
+
+        q is lifted by the formula with the index ``formula``, and a is not changed.
+        """
         q, a = self._element(g)
         return self._covered().lift(d, q, formula) + a
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of the linear factor, and then, for each component of the vector, the symbol
-        ``name`` followed by an index.
+        """Return the symbols of the linear factor, followed by the symbols of the vector.
 
-        If the linear factor has one of these symbols, the letter v precedes the index.
+        The symbol of a component of the vector is ``name`` followed by an index. If the linear factor has one
+        of these symbols, the letter v precedes the index.
         """
         from sympy import Symbol
 

@@ -12,8 +12,8 @@ from codegen.ir.domain import Domain
 class SL(MatrixGroup):
     """n x n matrices of determinant 1, n >= 2.
 
-    The basis of the algebra: the elementary matrices E_ij with i != j, row by row; then the diagonal matrices
-    E_ii - E_jj with j = i + 1.
+    The basis of the algebra consists of the elementary matrices E_ij with i != j, row by row, followed by the
+    diagonal matrices E_ii - E_jj with j = i + 1.
     """
 
     def __init__(self, n: int) -> None:
@@ -23,5 +23,5 @@ class SL(MatrixGroup):
         super().__init__(f"SL({n})", [*basis, *diagonal])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return det g = 1."""
+        """Return the equation det g = 1."""
         return (("det g = 1", determinant(g, self.n) - d.rational(1)),)

@@ -12,11 +12,11 @@ from codegen.ir.domain import Domain
 class SL2(CubicAd, MatrixGroup, Projection):
     """Matrices of determinant 1, row by row; sl(2) with the basis X, Y, H.
 
-    The basis is the basis of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]],
-    H = [[1, 0], [0, -1]]; [X, Y] = H, [H, X] = 2X, [H, Y] = -2Y. A traceless matrix A has A^2 = -det A, so
-    exp A = c_0(det A) + c_1(det A) A with the Stumpff functions, which are hyperbolic functions for det A <
-    0. The eigenvalues of ad_A are differences of those of A, so dexp_A = 1 + c_2(4 det A) ad_A + c_3(4 det A)
-    ad_A^2.
+    The basis is that of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]], H =
+    [[1, 0], [0, -1]]. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y. A traceless matrix A has A^2
+    = -det A, so exp A = c_0(det A) + c_1(det A) A with the Stumpff functions c_k. For det A < 0 these are
+    hyperbolic functions. The eigenvalues of ad_A are differences of those of A, so dexp_A = 1 + c_2(4 det A)
+    ad_A + c_3(4 det A) ad_A^2.
     """
 
     signed = True
@@ -61,15 +61,15 @@ class SL2(CubicAd, MatrixGroup, Projection):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x) q, and the result of :meth:`transport`, by the closed forms."""
+        """Return exp(x) q and the result of :meth:`transport`, by the closed forms."""
         return Coadjoint.cotangent_expmul(self, d, x, n, q, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g; the determinant of the result is 1 + O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g. The determinant of the result is 1 + O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return det g = 1."""
+        """Return the equation det g = 1."""
         return (("det g = 1", g[0] * g[3] - g[1] * g[2] - d.rational(1)),)
 
 
@@ -79,5 +79,5 @@ def _adjugate(g: Vector[S]) -> Vector[S]:
 
 
 def _determinant(x: Vector[S]) -> S:
-    """Return the determinant of the matrix of x."""
+    """Return the determinant of the matrix with the coordinates x in the basis X, Y, H."""
     return -(x[2] * x[2] + x[0] * x[1])

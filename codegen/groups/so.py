@@ -10,8 +10,8 @@ from codegen.ir.domain import Domain
 
 
 class SO(RotationGroup):
-    """Rotations of R^n, n >= 2; the algebra has the skew matrices E_ji - E_ij with i < j as its basis, row by
-    row.
+    """Rotations of R^n, n >= 2. The basis of the algebra consists of the skew matrices E_ji - E_ij with i <
+    j, row by row.
     """
 
     def __init__(self, n: int) -> None:
@@ -20,5 +20,5 @@ class SO(RotationGroup):
         super().__init__(f"SO({n})", [difference(n, (j, i), (i, j)) for i, j in pairs])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return g^T g = 1 and det g = 1."""
+        """Return the equations g^T g = 1 and det g = 1."""
         return (*super().laws(d, g), ("det g = 1", determinant(g, self.n) - d.rational(1)))

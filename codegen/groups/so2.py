@@ -74,16 +74,16 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (g[0] * v[1] - g[1] * v[0],)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return one rule: it replaces c^2 by 1 - s^2."""
+        """Return one replacement rule: c^2 becomes 1 - s^2."""
         terms = ((Number.rational(1), ()), (Number.rational(-1), (q[1], q[1])))
         return (((q[0], q[0]), terms),)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - c^2 - s^2; the length of the result is 1 + O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - c^2 - s^2. The length of the result is 1 + O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[0] + g[1] * g[1]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one equation, c^2 + s^2 = 1, as the pair of its text and the residual c^2 + s^2 - 1."""
+        """Return the equation c^2 + s^2 = 1, as the pair of its text and its residual."""
         return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:

@@ -34,15 +34,15 @@ class SO3(
     DependentCoordinates,
     CayleyMap,
 ):
-    """Rotations of R^3: a matrix row by row; the hat map and the dot product identify so(3) and so(3)* with
+    """Rotation matrices of R^3, row by row. The hat map and the dot product identify so(3) and so(3)* with
     R^3.
 
-    [x, y] = x cross y, Ad_g x = g x, Ad*_g mu = g^T mu, ad*_x mu = -x cross mu, dexp*_x = dexp_{-x}. With
-    z = x.x and the Stumpff functions c_k: exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues), dexp_x =
-    1 + c_2 ad_x + c_3 ad_x^2.
+    The operations are [x, y] = x cross y, Ad_g x = g x, Ad*_g mu = g^T mu, ad*_x mu = -x cross mu, and
+    dexp*_x = dexp_{-x}. With the values c_k of the Stumpff functions at x.x, exp(x) = 1 + c_1 hat(x) + c_2
+    hat(x)^2 (Rodrigues) and dexp_x = 1 + c_2 ad_x + c_3 ad_x^2.
 
-    expmul(x, g) is the matrix product exp(x) g. If ``dependent`` is the number of a column, only the two
-    other columns are rotated, and this column is their cross product.
+    expmul(x, g) is the matrix product exp(x) g. If ``dependent`` is the index of a column, expmul rotates
+    only the other two columns, and computes this column as their cross product.
     """
 
     name = "SO(3)"
@@ -55,7 +55,8 @@ class SO3(
 
     def variants(self) -> Sequence[SO3]:
         """Return four implementations: without a dependent column, and with column 0, 1 or 2 as the dependent
-        column."""
+        column.
+        """
         return (self, *(SO3(column) for column in range(3)))
 
     def identity(self, d: Domain) -> Vector[S]:
@@ -137,8 +138,10 @@ class SO3(
         return self.Adt(d, g, x)
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp_{-x} mu = mu - c_2 x cross mu + c_3 x cross (x cross mu) with the Stumpff functions of
-        x.x."""
+        """Return dexp_{-x} mu = mu - c_2 x cross mu + c_3 x cross (x cross mu).
+
+        c_2 and c_3 are the Stumpff functions of x.x.
+        """
         z = dot(x, x)
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
         v = cross(x, mu)
@@ -148,8 +151,8 @@ class SO3(
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return the product of functions of ad_x, or of ad*_x = -ad_x, applied to v.
 
-        Since ad_x^3 = -z ad_x with z = x.x, each of these functions is equal to 1 + b ad_x + c ad_x^2 with
-        two numbers b and c. The product of such functions has this form, too.
+        Since ad_x^3 = -z ad_x with z = x.x, the product is equal to 1 + b ad_x + c ad_x^2 with two numbers b
+        and c.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)
@@ -166,11 +169,11 @@ class SO3(
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C),
-        where A, B and C are linear combinations of the vectors v.
+        """Return the sum of f W(ad_x) v over terms (f, W, v) by two brackets.
 
+        The sum is A + x cross (B + x cross C), where A, B and C are linear combinations of the vectors v.
         Terms with the same coefficient of ad_x, or of ad_x^2, are added first, and their sum is multiplied
-        once. ``total(indices)`` returns the sum of f v over the terms with these indices; a caller that has a
+        once. ``total(indices)`` returns the sum of f v over the terms with these indices. A caller that has a
         shorter formula for these sums may pass it as ``total``.
         """
 
@@ -201,7 +204,8 @@ class SO3(
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x such that v = x.g. The entries of x are off-diagonal entries of the skew matrix v g^T =
-        hat(x)."""
+        hat(x).
+        """
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -210,13 +214,17 @@ class SO3(
         return tuple(a for i in (0, 3, 6) for a in self.rotate(d, back, g[i : i + 3]))
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g hat(x), the derivative of g exp(eps x) at eps = 0: the cross product of every row of g
-        with x."""
+        """Return g hat(x), the derivative of g exp(eps x) at eps = 0.
+
+        Each row of the result is the cross product of this row of g with x.
+        """
         return tuple(a for i in (0, 3, 6) for a in cross(g[i : i + 3], x))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the equations g^T g = 1 as rules. Each rule replaces a product of two entries of the first
-        row of g, or the square of one."""
+        """Return the equations g^T g = 1 as replacement rules.
+
+        Each rule replaces a product of two entries of the first row of g, or the square of an entry.
+        """
         one, minus = Number.rational(1), Number.rational(-1)
         relations: list[Relation] = []
         for j in range(3):
@@ -231,8 +239,9 @@ class SO3(
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
         w = cross(x, v)
-        # The small terms are added first, so only one sum is rounded to the precision of y. In 1e5 steps of a
-        # splitting of 256 spins, the lengths then change by 9.6e-14 at most, and otherwise by 1.3e-13.
+        # The small terms are added first, so only one sum is rounded to the precision of y. In 1e5 splitting
+        # steps of 256 spins, the lengths change by at most 9.6e-14 in this way, and by 1.3e-13 in the other
+        # order.
         return tuple(a + (c1 * b + c2 * c) for a, b, c in zip(y, v, w, strict=True))
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -245,7 +254,9 @@ class SO3(
         return tuple(columns[i % 3][i // 3] for i in range(9))
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return exp(x) mu + dexp_x n; if the group has a dependent column, exp(x) is not formed."""
+        """Return exp(x) mu + dexp_x n. If the group has a dependent column, the matrix exp(x) is not
+        computed.
+        """
         if self.dependent is None:
             return super().transport(d, x, n, mu)
         z = dot(x, x)
@@ -255,7 +266,7 @@ class SO3(
         return tuple((mu[i] + n[i]) + ((c1 * v[i] + c2 * (p[i] + w[i])) + c3 * q[i]) for i in range(3))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return g^T g = 1 and det g = 1."""
+        """Return the equations g^T g = 1 and det g = 1."""
         columns, (one, zero) = [g[j::3] for j in range(3)], (d.rational(1), d.rational(0))
         pairs = [(i, j) for i in range(3) for j in range(i, 3)]
         gram = [dot(columns[i], columns[j]) - (one if i == j else zero) for i, j in pairs]
@@ -271,14 +282,19 @@ class SO3(
         return matmul(g, defect, 3)
 
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return the indices of the rows and of the columns. In cyclic order, each row is the cross
-        product of the next two rows, and each column is the cross product of the next two columns."""
+        """Return the indices of the rows and of the columns.
+
+        In cyclic order, each row is the cross product of the next two rows, and each column is the cross
+        product of the next two columns.
+        """
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
 
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g with the row or column at the indices ``missing`` replaced by the cross product of the two
-        next rows or columns in cyclic order."""
+        """Return g with the row or column at the indices ``missing`` computed from the other rows or columns.
+
+        It is the cross product of the next two rows or columns in cyclic order.
+        """
         sets = self.determined()
         place = sets.index(missing)
         first = place - place % 3
@@ -315,8 +331,9 @@ class SO3(
         return tuple(a / length for a in self._covering(diagonal, q, tuple(d.rational(2) * a for a in q[1:])))
 
     def _covering(self, diagonal: Vector[S], q: Vector[S], double: Vector[S]) -> Vector[S]:
-        """Return the rotation matrix of q with the given diagonal; ``double`` is twice the imaginary part of
-        q."""
+        """Return the rotation matrix of q with the given diagonal. ``double`` is twice the imaginary part of
+        q.
+        """
         (w, x, y, _), (a, b, c) = q, double
         xy, xz, yz, wx, wy, wz = x * b, x * c, y * c, w * a, w * b, w * c
         return (diagonal[0], xy - wz, xz + wy, xy + wz, diagonal[1], yz - wx, xz - wy, yz + wx, diagonal[2])
@@ -327,7 +344,8 @@ class SO3(
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return 4 w^2, 4 x^2, 4 y^2 and 4 z^2, where (w, x, y, z) is a unit quaternion whose rotation is
-        g."""
+        g.
+        """
         one = d.rational(1)
         return (
             one + (g[0] + g[4] + g[8]),
@@ -337,8 +355,9 @@ class SO3(
         )
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return the unit quaternion whose rotation is g and whose component with the index ``formula`` is
-        positive."""
+        """Return the unit quaternion with the rotation g and a positive component with the index
+        ``formula``.
+        """
         root: S = d.call("sqrt", self.pivots(d, g)[formula])
         half = d.rational(1, 2)
         wx, wy, wz = g[7] - g[5], g[2] - g[6], g[3] - g[1]

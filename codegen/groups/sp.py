@@ -9,10 +9,11 @@ from codegen.groups.unit_matrices import difference, elementary
 
 
 class Sp(IsometryGroup):
-    """Symplectic matrices of 2n rows: g^T J g = J with J = (0, 1; -1, 0); ``Sp(2 n)`` is the group of R^2n.
+    """Symplectic matrices of 2n rows: g^T J g = J with J = (0, 1; -1, 0). ``Sp(2 n)`` is the group of R^2n.
 
-    The basis of the algebra: E_ij - E_(n+j)(n+i) for all i and j; then, for i <= j, the symmetric matrices
-    E_i(n+j) + E_j(n+i); then E_(n+i)j + E_(n+j)i. For i = j the last two are single elementary matrices.
+    The basis of the algebra consists of three kinds of matrices, in this order: E_ij - E_(n+j)(n+i) for all i
+    and j, E_i(n+j) + E_j(n+i) for i <= j, and E_(n+i)j + E_(n+j)i for i <= j. For i = j, a matrix of the
+    second or third kind is a single elementary matrix.
     """
 
     def __init__(self, rows: int) -> None:

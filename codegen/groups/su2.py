@@ -13,9 +13,9 @@ class SU2(S3):
 
     The quaternion (q0, q1, q2, q3) is the matrix q0 - i (q1 sigma_1 + q2 sigma_2 + q3 sigma_3) with Pauli's
     matrices. The basis of the algebra is -i sigma_k/2, so [x, y] = x cross y, and exp(x) rotates vectors
-    about x by the angle |x|. The elements are those of S^3. The element x of this algebra is the quaternion
-    x/2 in the algebra of S^3. With z = x.x and the Stumpff functions c_k: exp(x) = (c_0(z/4), c_1(z/4) x/2),
-    dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2.
+    about x by the angle |x|. The elements are those of S^3, and the element x of this algebra is the
+    quaternion x/2 in the algebra of S^3. With z = x.x and the Stumpff functions c_k, exp(x) = (c_0(z/4),
+    c_1(z/4) x/2) and dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2.
     """
 
     name = "SU(2)"
@@ -49,7 +49,7 @@ class SU2(S3):
         return cross(mu, x)
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu with the Stumpff functions of x.x."""
+        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu with the Stumpff functions c_k of x.x."""
         return self.series(d, DEXP, True, x, mu)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 Place = tuple[int, int]
-"""Row and column."""
+"""The row and the column of an entry."""
 
 
 def elementary(n: int, *places: Place) -> list[list[int]]:
@@ -12,5 +12,5 @@ def elementary(n: int, *places: Place) -> list[list[int]]:
 
 
 def difference(n: int, plus: Place, minus: Place) -> list[list[int]]:
-    """Return E_plus - E_minus."""
+    """Return E_plus - E_minus for two places (row, column)."""
     return [[int((i, j) == plus) - int((i, j) == minus) for j in range(n)] for i in range(n)]

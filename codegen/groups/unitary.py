@@ -14,8 +14,8 @@ from codegen.ir.unitary_exponential import ROWS, SIZE
 class Unitary(RotationGroup):
     """Unitary n x n matrices A + i B as real 2n x 2n matrices with the rows (A, -B) and (B, A).
 
-    The basis of the algebra: for j < k, row by row, the matrices E_jk - E_kj and i (E_jk + E_kj); then the
-    diagonal matrices i E_jj.
+    The basis of the algebra consists of the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k, row by row,
+    followed by the diagonal matrices i E_jj.
     """
 
     def __init__(self, n: int) -> None:
@@ -23,8 +23,11 @@ class Unitary(RotationGroup):
         self._generate(f"U({n})", n, [{(j, j): 1} for j in range(n)])
 
     def _generate(self, name: str, n: int, diagonal: Sequence[dict[tuple[int, int], int]]) -> None:
-        """Construct the group. ``diagonal`` contains the imaginary part of each diagonal matrix of the basis,
-        as a table from (row, column) to the entry."""
+        """Construct the group.
+
+        ``diagonal`` contains the imaginary part of each diagonal matrix of the basis, as a table from (row,
+        column) to the entry.
+        """
         pairs = [(j, k) for j in range(n) for k in range(j + 1, n)]
         basis = []
         for j, k in pairs:
@@ -33,8 +36,10 @@ class Unitary(RotationGroup):
         RotationGroup.__init__(self, name, [*basis, *(_real(n, {}, imaginary) for imaginary in diagonal)])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return g^T g = 1, and the equations of the blocks: the two diagonal blocks are equal, and the sum
-        of the other two blocks is zero."""
+        """Return g^T g = 1, and the equations of the four blocks of g.
+
+        The two diagonal blocks are equal, and the sum of the other two blocks is zero.
+        """
         n, width = self.rows, self.n
         places = [(i, j) for i in range(n) for j in range(n)]
         blocks = [g[width * i + j] - g[width * (n + i) + n + j] for i, j in places]
@@ -43,11 +48,11 @@ class Unitary(RotationGroup):
 
 
 class SU(Unitary):
-    """Unitary n x n matrices A + i B with determinant 1, n >= 2, as real 2n x 2n matrices with the rows
-    (A, -B) and (B, A).
+    """Unitary n x n matrices A + i B with determinant 1, n >= 2, as real 2n x 2n matrices with the rows (A,
+    -B) and (B, A).
 
-    The basis of the algebra: for j < k, row by row, the matrices E_jk - E_kj and i (E_jk + E_kj); then the
-    diagonal matrices i (E_jj - E_kk) with k = j + 1.
+    The basis of the algebra consists of the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k, row by row,
+    followed by the diagonal matrices i (E_jj - E_kk) with k = j + 1.
     """
 
     def __init__(self, n: int) -> None:
@@ -55,7 +60,7 @@ class SU(Unitary):
         self._generate(f"SU({n})", n, [{(j, j): 1, (j + 1, j + 1): -1} for j in range(n - 1)])
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix exponential. For SU(3) it is computed by the Cayley-Hamilton theorem."""
+        """Return the matrix exponential. For SU(3), the Cayley-Hamilton theorem gives a shorter formula."""
         if self.rows != ROWS:
             return super().exp(d, x)
         parts = d.vector(f"expsu{ROWS}", x)

@@ -10,10 +10,7 @@ from codegen.ir.domain import Domain
 
 
 class Unitriangular(MatrixGroup):
-    """Upper triangular n x n matrices with ones on the diagonal, n >= 2.
-
-    The algebra has the elementary matrices E_ij with i < j as its basis, row by row.
-    """
+    """The basis of the algebra consists of the elementary matrices E_ij with i < j, row by row."""
 
     def __init__(self, n: int) -> None:
         check_size("Unitriangular", n, 2)
@@ -21,7 +18,7 @@ class Unitriangular(MatrixGroup):
         super().__init__(f"UT({n})", [elementary(n, place) for place in self.places])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return an equation for each entry that is constant, that is, always 0 or 1."""
+        """Return an equation for each entry on or below the diagonal, which is always 1 or 0."""
         fixed = [(i, j) for i in range(self.n) for j in range(self.n) if (i, j) not in self.places]
         unit: Vector[S] = self.identity(d)
         places = [(i, j, self.n * i + j) for i, j in fixed]
@@ -32,8 +29,8 @@ class Heisenberg(Unitriangular):
     """The Heisenberg group of dimension 2 n + 1: unitriangular (n + 2) x (n + 2) matrices whose entries above
     the diagonal are in the first row and in the last column.
 
-    The basis of the algebra: the elementary matrices E_1j of the first row with 1 < j < n + 2, then E_i(n+2)
-    of the last column with 1 < i < n + 2, then E_1(n+2).
+    The basis of the algebra consists of elementary matrices in this order: E_1j of the first row with 1 < j <
+    n + 2, E_i(n+2) of the last column with 1 < i < n + 2, and E_1(n+2).
     """
 
     def __init__(self, n: int) -> None:

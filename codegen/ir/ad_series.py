@@ -1,7 +1,7 @@
 """Words: products of functions of one operator ad_x, such as exp(ad_x), dexp_x and dexp_x^{-1}.
 
-The factors of a word are functions phi(s t) of one variable t. The variable t is ad_x, or ad*_x on the dual.
-The factors commute, so a word is their product in any order.
+Each factor of a word is a function phi(s t) with a number s. The variable t is ad_x, or ad*_x on the dual.
+The factors commute, so their order does not matter.
 """
 
 from __future__ import annotations
@@ -10,12 +10,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 
-# With ``order=True`` factors can be compared by <. Simplified words are sorted by this comparison, so that
-# equal products become equal tuples.
+# ``order=True`` defines the comparison <. Simplified words are sorted by this comparison, so that equal
+# products become equal tuples.
 @dataclass(frozen=True, order=True)
 class Factor:
-    """phi(scale t)^power, where phi is exp(t), dexp(t) = (e^t - 1)/t, or dexpinv(t), the series of 1/dexp(t)
-    truncated after t^order."""
+    """phi(scale t)^power, where phi is one of three functions.
+
+    The functions are exp(t), dexp(t) = (e^t - 1)/t, and dexpinv(t), which is the series of 1/dexp(t)
+    truncated after t^order.
+    """
 
     function: str
     scale: Fraction
@@ -30,7 +33,7 @@ class Factor:
 
     def scaled(self, by: Fraction) -> Factor:
         """Return the factor with t replaced by ``by`` times t: phi(by*scale*t)^power."""
-        # phi(scale*t) with t = by*t' is phi(scale*by*t'): only the scale changes.
+        # phi(scale*t) with t = by*t' is phi(scale*by*t'), so only the scale changes.
         return Factor(self.function, self.scale * by, self.order, self.power)
 
     def inverse(self) -> Factor:
@@ -62,15 +65,15 @@ def simplified(word: Word) -> Word:
         else:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
-    # ``list`` copies the entries, because the rule adds keys to the table during the loop. The rule is
-    # applied at most once, because it removes the only exponential.
+    # ``list`` copies the entries, because the loop adds keys to the table. The rule is applied at most once,
+    # because it removes the only exponential.
     for (function, scale, order), n in list(powers.items()):
         # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function replaces two.
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
             rate = Fraction(0)
-    # Factors are sorted, so that equal products become equal words, whatever the order of their factors.
+    # Factors are sorted, so that equal products become equal words.
     factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
         # A higher power becomes repeated factors, because words are evaluated only for the powers 1 and -1.

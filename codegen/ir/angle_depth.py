@@ -1,8 +1,8 @@
-"""The depth of a kernel: the length of the longest chain of rotation angles in which each angle is computed
-from the previous angle.
+"""The depth of a kernel: the length of its longest chain of rotation angles.
 
-The largest angle that a step accepts depends on the depth, because each angle of the chain multiplies the
-rounding errors of the angle before it (:func:`codegen.snippets.stumpff.limit`).
+In such a chain each angle is computed from the previous angle, so it multiplies the rounding errors of the
+previous angle. The largest angle that a step accepts therefore depends on the depth
+(:func:`codegen.snippets.stumpff.limit`).
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ def chain(kernel: Kernel) -> int:
     """Return the depth of a kernel: the largest number of nested Stumpff functions, but at least 1.
 
     A kernel with implicit equations has depth 1, because the solution of the equations does not multiply
-    earlier rounding errors. A kernel with deferred flows also has depth 1, because a flow does not multiply
-    the angle errors of earlier flows.
+    earlier rounding errors. If a run combines the last flow of each step with the first flow of the next
+    step, the depth is also 1, because a flow does not multiply the angle errors of earlier flows.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -27,8 +27,8 @@ def chain(kernel: Kernel) -> int:
     >>> chain(Kernel("step", (), ("h",), body, (space.sym("y"),)))
     2
     """
-    # A loop repeats until its equations hold to rounding accuracy, so its solution does not multiply earlier
-    # rounding errors. Deferred flows do not multiply them either.
+    # An iteration repeats until its equations hold to rounding accuracy, so the solution does not multiply
+    # earlier rounding errors. The same holds for flows that are deferred to the next step.
     if kernel.loops or kernel.deferred is not None:
         return 1
     # In a kernel each name is assigned once and before it is read, so the depth of a name is known when the
@@ -43,7 +43,7 @@ def chain(kernel: Kernel) -> int:
 
 
 def _depth(root: Expr, depths: Mapping[str, int]) -> int:
-    """Return the depth of an expression; ``depths`` contains the depths of its symbols."""
+    """Return the depth of an expression. ``depths`` contains the depths of its symbols."""
     by_node: dict[int, int] = {}
     for node in walk([root]):
         # walk yields the arguments of a node before the node.
@@ -51,7 +51,7 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
         # Inputs have depth 0, because the state is assumed to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # Signed Stumpff functions also add 1 to the depth. Slope functions add nothing, because they occur
-        # only in derivatives that also contain Stumpff functions of the same angle.
+        # Signed Stumpff functions also add 1 to the depth. Derivatives of Stumpff functions (slopes) add
+        # nothing, because they occur only in formulas that also contain Stumpff functions of the same angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -2,7 +2,7 @@
 
 The text of a loop does not depend on the number of rows, so emitted code stays short for large matrices. A
 :class:`Matrix` is an array, or a rectangular part of an array. Each assignment changes one matrix. The
-scalars in a program are expressions (:mod:`codegen.ir.expr`); entries of constant matrices may contain the
+scalars in a program are expressions (:mod:`codegen.ir.expr`). Entries of constant matrices may contain the
 symbols :data:`ROW` and :data:`COLUMN` for their indices, which begin at zero.
 """
 
@@ -28,7 +28,7 @@ class Matrix:
     """A matrix that is stored row by row in the array ``name``, from the place ``start`` on.
 
     ``stride`` is the number of places from the start of one row to the start of the next row. The value 0
-    means the number of columns: the rows then follow one another without gaps.
+    stands for the number of columns, so that the rows follow one another without gaps.
     """
 
     name: str
@@ -47,8 +47,7 @@ class Matrix:
         return self.start + row * self.step + column
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
-        """Return the part of this matrix with the given numbers of rows and columns, whose first entry is at
-        (``row``, ``column``)."""
+        """Return the part of this matrix with the given size and the first entry at (``row``, ``column``)."""
         return Matrix(self.name, rows, columns, self.place(row, column), self.step)
 
     @property
@@ -58,14 +57,17 @@ class Matrix:
 
 
 Entry = Expr | tuple[Number, ...]
-"""The entries of a matrix or of a diagonal: a formula in :data:`ROW` and :data:`COLUMN`, or the numbers
-themselves."""
+"""The entries of a matrix or of a diagonal: a formula in :data:`ROW` and :data:`COLUMN`, or a tuple of
+numbers.
+"""
 
 
 @dataclass(frozen=True)
 class Diagonal:
-    """The entries a_{i, i + offset} of a matrix. If they are numbers, the first belongs to the first row that
-    has an entry on this diagonal."""
+    """The entries a_{i, i + offset} of a matrix.
+
+    If the entries are numbers, the first number belongs to the first row that has an entry on this diagonal.
+    """
 
     offset: int
     entry: Entry
@@ -73,7 +75,7 @@ class Diagonal:
 
 @dataclass(frozen=True)
 class ConstantMatrix:
-    """A matrix that does not change. It is stored by its ``diagonals`` if it is banded, else by all entries.
+    """A constant matrix, stored by its ``diagonals`` if it is banded, otherwise by all entries in ``full``.
 
     The numbers of a full matrix are given row by row.
     """
@@ -96,8 +98,9 @@ class ConstantMatrix:
 
     @property
     def filled(self) -> int:
-        """The number of entries that may be non-zero: those on the ``diagonals``, or all entries of a full
-        matrix."""
+        """The number of entries that may be non-zero: the entries on the ``diagonals``, or all entries of a
+        full matrix.
+        """
         if self.diagonals:
             return sum(map(self.length, self.diagonals))
         return self.rows * self.columns
@@ -122,9 +125,9 @@ def _valued(
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # The indices are replaced by numbers first. A selection between two formulas that depends on the
-        # indices, such as their minimum, is then decided here. Otherwise a domain of power series would have
-        # to decide it, and could fail where the two formulas meet.
+        # The indices are replaced by numbers first. If a formula selects a branch by the indices, for example
+        # by their minimum, the branch is then decided here. A domain of power series could fail to decide it
+        # where two branches meet.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -132,10 +135,9 @@ def _valued(
 
 @dataclass(frozen=True)
 class Multiplication:
-    """target = the product of ``left`` and ``right``. If ``added`` is true, the product is added to the
-    target. Transposed factors are read by columns.
+    """target = ``left`` times ``right``, or target + ``left`` times ``right`` if ``added`` is true.
 
-    The arrays of the factors differ from the array of the target.
+    Transposed factors are read by columns. The arrays of the factors differ from the array of the target.
     """
 
     target: Matrix
@@ -147,14 +149,16 @@ class Multiplication:
 
     @property
     def inner(self) -> int:
-        """The number of products whose sum is one entry of the result."""
+        """The number of products that are added for one entry of the result."""
         return self.left.rows if self.left_transposed else self.left.columns
 
 
 @dataclass(frozen=True)
 class Apply:
-    """target = C M, or target = M C with ``from_right``, where C is the constant and M the matrix. The
-    constant may be transposed."""
+    """target = C M, or target = M C if ``from_right`` is true, where C is the constant and M the matrix.
+
+    If ``transposed`` is true, C is replaced by its transpose.
+    """
 
     target: Matrix
     constant: ConstantMatrix
@@ -180,9 +184,9 @@ class Term:
 
 @dataclass(frozen=True)
 class Combination:
-    """target = the sum of the terms; zero without terms.
+    """target = the sum of the terms, or zero if there are no terms.
 
-    The target itself may occur only in the first term, and there it may not be transposed.
+    The target itself may occur only in the first term, where it must not be transposed.
     """
 
     target: Matrix
@@ -192,7 +196,7 @@ class Combination:
 ArrayStatement = Multiplication | Apply | Combination
 
 Renaming = Callable[[Matrix], Matrix]
-"""A function that returns, for each matrix of a program, the matrix that replaces it."""
+"""A function that maps each matrix of a program to its replacement."""
 
 
 @dataclass(frozen=True)
@@ -204,8 +208,9 @@ class ArrayProgram:
     result: Matrix
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the scalar expressions in the program: coefficients, and formulas of the entries of constant
-        matrices."""
+        """Yield the scalar expressions in the program: coefficients, and formulas for entries of constant
+        matrices.
+        """
         for statement in self.body:
             if isinstance(statement, Combination):
                 yield from (term.coefficient for term in statement.terms)
@@ -219,16 +224,21 @@ class ArrayProgram:
     def evaluate(
         self, domain: Domain, argument: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> list[Scalar]:
-        """Return the entries of the result, row by row; ``symbols`` contains the values of the symbols in the
-        program's expressions, except the symbols of the indices."""
+        """Return the entries of the result, row by row.
+
+        ``symbols`` contains the values of the symbols in the program's expressions, except the symbols of the
+        indices.
+        """
         arrays: Arrays = {self.argument.name: list(argument)}
         for statement in self.body:
             evaluated(statement, domain, arrays, symbols)
         return _entries(self.result, arrays)
 
     def moved(self, argument: Matrix, result: Matrix, name: str) -> tuple[ArrayStatement, ...]:
-        """Return the statements with other matrices in place of argument and result. ``name`` is put in front
-        of the names of all other arrays."""
+        """Return the statements with other matrices in place of the argument and the result.
+
+        ``name`` is put in front of the names of all other arrays.
+        """
 
         def now(matrix: Matrix) -> Matrix:
             if matrix.name == self.argument.name:
@@ -316,8 +326,9 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
 
 
 def operations(statement: ArrayStatement) -> dict[str, int]:
-    """Return the number of additions and products of a statement. The operations in the formulas of matrix
-    entries are not counted."""
+    """Return the number of additions and products of a statement, without those in formulas of matrix
+    entries.
+    """
     size = statement.target.size
     match statement:
         case Multiplication():

@@ -1,15 +1,16 @@
 """A step on n x k matrices with orthonormal columns, by loops over arrays, without n x n matrices.
 
-All generators of a step have the form B S B^T with one n x r matrix B, the basis, and skew r x r matrices S,
-the cores. The first k columns of B are the state X_0. Each evaluation of the field adds k columns, so r = k
-(m + 1) for a step with m evaluations. With the Gram matrix G = B^T B,
+A generator is an element of so(n) whose exponential moves the state. All generators of a step have the form B
+S B^T with one n x r matrix B, the basis, and skew r x r matrices S, the cores. The first k columns of B are
+the state X_0. Each evaluation of the field adds k columns, so r = k (m + 1) for a step with m evaluations.
+For two cores S and T, an r x k matrix C and the Gram matrix G = B^T B,
 
     [B S B^T, B T B^T] = B (S G T - T G S) B^T,
     exp(B S B^T) B C = B (C + S phi(G S) G C),   phi(z) = (exp(z) - 1)/z.
 
 A point of the step is X_0 + B D with a small r x k matrix D, its displacement. Let V be the value of the
-field at X, a tangent vector. The generator at X is W X^T - X W^T with W = V - X (X^T V)/2. If X = B C and
-W = B E, its core is E C^T - C E^T.
+field at X, a tangent vector. The generator at X is W X^T - X W^T with W = V - X (X^T V)/2. If X = B C and W =
+B E, its core is E C^T - C E^T.
 """
 
 from __future__ import annotations
@@ -28,17 +29,19 @@ from codegen.ir.array_program import (
 from codegen.ir.expr import Expr
 
 TERMS = 8
-"""The number of terms of phi(z) = (exp(z) - 1)/z that is assumed when operations are counted. In a run the
-number of terms depends on the norm of z."""
+"""The number of terms of phi(z) = (exp(z) - 1)/z that is assumed for counts of operations. In a run the
+number of terms depends on the norm of z.
+"""
 
 MOST_TERMS = 18
-"""The number of terms of phi(z) = (exp(z) - 1)/z after which the remainder of the series is below the
-rounding errors, if the norm of z is at most 1."""
+"""If the norm of z is at most 1, the remainder of phi(z) = (exp(z) - 1)/z after this number of terms is below
+the rounding errors.
+"""
 
 
 @dataclass(frozen=True)
 class AddUnit:
-    """target = target + ``value`` times the unit matrix; the target is square."""
+    """target = target + ``value`` times the unit matrix. The target is square."""
 
     target: Matrix
     value: int
@@ -46,10 +49,11 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """target = the displacement of exp(B S B^T) X, that is, D with exp(B S B^T) X = X_0 + B D.
+    """target = the matrix D with exp(B S B^T) X = X_0 + B D.
 
-    B is the basis of the step, ``core`` is S, and ``gram`` is B^T B. ``start`` is the displacement of X, or
-    None if it is zero. ``start`` has at most as many rows as ``target``.
+    X_0 is the state at the start of the step, B is the basis of the step, ``core`` is S, and ``gram`` is B^T
+    B. The point X is X_0 + B ``start``, or X_0 if ``start`` is None. ``start`` has at most as many rows as
+    ``target``.
     """
 
     target: Matrix
@@ -71,9 +75,9 @@ StepStatement = ArrayStatement | AddUnit | Move
 
 @dataclass(frozen=True)
 class ArrayStep:
-    """The statements of one step: they compute the matrix ``result`` from the matrix ``argument``.
+    """The statements of one step, which compute the matrix ``result`` from the matrix ``argument``.
 
-    ``estimate`` are further statements, which compute the difference ``error`` between the result and an
+    ``estimate`` contains further statements. They compute ``error``, the difference between the result and an
     embedded solution.
     """
 

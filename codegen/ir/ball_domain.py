@@ -1,8 +1,8 @@
 """Numbers of many digits as Arb balls: a faster replacement for :class:`codegen.ir.domain.PreciseDomain`.
 
-An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers.
-A report needs thousands of steps with 60 digits. Therefore they are evaluated in this domain. A ball is a
-midpoint with an error radius. In an iteration the radii would grow without bound. Therefore each result of an
+An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers. The
+thousands of steps with 60 digits in a report are therefore evaluated in this domain. A ball is a midpoint
+with an error radius. In an iteration the radii would grow without bound. Therefore the result of each
 operation of a step program is replaced by its midpoint, and the radii of the final result are not error
 bounds.
 
@@ -46,9 +46,9 @@ GUARD = 32
 class BallDomain:
     """Midpoints of Arb balls with a given number of decimal digits.
 
-    ``h`` is an mpmath number, a float or a Fraction; :meth:`scalar` converts numbers of these types, and
-    :meth:`mpf` converts a scalar back. OverflowError is raised if an argument of a function is
-    2^:data:`codegen.ir.domain.LARGEST_BITS` or more.
+    ``h`` is an mpmath number, a float or a Fraction. :meth:`scalar` converts numbers of these types to
+    scalars, and :meth:`mpf` converts a scalar to an mpmath number. OverflowError is raised if an argument of
+    a function is 2^:data:`codegen.ir.domain.LARGEST_BITS` or more.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
@@ -57,8 +57,8 @@ class BallDomain:
         with self.precision():
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
-        # A fixed-point iteration that has not converged after this number of sweeps is replaced by Newton's
-        # method, as in :class:`codegen.ir.domain.PreciseDomain`.
+        # After this number of sweeps without convergence, Newton's method replaces a fixed-point iteration,
+        # as in :class:`codegen.ir.domain.PreciseDomain`.
         self.patience = 3 * digits
 
     def precision(self) -> precision:
@@ -66,8 +66,9 @@ class BallDomain:
         return precision(self.bits)
 
     def scalar(self, x: Scalar) -> arb:
-        """Return a float, an mpmath number or a Fraction as a scalar; doubles and mpmath numbers are
-        converted exactly."""
+        """Convert a float, an mpmath number or a Fraction to a scalar. Floats and mpmath numbers are
+        converted exactly.
+        """
         if isinstance(x, Fraction):
             return self.rational(x.numerator, x.denominator)
         if isinstance(x, int | float):
@@ -99,7 +100,7 @@ class BallDomain:
         return (arb(p) / q).mid()
 
     def call(self, function: str, *args: arb) -> arb:
-        """Evaluate a function; Stumpff functions use their series for arguments up to 1.
+        """Evaluate a function. Stumpff functions use their series for arguments up to 1.
 
         ValueError is raised outside the domain of a real function, for example for the root of a negative
         number.
@@ -130,8 +131,8 @@ class BallDomain:
         """Return the results of a vector function.
 
         The exponential of A + e E, with e^2 = 0, is computed from the block matrix with the rows (A, E) and
-        (0, A). ZeroDivisionError is raised for the inverse of a singular matrix, OverflowError for the
-        exponential of a matrix with entries above 2^40.
+        (0, A). ZeroDivisionError is raised for the inverse of a singular matrix. OverflowError is raised for
+        the exponential of a matrix with entries above 2^40.
         """
         called, numbers = vector_function(function), [x.mid() for x in args]
         if isinstance(called, MatrixExponential):
@@ -140,7 +141,7 @@ class BallDomain:
                 raise OverflowError(
                     "expected a matrix with finite entries of at most 2^40 for an exponential"
                 )
-            # The exponential may be smaller than the terms of its series by a factor exp(-2 norm). This
+            # The exponential may be smaller than the terms of its series by the factor exp(-2 norm). This
             # cancellation loses about 3 bits for each unit of the norm. The working precision is therefore
             # increased by 64 + 3 norm bits, but by at most 64 + 2^13 bits.
             norm = float(called.n * max(abs(x) for x in first))
@@ -166,10 +167,10 @@ class BallDomain:
         raise ValueError(f"unknown vector function {function}")
 
     def _stumpff(self, k: int, z: arb) -> arb:
-        """Return c_k(z) = sum_j (-z)^j/(2j + k)!."""
+        """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j + k)!."""
         if z > 1:
             # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3 near z
-            # = 1: it contains sqrt z - sin sqrt z, which is 1 - sin 1 = 0.16 there.
+            # = 1. Its formula contains sqrt z - sin sqrt z, which is 1 - sin 1 = 0.16 at z = 1.
             root = z.sqrt()
             if k == 0:
                 return root.cos()
@@ -186,7 +187,10 @@ class BallDomain:
         return total
 
     def _slope(self, k: int, z: arb) -> arb:
-        """Return c_k'(z): by its series for abs(z) up to 1, else by a formula in c_{k-1} and c_k."""
+        """Return the derivative c_k'(z) of the Stumpff function c_k.
+
+        The series is used for abs(z) up to 1, else a formula in c_{k-1} and c_k.
+        """
         if abs(z) > 1:
             return (self._stumpff(k - 1, z) - k * self._stumpff(k, z)) / (2 * z)
         total, j, term = arb(0), 1, -arb(1) / math.factorial(k + 2)
@@ -198,7 +202,10 @@ class BallDomain:
         return total
 
     def _curvature(self, k: int, z: arb) -> arb:
-        """Return c_k''(z): by its series for abs(z) up to 1, else by a formula in c_{k-2}, ..., c_k."""
+        """Return the second derivative c_k''(z) of the Stumpff function c_k.
+
+        The series is used for abs(z) up to 1, else a formula in c_{k-2}, c_{k-1} and c_k.
+        """
         if abs(z) > 1:
             a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
@@ -215,8 +222,10 @@ class BallDomain:
         return tuple(x.mid() for x in value) if isinstance(value, tuple) else value.mid()
 
     def settled(self, old: Sequence[arb], new: Sequence[arb], previous: Scalar) -> tuple[bool, arb]:
-        """Return two values: True if the changes are within 2^12 rounding units and no longer decrease, and
-        the size of the last change."""
+        """Return two values: True if an iteration has converged, and the size of the last change.
+
+        The iteration has converged if the changes are within 2^12 rounding units and no longer decrease.
+        """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
         # Comparisons with NaN are false, so without this test the iteration would continue up to its limit.
         if not all(x.is_finite() for x in new):
@@ -225,7 +234,7 @@ class BallDomain:
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: arb) -> arb:
-        """Return d for the difference quotient (f(x + d) - f(x))/d."""
+        """Return the increment d for the difference quotient (f(x + d) - f(x))/d."""
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
 
 
@@ -240,7 +249,7 @@ def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Return the jet of a block matrix: the inverse of :func:`_block`."""
+    """Return the jet that a block matrix represents. This function is the inverse of :func:`_block`."""
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2
@@ -249,6 +258,6 @@ def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
 
 
 def _exponent(x: arb) -> int:
-    """Return the binary exponent of a number; 0 for 0."""
+    """Return the binary exponent of a number, or 0 for 0."""
     mantissa, exponent = x.mid().man_exp()
     return int(exponent) + int(mantissa).bit_length() if mantissa else 0

@@ -1,10 +1,10 @@
 """Collect constants: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
 
-The rewriting is exact. Each expression becomes a linear combination of atoms: expressions that are not linear
-combinations themselves. Numbers are taken out of products and powers, and are put into numerators: 3/2
-(1/sqrt x)^3 becomes (3/2)/(x sqrt x), which shortens the chain of dependent products by two or three. An
-expanded sum may have fewer subexpressions in common with other sums, so the result is used only if it has
-fewer operations.
+The rewriting is exact. Each expression becomes a linear combination of atoms, which are expressions that are
+not linear combinations themselves. Numbers are taken out of products and powers, and are put into numerators.
+For example, 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), which shortens the chain of dependent products by two
+or three. An expanded sum may have fewer subexpressions in common with other sums. Therefore the result is
+used only if it has fewer operations.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Sum = dict[int, tuple[Number, Expr]]
-"""A linear combination: it maps the node number of each expression to the pair (coefficient, expression). A
-constant term has the expression 1."""
+"""A linear combination. It maps the node number of each expression to the pair (coefficient, expression). A
+constant term has the expression 1.
+"""
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
-    """Return the roots with their constants collected, or the unchanged roots if this does not reduce the
-    number of operations.
+    """Return the roots with their constants collected, or the given roots if this saves no operations.
 
-    Expressions in ``kept``, and their multiples, are not expanded.
+    The expressions in ``kept`` and their multiples are not expanded.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -43,12 +43,13 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
         if node.args:
             # A node in ``kept`` is an atom: its linear combination is 1 times the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # The node numbers of the kept nodes are recorded here, before whole() adds other nodes to ``sums``. Kept
-    # nodes are not counted as operations, because they cost the same with and without collected constants.
+    # The numbers of the nodes in ``kept`` are recorded here, before whole() adds other nodes to ``sums``.
+    # These nodes are not counted as operations, because they cost the same with and without collected
+    # constants.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # Expanding sums may leave fewer shared subexpressions. If both forms cost the same, the given form is
-    # kept, because earlier passes have chosen it.
+    # used, because earlier passes have chosen it.
     return collected if _operations(collected, still) < _operations(roots, still) else tuple(roots)
 
 
@@ -70,14 +71,14 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Return the powers (1/sqrt x)^n that are rewritten as quotients.
 
-    The powers of an inverse root 1/sqrt x are rewritten only if each power that other expressions read has an
+    The powers of an inverse root 1/sqrt x are rewritten only if all powers that other expressions use have an
     odd exponent n >= 3. The result maps the node number of a power to the pair (node number of 1/sqrt x,
     exponent n). Numeric factors are ignored. Subexpressions of ``kept`` are skipped.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # Pairs of a node and an expression that reads it. For a root, the second entry is None, because the
-    # caller reads the root.
+    # Pairs of a node and an expression that uses the node. For a root, the second entry is None, because the
+    # caller uses the root.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
@@ -89,18 +90,19 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # A power of y counts only if an expression that is not a power of y reads it: y^2 inside y^3 is an
-    # intermediate value.
+    # A power of y counts only if it is used outside powers of y: y^2 inside y^3 is an intermediate value.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If y = 1/sqrt(x) itself is read, it must be computed anyway, and all its powers share its division. The
-    # powers of y are also kept if an even power is read.
+    # If y = 1/sqrt(x) itself is used, it must be computed anyway, and all its powers share its division. The
+    # powers of y are also left unchanged if an even power is used.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
-    """Return True if a node is a product of numbers and powers of one inverse root. ``inside`` lists the
-    node's arguments that are such powers, as pairs (root, exponent)."""
+    """Return True if a node is a product of numbers and powers of one inverse root.
+
+    ``inside`` lists those arguments of the node that are such powers, as pairs (root, exponent).
+    """
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
 
@@ -119,7 +121,8 @@ class _Gathering:
 
     def whole(self, root: Expr) -> Expr:
         """Return one expression with its constants collected."""
-        # Arguments come first, so the combinations of a node's arguments are known when it is visited.
+        # Arguments come first, so the combinations of the arguments of a node are known when the node is
+        # visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
                 # Each node is expanded only once, and all expressions that contain the node use the same
@@ -128,22 +131,27 @@ class _Gathering:
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return a node's linear combination as an expression. In place of an inverse 1/y it contains e/y,
-        where e is the absolute value of the coefficient of the first term that reads 1/y."""
+        """Return the linear combination of a node as an expression.
+
+        An inverse 1/y is replaced by e/y, where e is the absolute value of the coefficient of the first term
+        that contains 1/y.
+        """
         if node.id not in self.written:
-            # The expression is built when it is first read and then reused, so it stays shared.
+            # The expression is built once and then reused, so that it stays a shared subexpression.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]
 
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
-        """Return the term c (1/y) as the pair (d, e/y) with d = c/e, where e is the value of |c| in the first
-        term that reads 1/y. Return any other term unchanged."""
+        """Return the term c (1/y) as the pair (d, e/y) with d = c/e. Return any other term unchanged.
+
+        e is the value of |c| in the first term that contains 1/y.
+        """
         if not _is_inverse(atom):
             return c, atom
-        # The division e/y costs no more than 1/y, and the first term that reads 1/y then needs no product.
-        # Later terms use the same quotient e/y and multiply it by d = c/e, where c is their own coefficient.
-        # Often d is 1 or -1.
+        # The division e/y costs no more than 1/y, and the first term that contains 1/y then needs no product.
+        # Later terms multiply the same quotient e/y by d = c/e, where c is their own coefficient. Often d is
+        # 1 or -1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
@@ -162,8 +170,8 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
-            # Terms that cancel are removed. If one term c x remains, a product that contains the sum can move
-            # the number c out.
+            # Terms that cancel are removed. If a single term c x remains, a product that contains the sum can
+            # take out the number c.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)
@@ -184,8 +192,8 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # Methods such as Space.div are not called, because they would simplify the new node, and the result
-        # might no longer be an atom.
+        # Methods such as Space.div would simplify the new node, so that the result might no longer be an
+        # atom. Therefore the node is created directly.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 
@@ -193,22 +201,24 @@ class _Gathering:
         """Return (1/sqrt x)^n as 1/x^m for n = 2 m, or as 1/(x^m sqrt x) for n = 2 m + 1."""
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
-        # Let y = 1/sqrt x. The variable c collects the numeric factors of y^n, so the power that remains has
-        # no numeric factor.
+        # Let y = 1/sqrt x. The variable c collects the numeric factors of y^n, so the remaining power has no
+        # numeric factor.
         c = Number.rational(1)
         for arg in node.args * (node.payload or 1):
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # y^(2m+1) = 1/(x^m sqrt x): x^m can be computed in parallel with the root, and the division comes
-        # last.
+        # y^(2m+1) = 1/(x^m sqrt x). The power x^m can be computed in parallel with the root, and the division
+        # comes last.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}
 
     def _content(self, node: Expr) -> tuple[Number, Expr]:
-        """Return (c, x) such that the node equals c x. If the linear combination of the node does
-        not have exactly one term, c is 1."""
+        """Return (c, x) such that the node equals c x with a number c.
+
+        If the linear combination of the node does not have exactly one term, c is 1.
+        """
         total = self.sums[node.id]
         # A common factor of a sum is not taken out, because other expressions may also contain the sum.
         if len(total) != 1:
@@ -226,10 +236,12 @@ def _size(c: Number) -> Number:
 
 
 def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
-    """Return a combination as an expression. Terms whose coefficients differ only in sign are added before
-    they are multiplied."""
-    # Terms are grouped by |c|, so 3/2 a - 3/2 b takes one product. Dictionaries keep the order of first use,
-    # so the result depends on the input alone.
+    """Return a combination as an expression.
+
+    Terms whose coefficients differ only in sign are added before they are multiplied.
+    """
+    # Terms are grouped by |c|, so that 3/2 a - 3/2 b needs one product. Dictionaries keep the order of
+    # insertion, so the result depends on the input alone.
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}
     key: object
@@ -243,7 +255,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
         for minus, atom in terms[1:]:
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # If the first term of a group is negative, the group is subtracted, so no coefficient occurs with
-        # both signs.
+        # If the first term of a group is negative, the whole group is subtracted, so that no coefficient
+        # occurs with both signs.
         result = result - part if first else result + part
     return result

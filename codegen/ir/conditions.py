@@ -45,7 +45,8 @@ def always(yes: Expr, no: Expr) -> Expr:
 
 
 def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], where: str) -> Condition:
-    """Return a condition of sympy as a :data:`Condition`; ``node`` translates the expressions in it.
+    """Convert a condition of sympy to a :data:`Condition`. ``node`` translates the expressions in the
+    condition.
 
     :class:`SceneError` is raised for a condition that is neither a comparison nor a combination of
     comparisons by And, Or and Not.

@@ -1,6 +1,6 @@
-"""Floats in formulas: a float is read as the shortest decimal that rounds to it, so 0.1 is 1/10.
+"""Floats in formulas. A float is read as the shortest decimal that rounds to this float, so 0.1 is 1/10.
 
-The exact binary value of a float is never used: for 0.1 it is 3602879701896397/36028797018963968.
+The exact binary value of a float is never used. For 0.1 this value is 3602879701896397/36028797018963968.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def decimal(value: sympy.Float) -> Fraction:
 
 
 def exact(value: object) -> Fraction | None:
-    """Convert a rational number from a scene to an exact fraction. Return None if it is no rational number.
+    """Convert a number from a scene to an exact fraction. Return None if the number is not rational.
 
     Python integers, fractions, floats, numbers of NumPy, rational numbers of sympy and texts such as "1/10"
     are accepted.

@@ -1,5 +1,6 @@
-"""Reverse-mode differentiation of expressions: a gradient costs a small multiple of the cost of the
-function."""
+"""Reverse-mode differentiation of expressions. A gradient costs a small multiple of the cost of the
+function.
+"""
 
 from __future__ import annotations
 
@@ -28,8 +29,8 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     # The adjoint of a node is the derivative of root with respect to the node, so the adjoint of root is 1.
     space = root.space
     bars: dict[int, Expr] = {root.id: space.one}
-    # The order is from root to the symbols: when a node is visited, all nodes that use it have added their
-    # terms to its adjoint.
+    # The nodes are visited from the root to the symbols. When a node is visited, all nodes that use it have
+    # added their terms to its adjoint.
     for node in reversed(list(walk([root]))):
         bar = bars.get(node.id)
         # The terms of an adjoint may cancel exactly. A zero is skipped, because multiplying it by derivatives
@@ -44,9 +45,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
-    If ``moving`` is given, it contains the ids of all nodes that depend on the variables; all other nodes are
-    constant. Derivatives of a vector function with respect to constant arguments are then set to zero instead
-    of being computed. The derivatives of the function ``quotient`` are valid where its divisor is not zero.
+    If ``moving`` is given, it contains the ids of all nodes that depend on the variables. All other nodes are
+    constant. Derivatives of a vector function with respect to constant arguments are then set to zero and not
+    computed. The derivatives of the function ``quotient`` are valid where its divisor is not zero.
     :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
     space, args = node.space, node.args
@@ -58,7 +59,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
         case "mul":
             return [args[1], args[0]]
         case "div":
-            # the derivatives with respect to both arguments share this division
+            # The derivatives with respect to both arguments share this division.
             inverse = space.one / args[1]
             return [inverse, -(node * inverse)]
         case "neg":
@@ -77,8 +78,10 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
 
 
 def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each function
-    """Return the partial derivatives of a function with respect to its arguments. For the Stumpff functions
-    c_k' = (k c_{k+2} - c_{k+1})/2."""
+    """Return the partial derivatives of a function with respect to its arguments.
+
+    The Stumpff functions satisfy c_k' = (k c_{k+2} - c_{k+1})/2.
+    """
     space, x = node.space, node.args[0]
     half = space.const(Number.rational(1, 2))
     match node.payload:
@@ -117,8 +120,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:
             return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
-            # 1/b is also a ``quotient``, which is 0 where b = 0; with a division the derivative would be
-            # infinite there.
+            # 1/b is also computed by ``quotient``, which is 0 where b = 0. A division would make the
+            # derivative infinite there.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:
@@ -127,14 +130,16 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
 
 
 def sign(x: Expr) -> Expr:
-    """Return the sign of an expression; the sign of 0 is 0."""
+    """Return the sign of an expression. The sign of 0 is 0."""
     space = x.space
     return space.call(CHOOSE, x, space.one, space.call(CHOOSE, -x, -space.one, space.zero))
 
 
 def _selection(node: Expr) -> list[Expr]:
-    """Return the derivatives of an absolute value or of a selection between two formulas. The derivative of
-    the absolute value at 0 is set to 0."""
+    """Return the derivatives of an absolute value or of a selection between two formulas.
+
+    The derivative of the absolute value at 0 is set to 0.
+    """
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]

@@ -26,22 +26,22 @@ class NotConverged(ArithmeticError):
     """The error for an iteration that reached its limit of sweeps or computed a number that is not finite."""
 
 
-# The type is Any, because scalars are float, mpf, series or Expr, which have the same operators but no common
-# base class.
+# Scalars are float, mpf, series or Expr. These types have the same operators but no common base class, so the
+# type is not specified further.
 Scalar: TypeAlias = Any
-"""A number of one domain; its type depends on the domain and is known only at run time."""
+"""A number of one domain. Its type depends on the domain and is known only at run time."""
 
 Value: TypeAlias = Any
-"""A value of a variable: a scalar for the kind Real, a flat tuple of scalars of one domain for all other
-kinds."""
+"""A value of a variable: a scalar if the variable has the kind Real, otherwise a flat tuple of scalars."""
 
 Values: TypeAlias = tuple[Value, ...]
 """The arguments or the results of an operation."""
 
 
 class Domain(Protocol):
-    """A number system. Its methods create scalars and evaluate functions of scalars; ``h`` is the step size
-    as a scalar of the domain."""
+    """A number system: the creation of scalars and the evaluation of functions. ``h`` is the step size as a
+    scalar.
+    """
 
     h: Scalar
 
@@ -58,23 +58,27 @@ class Domain(Protocol):
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if an iteration has converged, and the size of its last change. The caller
-        passes this size as ``previous`` in the next call."""
+        """Return two values: True if an iteration has converged, and the size of its last change.
+
+        The caller passes this size as ``previous`` in the next call.
+        """
 
 
 class Differenced(Domain, Protocol):
     """A domain in which Newton's method can use difference quotients in place of derivatives."""
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return d for the difference quotient (f(x + d) - f(x))/d."""
+        """Return the increment d for the difference quotient (f(x + d) - f(x))/d."""
 
 
 def stumpff(k: int, z: float) -> float:
-    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative z.
+    """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative
+    z.
 
     For large z the function oscillates. The error is a few units in the last place of the amplitude of this
-    oscillation near z. For z > 2^52 the result is NaN, as in emitted code: the angle sqrt z exceeds 2^26, so
-    half of its digits represent full turns.
+    oscillation near z. For z > 2^52 the result is NaN, as in emitted code. For such z the angle sqrt z
+    exceeds 2^26, so half of its digits represent full turns.
+
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
@@ -91,8 +95,8 @@ def stumpff(k: int, z: float) -> float:
         return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
-    # In c_3 the difference sqrt z - sin sqrt z loses digits if the angle sqrt z is below about 2, so the
-    # series is used for these angles.
+    # The formula for c_3 contains sqrt z - sin sqrt z. This difference loses digits if the angle sqrt z is
+    # below about 2, so the series is used for these angles.
     if z < (0.5 if k < 3 else 4.0):
         # Horner's rule begins with the highest power. For z < 4 the first omitted term is below 1e-27.
         total, j = 0.0, 14
@@ -104,14 +108,15 @@ def stumpff(k: int, z: float) -> float:
     if k == 1:
         return math.sin(root) / root
     if k == 2:
-        # The formula 2 sin^2(s/2) is used for 1 - cos s, which would lose digits by cancellation for small s.
+        # 1 - cos s is computed as 2 sin^2(s/2), because 1 - cos s would lose digits by cancellation for small
+        # s.
         half = math.sin(root / 2)
         return 2 * half * half / z
     return (root - math.sin(root)) / (z * root)
 
 
 def slope(k: int, z: float) -> float:
-    """Return c_k'(z) for k = 1, 2, 3, and positive or negative z.
+    """Return the derivative c_k'(z) of a Stumpff function for k = 1, 2, 3, and positive or negative z.
 
     The series is used for abs(z) up to 1, else the closed form (c_{k-1} - k c_k)/(2 z).
 
@@ -128,7 +133,7 @@ def slope(k: int, z: float) -> float:
 
 
 def curvature(k: int, z: float) -> float:
-    """Return c_k''(z) for k = 2, 3 and z >= 0.
+    """Return the second derivative c_k''(z) of a Stumpff function for k = 2, 3 and z >= 0.
 
     The series is used for z up to 1, else (c_{k-2} - (2 k + 1) c_{k-1} + k (k + 2) c_k)/(2 z)^2.
 
@@ -164,7 +169,7 @@ class FloatDomain:
         return float(Fraction(p, q))
 
     def call(self, function: str, *args: float) -> float:
-        """Call the function of the math library, or :func:`stumpff`."""
+        """Evaluate a function with the math library. Stumpff functions are evaluated by :func:`stumpff`."""
         if "stumpff" in function:
             return stumpff(int(function[-1]), args[0])
         if "slope" in function:
@@ -193,17 +198,17 @@ class FloatDomain:
         # also affect the small unknowns.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # With the rate of convergence change/before, the remaining error is about change^2/before, which must
-        # be below half a unit in the last place. The rate is computed from only two changes and may be wrong,
-        # so the change itself must also be small.
+        # The rate of convergence is about change/before, so the remaining error is about change^2/before.
+        # This error must be below half a unit in the last place. The rate is computed from only two changes
+        # and may be wrong, so the change itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
-        # Small changes that no longer decrease are rounding errors; large changes that no longer decrease are
+        # Small changes that no longer decrease are rounding errors. Large changes that no longer decrease are
         # a sign of divergence.
         return change == 0.0 or 0 < before <= change <= 2.0**-44 * max(1.0, scale), change
 
     def increment(self, x: float) -> float:
-        """Return d for the difference quotient (f(x + d) - f(x))/d."""
+        """Return the increment d for the difference quotient (f(x + d) - f(x))/d."""
         # The square root of the rounding unit balances the rounding and the truncation error of a forward
         # difference.
         return math.ldexp(max(1.0, abs(x)), -26)
@@ -214,11 +219,11 @@ LARGEST_BITS = 16384
 
 
 class PreciseDomain:
-    """mpmath numbers with a given number of decimal digits; each domain has its own mpmath context.
+    """mpmath numbers with a given number of decimal digits. Each domain has its own mpmath context.
 
-    OverflowError is raised if an argument of a function is 2^:data:`LARGEST_BITS` or more. mpmath numbers
-    do not overflow: without this bound, an iteration that diverges would compute the sine of a number with
-    millions of digits.
+    OverflowError is raised if an argument of a function is 2^:data:`LARGEST_BITS` or more. mpmath numbers do
+    not overflow. Without this bound, a divergent iteration would compute the sine of a number with millions
+    of digits.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
@@ -231,7 +236,7 @@ class PreciseDomain:
         self.h = (
             self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
         )
-        # Newton's method replaces a fixed-point iteration that has not converged after this number of sweeps.
+        # After this number of sweeps without convergence, Newton's method replaces a fixed-point iteration.
         self.patience = 3 * digits
 
     def number(self, value: Number) -> Scalar:
@@ -247,7 +252,7 @@ class PreciseDomain:
         return self.context.mpf(p) / q
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Evaluate a function with mpmath; Stumpff functions use their series for arguments up to 1."""
+        """Evaluate a function with mpmath. Stumpff functions use their series for arguments up to 1."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
         if selects(function):
@@ -262,16 +267,15 @@ class PreciseDomain:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
         if z > 1:
-            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3 near
-            # z = 1: it contains sqrt z - sin sqrt z, which is 1 - sin 1 = 0.16 there.
+            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3 near z
+            # = 1. Its formula contains sqrt z - sin sqrt z, which is 1 - sin 1 = 0.16 at z = 1.
             root = self.context.sqrt(z)
             sine = self.context.sin(root)
             closed = (self.context.cos(root), sine / root, 2 * (self.context.sin(root / 2) / root) ** 2)
             return closed[k] if k < 3 else (root - sine) / (root * z)
         total, j = self.context.mpf(0), 0
         term = self.context.mpf(1) / math.factorial(k)
-        # Terms below eps/1024 are omitted, where eps is the rounding unit. They are too small to change the
-        # sum.
+        # Terms below eps/1024, where eps is the rounding unit, are too small to change the sum.
         while abs(term) > self.context.eps / 1024:
             total += term
             j += 1
@@ -283,7 +287,10 @@ class PreciseDomain:
         return named(function).in_digits(self.context, self.digits, args)
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
-        """Return c_k'(z): by its series for abs(z) up to 1, else by a formula in c_{k-1} and c_k."""
+        """Return the derivative c_k'(z) of the Stumpff function c_k.
+
+        The series is used for abs(z) up to 1, else a formula in c_{k-1} and c_k.
+        """
         if abs(z) > 1:
             return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
         total, j = self.context.mpf(0), 1
@@ -295,7 +302,10 @@ class PreciseDomain:
         return total
 
     def _curvature(self, k: int, z: Scalar) -> Scalar:
-        """Return c_k''(z): by its series for abs(z) up to 1, else by a formula in c_{k-2}, ..., c_k."""
+        """Return the second derivative c_k''(z) of the Stumpff function c_k.
+
+        The series is used for abs(z) up to 1, else a formula in c_{k-2}, c_{k-1} and c_k.
+        """
         if abs(z) > 1:
             a, b, c = (self.call(f"stumpff{i}", z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
@@ -308,8 +318,10 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if the changes are within 2^12 rounding units and no longer decrease, and
-        the size of the last change."""
+        """Return two values: True if an iteration has converged, and the size of the last change.
+
+        The iteration has converged if the changes are within 2^12 rounding units and no longer decrease.
+        """
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
         # A small change is not sufficient, because the next sweep may give further correct digits. Therefore
@@ -317,13 +329,15 @@ class PreciseDomain:
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return d for the difference quotient (f(x + d) - f(x))/d."""
+        """Return the increment d for the difference quotient (f(x + d) - f(x))/d."""
         return self.context.sqrt(self.context.eps) * max(1, abs(x))
 
 
 class SeriesDomain:
-    """Power series in h over an exact ring, truncated beyond h^order; local errors are computed exactly in
-    this domain."""
+    """Power series in h over an exact ring, truncated beyond h^order.
+
+    Local errors are computed exactly in this domain.
+    """
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
@@ -343,12 +357,12 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a function at a series. ArithmeticError is raised if the coefficients of the
-        value cannot be computed exactly.
+        """Return the value of a function at a series.
 
-        Sine, cosine, exponential and similar functions require a series without constant term. The function
-        ``quotient`` divides two series. If the lowest power of h in the divisor is h^v, the truncation makes
-        the last v coefficients of the quotient unknown; they are set to zero.
+        ArithmeticError is raised if the coefficients of the value cannot be computed exactly. Sine, cosine,
+        exponential and similar functions require a series without constant term. The function ``quotient``
+        divides two series. If the lowest power of h in the divisor is h^v, the last v coefficients of the
+        quotient are unknown and set to zero.
         """
         z = args[0]
         if function == "quotient":
@@ -389,21 +403,23 @@ class SeriesDomain:
         if function not in starts:
             raise ArithmeticError(f"the function {function} has no rule for exact power series")
         k, step, first = starts[function]
-        # The signs alternate in _sum. This is right for sin and cos; for exp, sinh and cosh the opposite sign
-        # of the argument removes the alternation.
+        # The signs alternate in _sum, as needed for sin and cos. For exp, sinh and cosh the opposite sign of
+        # the argument removes the alternation.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
     def _sign(self, z: Scalar) -> int:
-        """Return the sign of a series for small h; raise :class:`Kink` if the series is zero at h = 0."""
+        """Return the sign of a series for small h. :class:`Kink` is raised if the series is zero at h = 0."""
         start = z.coefficients[0]
         if self.base.is_zero(start) is not False:
             raise Kink("the field is not smooth at the initial state")
         return -1 if self.base.approximate(start).startswith("-") else 1
 
     def _angle(self, y: Scalar, x: Scalar) -> Scalar:
-        """Return atan2(y, x) if (x, y) is on the positive x-axis at h = 0. Otherwise raise an error, because
-        the angle at h = 0 is not an algebraic number."""
+        """Return atan2(y, x) if (x, y) is on the positive x-axis at h = 0.
+
+        Otherwise ArithmeticError is raised, because the angle at h = 0 is not an algebraic number.
+        """
         if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
             raise ArithmeticError("atan2 is exact only at a point of the positive x-axis")
         return self._arc("atan", y / x)
@@ -423,15 +439,17 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return a/b, or 0 if all coefficients of b are zero. ArithmeticError is raised if a begins with a
-        lower power of h than b."""
+        """Return a/b, or 0 if all coefficients of b are zero.
+
+        ArithmeticError is raised if a begins with a lower power of h than b.
+        """
         # Both series may vanish at h = 0. Their quotient may still have a limit at h = 0.
         power = self.ring.valuation(b)
         if power > self.order:
             return self.ring.zero
         if self.ring.valuation(a) < power:
             raise ArithmeticError("a quotient of power series has a pole at h = 0")
-        # Both series are divided by h^power; the divisor is then a unit of the ring.
+        # Both series are divided by h^power. The divisor is then a unit of the ring.
         shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
         return next(shifted) / next(shifted)
 
@@ -440,31 +458,36 @@ class SeriesDomain:
         total, term, j = first, first, 0
         while True:
             j += 1
-            # The divisor is the ratio of neighbouring factorials, so that no large factorials are formed and
-            # divided.
+            # The divisor is the ratio of successive factorials, so no large factorials are computed.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # z has no constant term, so each term gains a power of h until a term is beyond the truncation.
+            # z has no constant term, so each term begins with a higher power of h, until a term is beyond the
+            # truncation.
             if self.ring.is_zero(term):
                 return total
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if no unknown has changed, and None. Other domains return the size of the
-        change as the second value. An exact comparison does not need it."""
-        # Each sweep multiplies the error by O(h): it gives one more coefficient, so order + 1 sweeps suffice.
+        """Return two values: True if no unknown has changed, and None.
+
+        Other domains return the size of the change as the second value. An exact comparison does not need
+        this size.
+        """
+        # Each sweep multiplies the error by O(h) and thus gives one more coefficient, so order + 1 sweeps
+        # suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
 class ExprDomain:
-    """Expressions of one space; the step size ``h`` is a symbol. Iterations are not executed in this domain:
-    they become loops of the emitted code."""
+    """Expressions of one space. The step size ``h`` is a symbol.
+
+    Iterations are not executed in this domain. They become loops of the emitted code.
+    """
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The keys of the table of samples are the node numbers of times, because equal times are the same
-        # expression node.
+        # The table of samples is indexed by the node numbers of times, because equal times are the same node.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:
@@ -480,15 +503,17 @@ class ExprDomain:
         return self.space.call(function, *args)
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function as expressions. If the function has no expanded form for
-        these arguments, each result is a call node."""
+        """Return the results of a vector function as expressions.
+
+        If the function has no expanded form for these arguments, each result is a call node.
+        """
         expanded = named(function).expanded(args)
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return symbols for run-time inputs at a time; the symbols are the same for equal times."""
-        # Stages at the same time must read the same sample, or the inputs would be evaluated twice at that
-        # time.
+        """Return symbols for run-time inputs at a time. Equal times give the same symbols."""
+        # Stages at the same time must use the same sample. Otherwise the inputs would be evaluated twice at
+        # that time.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}

@@ -2,8 +2,8 @@
 
 Each function is written once in this table, with its derivatives. The Taylor series of f(a(t)) is computed
 from d/dt f(a(t)) = r a'(t), where r is the derivative of f at a(t). For each function, r is a polynomial in
-f(a(t)), or a power of a polynomial in a(t), or the value of another function in this table: sinh and cosh
-are derivatives of each other.
+f(a(t)), or a power of a polynomial in a(t), or the value of another function in this table. The third case
+occurs for sinh and cosh, which are derivatives of each other.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 class Elementary:
     """A function f of one argument x.
 
-    ``slope(x, f)`` and ``curvature(x, f)`` are the first and second derivative at x. Here f is the value of
-    the function at x, which is already computed. ``at_zero`` is f(0), or None if f(0) is not rational.
-    ``raising`` is true if Python raises an exception for some real arguments for which C computes a NaN or an
-    infinity.
+    ``slope(x, f)`` and ``curvature(x, f)`` are the first and second derivative at x. Their argument f is the
+    value of the function at x, which is already computed. ``at_zero`` is f(0), or None if f(0) is not
+    rational. ``raising`` is true if Python raises an exception for some real arguments for which C computes a
+    NaN or an infinity.
     """
 
     name: str
