@@ -180,8 +180,7 @@ class Method:
         """Return the abscissae c_i of the stages.
 
         If the method consists of products of exponentials, c_i is the sum of all coefficients in the
-        exponents
-        of stage i.
+        exponents of stage i.
         """
         return self.commutator_free().as_runge_kutta(self.ring).c
 
@@ -387,11 +386,10 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
     If the text names no family, the family with the highest claimed order is chosen. Among families of equal
     order, the first in ``families`` is chosen. ``rkmk`` without a cut-off is compiled with the fewest
-    brackets
-    if the tableau is explicit and exact and its order is not too high. Otherwise, and for ``vrkmk``, the
-    cut-off is the smallest one for which the tableau claims its highest order. :class:`MethodError` is raised
-    for a text that cannot be read. It is also raised for a tableau without a claim that determines the family
-    or the cut-off.
+    brackets if the tableau is explicit and exact and its order is not too high. Otherwise, and for ``vrkmk``,
+    the cut-off is the smallest one for which the tableau claims its highest order. :class:`MethodError` is
+    raised for a text that cannot be read. It is also raised for a tableau without a claim that determines the
+    family or the cut-off.
     """
     alone = _without_tableau(text, families)
     if alone is not None:

@@ -25,7 +25,7 @@ def extension_of(method: Method, scene: Problem) -> Continuous:
 
     The tableau's extension has an order for differential equations in a vector space. The extension of the
     method has the same order, but at most the order of the method. The reason is that the coordinates of the
-    solution satisfy a differential equation in the Lie algebra, which is a vector space.
+    solution satisfy a differential equation in the Lie algebra, and the Lie algebra is a vector space.
     :class:`MethodError` is raised for a method without an extension.
     """
     from orderconds.checking.continuous import extension_order
@@ -56,7 +56,7 @@ class RunOptions(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class RunRequest:
-    """The options of :class:`RunOptions`; an option that is not given has its default value."""
+    """The options of :class:`RunOptions`. An option that is not given has its default value."""
 
     integrate: bool = False
     events: int = 0
@@ -75,7 +75,7 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` if an option is True; compensated summation supports none of ``options``."""
+    """Raise :class:`MethodError` if an option is True. Compensated summation supports none of ``options``."""
     for option, requested in options.items():
         if requested:
             raise MethodError(

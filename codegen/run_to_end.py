@@ -39,15 +39,16 @@ class RunToEnd(ABC):
     ) -> Arrival:
         """Integrate from t to end, with output at the times ``t_eval``, and find zeros of ``events``.
 
-        A module that was emitted as adaptive chooses its steps, of sizes between ``least`` and ``greatest``;
-        ``h`` is the size of the first step. Other modules make steps of size ``h``; only the last step may be
-        shorter. Such modules ignore the tolerances and the bounds of step sizes. Output times and events do
-        not change the steps, except that a terminal event ends the run. ``end`` is by default the last output
-        time.
+        A module that was emitted as adaptive chooses its steps, of sizes between ``least`` and ``greatest``.
+        Then ``h`` is the size of the first step. All other modules make steps of size ``h``, and only the
+        last step may be shorter. Such modules ignore the tolerances and the bounds of step sizes. Output
+        times and events do not change the steps, except that a terminal event ends the run. ``end`` is by
+        default the last output time.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised for
         times that are not in order, or not between t and end. StepFailed is raised if a step fails, or if
-        ``limit`` steps do not reach the end; its ``arrival`` has all results before the failure.
+        ``limit`` steps do not reach the end. The attribute ``arrival`` of the exception contains all results
+        before the failure.
         """
         if not self.interface.integrated:
             raise TypeError("this module has no run to an end time; emit it with integrate=True")
@@ -77,8 +78,8 @@ class RunToEnd(ABC):
     ) -> Arrival:
         """Integrate to the end by one or more calls of ``_integrate``.
 
-        A call returns early if its buffer of events is full. The next call continues at the time that this
-        call reached.
+        A call returns early if its buffer of events is full. The next call then continues at the time that
+        the run has reached.
         """
         t, end, h = span
         restore = begun.form.restore
@@ -134,5 +135,5 @@ class RunToEnd(ABC):
     ) -> Reached:
         """Run to the end, or until the buffer of events is full.
 
-        ``span`` is (t, end, h), ``bounds`` is (rtol, atol, least, greatest).
+        ``span`` is (t, end, h), and ``bounds`` is (rtol, atol, least, greatest).
         """

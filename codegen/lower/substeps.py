@@ -61,8 +61,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     if repetition is None or len(repetition[1]) < 2:
         return None
     # The proof, the file and the embedded method belong to the whole tableau. They do not apply to the
-    # tableau
-    # of one group, and are removed.
+    # tableau of one group, and are removed.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )
@@ -84,8 +83,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     Return this tableau and the step lengths of the groups; None if there is no such division.
     """
     # The entries are Numbers and not ring elements. Two Numbers are compared by keys. Equal keys show that
-    # two
-    # balls enclose the same number, which the balls alone cannot show.
+    # two balls enclose the same number, which the balls alone cannot show.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
     # A cut is a number k that separates the tableau into two tableaux: the stages before k, and the stages
@@ -101,8 +99,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
         # gamma_k, the length of the substep: a method with weights b advances by h sum b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
         # If the weights of a group add up to zero, the group does not advance the time and is no substep.
-        # Then
-        # this division into groups is not used.
+        # Then this division into groups is not used.
         if any(x.is_zero for x in sums):
             continue
         scaled = [

@@ -64,8 +64,7 @@ def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
     """
     for i, weight in enumerate(weights, start=1):
         # Small weights are accepted. A ball that contains zero is refused, because the quotient by such a
-        # ball
-        # is not defined.
+        # ball is not defined.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(

@@ -102,8 +102,7 @@ class _Step(ExpandedStep):
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             # The sum over k is formed in the algebra, before the bracket. Therefore only r brackets are
-            # needed.
-            # One bracket for each term would give r (r + 1)/2 brackets.
+            # needed. One bracket for each term would give r (r + 1)/2 brackets.
             subscript = self.build.lin("z", Kind.ALG, inner)
             terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
         return self.build.lin(name, Kind.DUAL, terms)

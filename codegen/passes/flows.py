@@ -38,8 +38,7 @@ def run(program: Program, scene: Problem) -> Program:
     if letters is None:
         return program
     # The test for commuting flows evaluates flows at sample points and takes time. Therefore the test is
-    # built
-    # only if the program is a composition of flows.
+    # built only if the program is a composition of flows.
     commute = commuting(scene)
     kept: list[Letter] = []
     # A flow is joined to the last earlier flow of the same part if it commutes with all flows between the
@@ -131,8 +130,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     @cache
     def same(pair: tuple[str, str]) -> bool:
         # The durations differ. With equal durations, a symmetry of the two parts could make both orders of
-        # the
-        # flows agree by accident.
+        # the flows agree by accident.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:

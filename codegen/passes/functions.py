@@ -2,8 +2,7 @@
 one.
 
 The pass is exact. It uses Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations
-with
-multiples of one x is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a
+with multiples of one x is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a
 closed form for this product: on SO(3) it is 1 + b ad_x + c ad_x^2. If an adjoint operation is the only
 operation that reads exp(x), the element exp(x) need not be computed.
 """
@@ -154,8 +153,7 @@ def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
     # If all quotients of coefficients equal one number s, then x = s y. Callers scale a factor by s, so s
-    # must
-    # be rational.
+    # must be rational.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 

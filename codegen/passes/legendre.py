@@ -177,16 +177,14 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append and return the residual of a path: the difference between two formulas for a momentum.
 
     One formula follows from the equations of the block, the other from the velocity. The momentum is the
-    base,
-    or P, or a value between the two. It is chosen so that the residual needs few operations.
+    base, or P, or a value between the two. It is chosen so that the residual needs few operations.
     """
     replaced, computed = _values(build, route)
     # The two momenta may be compared at any place of the path. The maps of the path are invertible, so the
     # residuals have the same zeros.
     given = route.base
     # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is such a sum. P then costs no more
-    # than
-    # the base, and the base is not needed.
+    # than the base, and the base is not needed.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:

@@ -2,8 +2,7 @@
 
 An example is an exponential that several stages use. The pass is exact. Products of exponentials with a
 common prefix share this prefix. The terms of a sum are sorted by the first appearance of their values, so
-that
-equal sums are recognised.
+that equal sums are recognised.
 """
 
 from __future__ import annotations

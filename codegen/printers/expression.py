@@ -1,9 +1,8 @@
 """Expressions as infix text with few parentheses. The text has the same roundings as the expression tree.
 
-Expressions are rewritten only if the rewriting changes no bit in IEEE arithmetic. Thus a + (-b) becomes a -
-b,
-and the sign of a factor becomes the sign of the product. Operands of sums and products may be exchanged. Sums
-and products are never regrouped.
+Expressions are rewritten only if the rewriting changes no bit in IEEE arithmetic. Thus a + (-b) is printed as
+a - b, and the sign of a factor becomes the sign of the product. Operands of sums and products may be
+exchanged. Sums and products are never regrouped.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """The calling convention of an emitted module: prefix, state size, arguments and implicit blocks.
 
 Printers describe the convention in headers. The manifest stores the convention, and the loader uses it to
-call
-the module.
+call the module.
 """
 
 from __future__ import annotations
@@ -76,8 +75,7 @@ class Interface:
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
             # Simplification may have removed a parameter from the kernel. It is omitted here, because it
-            # would
-            # be an unused argument.
+            # would be an unused argument.
             parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
             blocks=tuple(loop.label for loop in kernel.loops),
             precision=precision,

@@ -89,8 +89,7 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
     body: list[Statement] = []
     for statement in arrangement.statements:
         # An outlined function only evaluates formulas of its inputs. Loops solve equations and are never
-        # moved
-        # into an outlined function.
+        # moved into an outlined function.
         assert isinstance(statement, Simple)
         body += simple(statement)
     parameters = tuple(map(own, function.inputs))

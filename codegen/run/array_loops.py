@@ -1,8 +1,7 @@
 """Assignments of whole matrices (:mod:`codegen.ir.array_program`) as loops.
 
 The length of the emitted code does not grow with the numbers of rows and columns. Sums are formed for two
-rows
-and four columns at once. These eight sums are independent of each other and keep a processor busy.
+rows and four columns at once. These eight sums are independent of each other and keep a processor busy.
 """
 
 from __future__ import annotations

@@ -66,8 +66,7 @@ BATCH, LANES = "run_batch", "advance_lanes"
 
 BLOCK = 128
 """The number of lanes that make all their steps before the next lanes begin. With few lanes, their states
-stay
-in the cache."""
+stay in the cache."""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """The functions, besides the Stumpff functions, that can be computed without branches."""

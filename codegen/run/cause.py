@@ -42,8 +42,7 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Assign(same, state),
         *memory,
         # The step size zero is written as the product 0 h. For the constant argument 0, compilers would
-        # compile
-        # a second copy of the large function ``core``.
+        # compile a second copy of the large function ``core``.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )

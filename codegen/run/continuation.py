@@ -146,8 +146,7 @@ class _Continuation:
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
         # The last successful step was shorter, so its rate of convergence does not apply here. The rate is
-        # set
-        # to 1, so that the stopping rule requires a second sweep.
+        # set to 1, so that the stopping rule requires a second sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),

@@ -25,8 +25,7 @@ class Identifiers:
     def of(self, name: Term) -> str:
         """Return the identifier of a name."""
         # A name of the kernel that is not in the table raises KeyError. The unchanged name could be an
-        # illegal
-        # identifier.
+        # illegal identifier.
         return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:
@@ -70,7 +69,6 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
         for text in (t.text for t in names(direct(statement)) if t.own):
             if text not in entries and text not in own.identifiers:
                 # In the kernel, each input of an outlined function has the function's name as a prefix.
-                # Inside
-                # the function the prefix is not needed and is removed.
+                # Inside the function the prefix is not needed and is removed.
                 own.identifiers[text] = own.fresh(text.removeprefix(f"{function.name}."))
     return own.identifiers | entries

@@ -51,8 +51,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     if plan.kernel.vary is None:
         return ()
     # The derivative is computed by a kernel of its own, the kernel of variations. This kernel has other
-    # inputs,
-    # outputs and loops than the step, so it has its own plan.
+    # inputs, outputs and loops than the step, so it has its own plan.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 

@@ -126,8 +126,7 @@ Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
 # Python raises an exception where C continues with an infinity or a NaN, for example after a division by
-# zero.
-# A function with a guard returns the same result in both targets.
+# zero. A function with a guard returns the same result in both targets.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
 """The values of ``Function.guard``. After an arithmetic error, a function with RAISES_STATUS returns the
 status NOT_FINITE. With RAISES_NAN, its result and the arrays that it changes are filled with NaNs."""

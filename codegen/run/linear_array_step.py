@@ -204,8 +204,7 @@ class _Step:
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
         # Horner's rule uses the integers m!/j!, which have no rounding errors. Rounded coefficients would
-        # have
-        # the same errors in every step and would change the length of the state systematically.
+        # have the same errors in every step and would change the length of the state systematically.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),

@@ -42,8 +42,7 @@ class Names:
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
         # An underscore is appended to a name that is taken. An appended number could be mistaken for an
-        # index:
-        # xi_1 and xi_2 are components of one vector.
+        # index: xi_1 and xi_2 are components of one vector.
         while name in self._taken:
             name += "_"
         self._taken[name] = True

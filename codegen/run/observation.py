@@ -175,8 +175,7 @@ class Observation:
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
         # The function ``inside`` is not needed if there are no events and a continuous extension was
-        # requested.
-        # The extension then computes all states inside steps.
+        # requested. The extension then computes all states inside steps.
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -333,8 +332,7 @@ class Observation:
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
         """Return two lists of statements: one moves the upper end of the interval to the middle, the other
-        the
-        lower end."""
+        the lower end."""
         # If the same end moves in two successive trials, the weight of the values at the other end is halved,
         # as in the Illinois method.
         moved_high: tuple[Statement, ...] = (

@@ -29,8 +29,7 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     """Return the positions of the blocks of a kernel's state.
 
     If the kernel has a variation (a derivative of the state), the variation is the last field of the state.
-    It
-    is stored in the separate array ``vector``.
+    It is stored in the separate array ``vector``.
     """
     # Callers of a Jacobian pass the variation separately. It does not count as part of the state.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)

@@ -107,8 +107,7 @@ class Plan:
     def memories(self) -> Term:
         """An array with the memory of each substep. Without substeps it is the memory of the step."""
         # Substeps differ in length. The solutions of one substep cannot be extrapolated to the next substep,
-        # so
-        # each substep has its own memory.
+        # so each substep has its own memory.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
 
     @property

@@ -85,8 +85,7 @@ class _Scopes:
         """Declare variables that no statement outside the body mentions."""
         inside: dict[int, dict[str, Term]] = {}
         # One pass over the body finds the uses of all variables. A pass for each variable would take
-        # quadratic
-        # time.
+        # quadratic time.
         holders: dict[str, list[int]] = {name: [] for name in variables}
         for k, statement in enumerate(body):
             for name in self.mentioned(statement):
@@ -97,8 +96,7 @@ class _Scopes:
             if not places:
                 continue
             # Variables are declared in the innermost block. A small scope shows readers and compilers how
-            # long
-            # a value is needed.
+            # long a value is needed.
             deeper = self.deeper(body, places, name)
             if not deeper:
                 self.declare(body, places, name, variable)

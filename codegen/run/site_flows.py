@@ -1,13 +1,15 @@
 """The emitted functions of lattice steps that compose the flows of the parts of a field.
 
 The functions of a part have its number K in their names. ``flow_K`` contains a loop over adjacent sites, or
-over pairs of neighbours that have no site in common. Along the axis of the part, the first site of every pair
-has an even index in one set of pairs, and an odd index in the other set. ``part_K`` calls ``flow_K`` for all
-sites, or for all pairs of a set. If the part calls sines or Stumpff functions, ``whole_K`` computes the same
-as ``flow_K``, but with variants of these functions that accept all arguments (:mod:`codegen.run.sites`). In a
-periodic lattice, a part along the last axis also has ``pair_K``, which computes the pair of the last and the
-first site of a row. A kick reads neighbours and changes only the momenta of the new state, in place. It has
-the same functions as a sweep of :mod:`codegen.run.sites`.
+over pairs of neighbours that have no site in common. There are two sets of pairs along the axis of the part.
+In one set the first site of every pair has an even index, in the other set an odd index. ``part_K`` calls
+``flow_K`` for all sites, or for all pairs of a set. If the part calls sines or Stumpff functions, ``whole_K``
+computes the same as ``flow_K``, but with variants of these functions that accept all arguments
+(:mod:`codegen.run.sites`). In a periodic lattice, a part along the last axis also has ``pair_K``. This
+function computes the pair of the last and the first site of a row.
+
+A kick reads neighbours and changes only the momenta of the new state, in place. A kick has the same functions
+as a sweep of :mod:`codegen.run.sites`.
 """
 
 from __future__ import annotations
@@ -101,8 +103,8 @@ class _Part:
 
     @property
     def special(self) -> bool:
-        """True if the part calls sines, cosines or Stumpff functions, and all functions that it calls can be
-        computed without branches."""
+        """True if the part calls sines, cosines or Stumpff functions, and all its calls can avoid
+        branches."""
         _, inside, _ = split(self.own.kernel, set())
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
@@ -121,8 +123,10 @@ class _Part:
 
     @property
     def arrays(self) -> tuple[Term, ...]:
-        """The arrays that the functions of the part have as arguments. A flow of pairs changes the new state
-        in place."""
+        """The arrays that the functions of the part have as arguments.
+
+        A flow of pairs changes the new state in place.
+        """
         return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
 
     def functions(self) -> list[Function]:
@@ -144,8 +148,8 @@ class _Part:
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
         if self.paired:
-            # If the loop is strided, the other site of the pair is at PLACE + 1. With this constant distance,
-            # compilers load both sites with one instruction.
+            # If the loop is strided, the other site of the pair is at PLACE + 1. Compilers use this constant
+            # distance to load both sites with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
         if not self.paired:
@@ -175,8 +179,11 @@ class _Part:
         return body
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
-        """Return the call that applies the flow to all sites or to all pairs of a set. A flow of single sites
-        reads the old state if ``first`` is true; all other flows change the new state in place."""
+        """Return the call that applies the flow to all sites or to all pairs of a set.
+
+        A flow of single sites reads the old state if ``first`` is True. All other flows change the new state
+        in place.
+        """
         old, new = ARRAYS[STATE], ARRAYS[RESULT]
         scalars = tuple(duration if x is STEP else x for x in self.scalars)
         if self.paired:
@@ -203,8 +210,10 @@ class _Part:
         return Function(name, about, parameters, tuple(body), Kind.COUNT, often=True, near=near)
 
     def _called(self, arguments: tuple[Term, ...], *results: Term) -> list[Statement]:
-        """Return the call of the function with the loop. If there are two such functions, the flag ``whole``
-        selects ``whole_K`` or ``flow_K``."""
+        """Return the call of the function with the loop.
+
+        If there are two such functions, the flag ``whole`` selects ``whole_K`` or ``flow_K``.
+        """
         given = (*arguments, SITES, *self.arrays, *self.scalars)
         call = Call(f"flow_{self.index}", given, results)
         if not self.special:
@@ -212,14 +221,14 @@ class _Part:
         return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
 
     def all_sites(self) -> Function:
-        """Return the function ``part_K`` for a flow of single sites; it calls the function with the loop."""
+        """Return the function ``part_K`` for a flow of single sites. It calls the function with the loop."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
         body: list[Statement] = [chunks(SITES, [*call, Assign(BAD, BAD + _PART_BAD)], (("+", BAD),))]
         return self._function(f"part_{self.index}", f"All sites: {self.own.about}.", parameters, body)
 
     def pairs(self) -> Function:
-        """Return the function ``part_K`` for a flow of pairs; it applies the flow to all pairs of a set."""
+        """Return the function ``part_K`` for a flow of pairs. It applies the flow to all pairs of a set."""
         shape = shape_of(self.step)
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]
@@ -250,8 +259,10 @@ class _Part:
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 
     def _rows(self, outer: list[Term], shape: Term) -> list[Statement]:
-        """Return the statements that apply the flow to the pairs of two adjacent rows. Each pair has one site
-        in each row."""
+        """Return the statements that apply the flow to the pairs of two adjacent rows.
+
+        Each pair has one site in each row.
+        """
         axis, length = self.own.axis, shape[self.own.axis]
         index = outer[axis]
         there = count("there")

@@ -1,15 +1,15 @@
 """Newton's method for the equations of a chain, with a block-tridiagonal matrix.
 
-The equations are u = g(u), with the same number of unknowns at each site. The matrix 1 - g', to first order
-in h, is computed and factored once in each step. Let A_i, B_i and C_i be the blocks of site i for the
-unknowns of its left neighbour, of the site itself, and of its right neighbour.
-Block elimination (the Thomas algorithm) computes D_i = B_i - A_i D_{i-1}^{-1} C_{i-1} from left to right. The
-blocks are replaced by D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i. Rows are exchanged only within a block D_i.
+The equations are u = g(u), with the same number of unknowns at each site. The matrix 1 - g', correct to first
+order in h, is computed and factored once in each step. Let A_i, B_i and C_i be the blocks of site i for the
+unknowns of its left neighbour, of the site itself, and of its right neighbour. Block elimination (the Thomas
+algorithm) computes D_i = B_i - A_i D_{i-1}^{-1} C_{i-1} from left to right. The blocks are replaced by
+D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i. Rows are exchanged only within a block D_i.
 
-In a periodic chain the first and the last site are neighbours. The last site is eliminated: the equations of
-all other sites are solved with several right-hand sides, namely the residuals, and the columns of the matrix
-that multiply the unknowns of the last site. The work and the memory of a step are proportional to the number
-of sites.
+In a periodic chain the first and the last site are neighbours. The last site is eliminated. For this purpose
+the equations of all other sites are solved with several right-hand sides: the residuals, and the columns of
+the matrix that multiply the unknowns of the last site. The work and the memory of a step are proportional to
+the number of sites.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class ChainSolver:
         return [self.linearise(), self.substitute(), self.factor(), self.correct()]
 
     def prepared(self) -> list[Statement]:
-        """Return the statements that compute and factor the matrix; they count singular blocks."""
+        """Return the statements that compute and factor the matrix. They count singular blocks."""
         linearise = self.linearise()
         return [
             Call(linearise.name, linearise.parameters),
@@ -84,19 +84,24 @@ class ChainSolver:
         return self.work[_BASE + site * (3 * n * n) + inner]
 
     def border(self, site: Term, i: Term, j: Term) -> Term:
-        """Return entry i of a site in column j of the border. The border consists of those columns of the
-        matrix that multiply the unknowns of the last site."""
+        """Return entry i of a site in column j of the border.
+
+        The border consists of the columns of the matrix that multiply the unknowns of the last site.
+        """
         return self.work[(self.newton.border + self.step.size + j * self.n + i) * SITES + site]
 
     def opening(self) -> list[Statement]:
-        """Return the statements that set the index of the first entry of the matrix, and the number of sites
-        in the block elimination. In a periodic chain these are all sites except the last."""
+        """Return the statements that set two numbers for the block elimination.
+
+        They are the index of the first entry of the matrix, and the number of sites. In a periodic chain
+        these sites are all sites except the last.
+        """
         inner = SITES - 1 if self.step.periodic else SITES
         return [Assign(_BASE, self.row(self.newton.matrix)), Assign(_INNER, inner)]
 
     def dot(self, term: Term, plus: bool = False) -> list[Statement]:
-        """Return the loop over k that subtracts ``term`` from the variable for sums, or adds it if ``plus``
-        is true."""
+        """Return the loop over k that subtracts ``term`` from the variable for sums; with ``plus`` it adds
+        it."""
         return [For(_K, whole(self.n), (Assign(_SUM, _SUM + term if plus else _SUM - term),))]
 
     def linearise(self) -> Function:
@@ -216,8 +221,10 @@ class ChainSolver:
         return [Assign(_LAST, _INNER - 1), For(place, n * n * SITES, (zero,)), *ends]
 
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
-        """Return the statements that solve the equations of the other sites with the border as right-hand
-        side, and then compute and invert the block that remains for the last site."""
+        """Return the statements that compute and invert the block that remains for the last site.
+
+        First they solve the equations of all other sites with the border as right-hand side.
+        """
         n = self.n
         first = (self.newton.border + self.step.size + _J * n) * SITES
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
@@ -233,8 +240,8 @@ class ChainSolver:
         return [solved, self.both(pivot), invert, counted, self.both((stored,))]
 
     def correct(self) -> Function:
-        """Return the function that solves the linear equations with the residuals as right-hand side, and
-        adds the solution to the unknowns."""
+        """Return the function that solves the linear equations for the residuals and corrects the
+        unknowns."""
         first = self.row(self.newton.residual)
         most, moves, largest, change = real("most"), real("moves"), real("largest_unknown"), real("change")
         rows = {load.symbol: load.row for load in self.step.sweeps[self.block.last].loads}
@@ -265,8 +272,8 @@ class ChainSolver:
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
-        """Return the statements that compute the solution at the last site, and then subtract its
-        contribution from the solution at all other sites."""
+        """Return the statements that compute the solution at the last site and correct all other sites by
+        it."""
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:

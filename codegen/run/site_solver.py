@@ -1,11 +1,12 @@
 """The solution of implicit equations on a lattice, by fixed-point iteration or by Newton's method.
 
 The sweeps over all sites are repeated until the unknowns converge. In fixed-point iteration, the last sweep
-of each repetition replaces the unknowns by their images, and stores two numbers for each site: the largest
-change of an unknown and the largest absolute value of an unknown. The maxima over all sites enter the
-stopping rule of single systems (:mod:`codegen.run.stopping`). In contrast to a single system, the last change
-is always applied, because the images are stored in place of the unknowns. Newton's method for chains
-(:mod:`codegen.run.site_newton`) stores residuals and then corrects the unknowns.
+of each repetition replaces the unknowns by their images (the right-hand sides of their equations). It also
+stores two numbers for each site: the largest change of an unknown and the largest absolute value of an
+unknown. The stopping rule of single systems (:mod:`codegen.run.stopping`) uses the maxima over all sites. In
+contrast to a single system, the last change is always applied, because the images are stored in place of the
+unknowns. Newton's method for chains (:mod:`codegen.run.site_newton`) stores residuals and then corrects the
+unknowns.
 """
 
 from __future__ import annotations
@@ -40,8 +41,10 @@ from codegen.run.terms import (
 )
 
 MEASURE, REACH = "measured", "largest_state"
-"""The names of two functions. The first computes the maxima of the changes and of the unknowns over all
-sites, and the second the largest absolute value in the states of all sites."""
+"""The names of two functions, which compute maxima over all sites.
+
+The first computes the maxima of the changes and of the unknowns. The second computes the largest absolute
+value in the states."""
 
 _REACH, _PLACE = real("reach"), count("place")
 
@@ -62,8 +65,10 @@ class _Stopping(Stopping):
 
 
 def loop_of(block: SiteBlock) -> Loop:
-    """Return a loop without a warm start that has the label and the unknowns of the block. The stopping rule
-    reads its label and its bounds."""
+    """Return a loop without a warm start that has the label and the unknowns of the block.
+
+    The stopping rule reads the label and the bounds of this loop.
+    """
     newton = None if block.newton is None else Newton((), (), leading=True)
     # The loop gets a starting value, because a loop without starting values would have a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
@@ -72,8 +77,11 @@ def loop_of(block: SiteBlock) -> Loop:
 def iterated(
     plan: Plan, step: SiteStep, block_number: int, block: SiteBlock, iteration: Sequence[Statement]
 ) -> list[Statement]:
-    """Return the statements that repeat ``iteration`` until the unknowns converge. If the unknowns do not
-    converge, or if the matrix is singular, the emitted function returns the status of this failure."""
+    """Return the statements that repeat ``iteration`` until the unknowns converge.
+
+    If the unknowns do not converge, or if the matrix is singular, the emitted function returns the status of
+    this failure.
+    """
     rule = _Stopping(plan, loop_of(block), block_number, ())
     chain = None if block.newton is None else ChainSolver(plan, step, block, block_number)
     measured = Call(MEASURE, (SITES, ARRAYS[WORK], MEASURED)) if chain is None else chain.corrected()
@@ -102,7 +110,7 @@ def iterated(
 
 
 def solvers(plan: Plan, step: SiteStep) -> list[Function]:
-    """Return the functions that solve the equations of a step, callees first; none for an explicit method."""
+    """Return the functions that solve the equations of a step, callees first; [] for an explicit method."""
     listed = [_reach(step)] if step.blocks else []
     for number_of_block, block in enumerate(step.blocks, 1):
         if block.newton is not None:

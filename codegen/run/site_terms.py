@@ -13,8 +13,8 @@ from codegen.run.terms import Term, count, flag, real, select, value, whole
 from codegen.run.values import simple
 
 SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
-"""The number of all sites, the number of sites in one row of the lattice, the index of a site in its row, and
-the index of the first site of this row among all sites."""
+"""Four numbers for indexing: the number of all sites, the number of sites in one row of the lattice, the
+index of a site in its row, and the index of the first site of this row among all sites."""
 
 SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), count("i")
 BAD, WHOLE = count("bad"), flag("whole")
@@ -23,10 +23,11 @@ Stumpff functions are computed by variants that accept all arguments."""
 
 _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
-"""A loop over adjacent sites is divided into chunks of CHUNK sites, which several processors can execute. For
-fewer than MANY_SITES sites one processor executes all loops. With two threads, a step of cf4 on 1024 spins
-takes as long as with one thread, and on 4096 spins 0.55 times as long (`benchmarks/lattice.py --threads 2`
-without this limit)."""
+"""A loop over adjacent sites is divided into chunks of CHUNK sites, which several processors can execute.
+
+For fewer than MANY_SITES sites one processor executes all loops. A step of cf4 on 1024 spins takes as long
+with two threads as with one. On 4096 spins two threads need 0.55 times the time of one
+(`benchmarks/lattice.py --threads 2` without this limit)."""
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")
 """The index of a chunk, its first site, and its number of sites."""
@@ -35,8 +36,10 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 
 
 def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str, Term], ...] = ()) -> For:
-    """Return a parallel loop over chunks of ``number`` adjacent sites. ``body`` computes the SIZE sites from
-    the site FIRST on."""
+    """Return a parallel loop over chunks of ``number`` adjacent sites.
+
+    ``body`` computes the SIZE sites from the site FIRST on.
+    """
     rest = number - FIRST
     limits = (Assign(FIRST, _PASS * CHUNK), Assign(SIZE, select(rest < CHUNK, rest, whole(CHUNK))))
     many = number >= MANY_SITES
@@ -55,12 +58,16 @@ def shape_of(step: SiteStep) -> Term:
 
 
 MEASURED = real("measures", 3)
-"""The largest change of an unknown, the largest unknown, and the sum of all changes, at all sites."""
+"""Three values for all sites together: the largest change of an unknown, the largest unknown, and the sum of
+all changes."""
 
 
 def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
-    """Return the entry of a row at the site with the index ``place``. The first ``step.size`` rows of the
-    workspace store a state, so the numbers of its other rows are increased by ``step.size``."""
+    """Return the entry of a row at the site with the index ``place``.
+
+    The first ``step.size`` rows of the workspace store a state. Therefore ``step.size`` is added to the
+    numbers of its other rows.
+    """
     number = row.number + (step.size if row.array == WORK else 0)
     array = ARRAYS[row.array]
     if not number:
@@ -71,9 +78,8 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
     """Return the test that a neighbour exists (None if it always exists), and the index of the neighbour.
 
-    In a periodic lattice, one addition or subtraction of ``size`` brings the index into its range, because
-    ``size`` is larger than every offset. If the neighbour does not exist, the index is that of the site
-    itself.
+    If the neighbour does not exist, the index is that of the site itself. In a periodic lattice, one addition
+    or subtraction of ``size`` brings the index into its range, because ``size`` is larger than every offset.
     """
     if not offset:
         return None, index
@@ -85,8 +91,8 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
 
 
 def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
-    """Return three lists: the statements of a kernel that read only ``shared`` scalars, its other statements,
-    and its outputs."""
+    """Return the statements of a kernel that read only ``shared`` scalars, all other statements, and the
+    outputs."""
     before: list[Statement] = []
     inside: list[Statement] = []
     known = set(shared)

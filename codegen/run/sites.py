@@ -5,12 +5,13 @@ The emitted text does not depend on the number of sites in each dimension, becau
 array, the last index of a site changes fastest.
 
 For each sweep, with the number K, there are three functions. ``sweep_K`` computes adjacent sites whose
-neighbours all exist, in a loop without branches, which compilers turn into vector instructions. ``site_K``
-computes one site at the boundary. ``pass_K`` calls ``sweep_K`` and ``site_K`` for all sites. In ``sweep_K``,
-sines, cosines and Stumpff functions are computed only for arguments near zero; for other arguments they
-return NaN. If the new state is not finite at some site, the step is repeated with ``site_K`` for all sites,
-because ``site_K`` accepts all arguments. Where ``sweep_K`` succeeds, it has the same roundings as ``site_K``.
-The sweeps of an implicit block are repeated until the unknowns of all sites converge
+neighbours all exist. Its loop has no branches, and compilers turn it into vector instructions. ``site_K``
+computes one site at the boundary. ``pass_K`` calls ``sweep_K`` and ``site_K`` for all sites.
+
+In ``sweep_K``, sines, cosines and Stumpff functions are computed only for arguments near zero. For all other
+arguments they return NaN. If the new state is not finite at some site, the step is repeated with ``site_K``
+for all sites, because ``site_K`` accepts all arguments. Where ``sweep_K`` succeeds, it has the same roundings
+as ``site_K``. The sweeps of an implicit block are repeated until the unknowns of all sites converge
 (:mod:`codegen.run.site_solver`).
 """
 
@@ -94,7 +95,7 @@ RETURNED = Return(select(BAD > 0, code(NOT_FINITE), code(OK)))
 
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
-    """Return the functions of a method without flows, callees first."""
+    """Return the functions of a method that does not compose flows, callees first."""
     loops = [Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
     listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
     listed += solvers(plan, step)
@@ -122,7 +123,7 @@ def checked(values: Sequence[Term]) -> list[Statement]:
 
 @dataclass(frozen=True)
 class Loop:
-    """The functions of one sweep. If ``tested`` is false, the new values are not tested for infinities and
+    """The functions of one sweep. If ``tested`` is False, the new values are not tested for infinities and
     NaNs."""
 
     plan: Plan
@@ -170,12 +171,12 @@ class Loop:
         return entry_of(self.step, row, place)
 
     def loaded(self, load: Load, place: Term, around: dict[int, Term]) -> Term:
-        """Return the entry that a load reads. ``around`` maps the number of each neighbour to the index of
-        its site."""
+        """Return the entry that a load reads; ``around`` maps the number of a neighbour to the index of its
+        site."""
         return self.entry(load.row, place if load.neighbour == OWN else around[load.neighbour])
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store the results at a site, and count the site if a new value is not
+        """Return the statements that store the results at a site and count the site if a value is not
         finite."""
         body, images = self._images(ends)
         tested = []
@@ -192,8 +193,10 @@ class Loop:
         return body
 
     def _images(self, ends: Sequence[Term]) -> tuple[list[Statement], list[Term]]:
-        """Return the statements that assign the images of the unknowns to new names, and these names. All
-        images are computed before any unknown changes."""
+        """Return the statements that assign the images of the unknowns to new names, and these names.
+
+        All images are computed before any unknown changes.
+        """
         images = [own(f"next {u}") for u in self.own.unknowns]
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
 
@@ -202,15 +205,14 @@ class Loop:
         return [x - own(u) for x, u in zip(images, self.own.unknowns, strict=True)]
 
     def _measured(self, images: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store the largest change and the largest absolute value of the
-        unknowns."""
+        """Return the statements that store the largest change and the largest size of the unknowns."""
         unknowns = [own(u) for u in self.own.unknowns]
         changes = [own(f"change {u}") for u in self.own.unknowns]
         body: list[Statement] = [
             Assign(c, size(x - u)) for c, x, u in zip(changes, images, unknowns, strict=True)
         ]
         # A maximum may lose a NaN. Let s be the sum of the changes. The difference s - s is NaN if a change
-        # is not finite, and zero otherwise, so it is added to the maximum.
+        # is not finite, and zero otherwise. This difference is added to the maximum.
         sum_of_changes = real("total")
         body.append(Assign(sum_of_changes, total(changes)))
         largest = (greatest(changes) + (sum_of_changes - sum_of_changes), greatest(map(size, unknowns)))
@@ -220,8 +222,11 @@ class Loop:
     def function(
         self, name: str, about: str, parameters: tuple[Term, ...], body: list[Statement]
     ) -> Function:
-        """Return a function of the sweep. If the sweep stores the new state, the function returns the number
-        of sites whose new state is not finite."""
+        """Return a function of the sweep.
+
+        If the sweep stores the new state, the function returns the number of sites whose new state is not
+        finite.
+        """
         if self.last:
             body = [Assign(BAD, whole(0)), *body, Return(BAD)]
         kind = Kind.COUNT if self.last else None
@@ -246,7 +251,7 @@ class Loop:
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
-        """Return those loads whose symbols the kernel of the sweep reads, and the loads of the unknowns."""
+        """Return the loads of the unknowns, and the loads whose symbols the kernel of the sweep reads."""
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 
@@ -287,9 +292,11 @@ class Loop:
         return body
 
     def rows(self) -> tuple[Term, ...]:
-        """Return arguments for one row of the lattice: the index of its first site, and the index of the
-        first site of the row of each neighbour. At an open boundary, flags state which of these rows
-        exist."""
+        """Return the arguments of a function that describe one row of the lattice.
+
+        They are the index of the first site of the row, and the indices of the first sites in the rows of the
+        neighbours. At an open boundary, flags state which of these rows exist.
+        """
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
         return (ROW, *starts, *(flag(f"inside_{k}") for k in flags))
@@ -361,8 +368,8 @@ def _plus(x: Term, n: int) -> Term:
 
 
 def first_site(indices: Sequence[Term], shape: Term) -> Term:
-    """Return the index, among all sites, of the first site of the row of the lattice with these outer
-    indices."""
+    """Return the index, among all sites, of the first site of a row; ``indices`` are the indices of the
+    row."""
     if not indices:
         return whole(0)
     total = indices[0]
@@ -392,8 +399,7 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 
 
 def _too_small(step: SiteStep) -> Term:
-    """Return the test that the number of sites in some dimension is too small, or odd where it must be
-    even."""
+    """Return the test that some dimension has too few sites, or an odd number where it must be even."""
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
@@ -405,8 +411,11 @@ def _too_small(step: SiteStep) -> Term:
 
 
 def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
-    """Return the public function, which makes several steps of equal size. If ``twice`` is true, a step whose
-    result is not finite is repeated once, with the variants of functions that accept all arguments."""
+    """Return the public function, which makes several steps of equal size.
+
+    If ``twice`` is True, a step whose result is not finite is repeated once. The repetition uses the variants
+    of functions that accept all arguments.
+    """
     later = exact_time(TIME, _DONE, STEP)
 
     def advance(old: Term, new: Term, separately: bool) -> Call:
@@ -421,8 +430,8 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
         return (advance(old, new, False), *((again,) if twice else ()))
 
     even = (_DONE % 2).equals(whole(0))
-    # The old state stays in its array until the new state is known to be finite. The two arrays then exchange
-    # their roles, so no state is copied.
+    # The old state stays in its array until the new state is known to be finite. Then the two arrays exchange
+    # their roles. No state is copied.
     body = (
         If(even, tried(_STATE, _WORK), tried(_WORK, _STATE)),
         If(STATUS.equals(code(OK)), (Assign(_DONE, _DONE + 1),)),

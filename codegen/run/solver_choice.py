@@ -1,10 +1,10 @@
 """How each block of equations is solved: by a fixed point, Newton's method or simplified Newton.
 
 Newton's method keeps an exact matrix as long as the iteration contracts. Simplified Newton computes an
-approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix;
-each sweep multiplies the error by a factor O(h). This is true for equation (3.19) of H. Marthinsen's thesis,
-too (*On symplectic integration in Lie groups and manifolds*), because momenta are computed within a sweep. If
-momenta were unknowns in addition to the velocities, two sweeps would be necessary for each factor O(h).
+approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix,
+and each sweep multiplies the error by a factor O(h). The same is true for equation (3.19) of H. Marthinsen's
+thesis (*On symplectic integration in Lie groups and manifolds*), because momenta are computed within a sweep.
+If momenta were unknowns in addition to the velocities, two sweeps would be necessary for each factor O(h).
 
 The solver with the least predicted time is chosen, with an exception stated below. A trial
 (:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps of the usage
@@ -14,21 +14,21 @@ solver measured.
 
 Robust solvers are preferred. A solver is robust if it also converges in a step :data:`LONGER` times as long,
 in at most :data:`SWEEPS` sweeps. Fixed-point iteration may converge at the step size of the example and fail
-at a somewhat larger one. The reason is that the number of sweeps grows without bound as h L tends to 1, where
-L is the Lipschitz constant of the equations. The step sizes that the user will choose are not known. Newton's
-method has no such limit for linear equations. A solver that is not robust is therefore chosen only if every
-robust solver is predicted to need more than :data:`PRICE` times the time of the fastest solver. The stated
-reason for the choice then says that longer steps may fail. Without the bound :data:`PRICE`, robust solvers
-with matrices of 24 and 36 unknowns would make some steps of the gallery take 5 to 14 times as much time
-(``benchmarks/README.md``).
+at a somewhat larger one. Let L be the Lipschitz constant of the equations. The number of sweeps of
+fixed-point iteration grows without bound as h L tends to 1. Newton's method has no such limit for linear
+equations. The step sizes that the user will choose are not known. A solver that is not robust is therefore
+chosen only if every robust solver is predicted to need more than :data:`PRICE` times the time of the fastest
+solver. The stated reason for the choice then says that longer steps may fail. Without the bound
+:data:`PRICE`, robust solvers with matrices of 24 and 36 unknowns would make some steps of the gallery take 5
+to 14 times as much time (``benchmarks/README.md``).
 
 The bound does not apply to linear equations. Newton's method then needs one matrix for all steps of a run,
 and only accuracy limits the step size. Even if a step takes many times as much time as with another solver, a
 run may be faster, because it can use longer steps.
 
-Kernels of many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
-computed. The kernel is not built if this bound shows that a solver that has already been tried will be
-preferred (:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
+Kernels with many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
+computed. The kernel is not built if this bound shows that another solver, already tried, will be preferred
+(:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
 """
 
 from __future__ import annotations
@@ -58,12 +58,13 @@ ASKED = "as asked for"
 """The reason that is stated for a solver that the caller has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""The number of steps of a trial, the number of steps of a trial with many unknowns, and the ratio of the
-longer trial step to the usual step."""
+"""The number of steps of a trial, the same for a trial with many unknowns, and the size of the longer trial
+step relative to the usual step."""
 
 SWEEPS = 50
-"""The largest number of sweeps that a robust solver may need in the longer step. It is half of the number of
-sweeps after which a loop over equations stops without success."""
+"""The largest number of sweeps that a robust solver may need in the longer step.
+
+It is half of the number of sweeps after which a loop over equations stops without success."""
 
 PRICE = 4.0
 """A robust solver is preferred if its step takes at most PRICE times as long as a step with the fastest
@@ -71,8 +72,9 @@ solver.
 """
 
 LARGE = 64
-"""The number of unknowns above which a trial has only FEW_STEPS steps and no continuation in h, which may
-take thousands of sweeps.
+"""With more unknowns than this number, a trial has only FEW_STEPS steps and no continuation in h.
+
+A continuation may take thousands of sweeps.
 """
 
 
@@ -82,7 +84,7 @@ NONLINEAR = 2
 
 @dataclass(frozen=True)
 class Choice:
-    """The solver of one block and the reason; ``compared`` has a sentence on each solver considered.
+    """The solver of one block and the reason. ``compared`` has a sentence on each solver considered.
 
     ``converges`` is False if no solver converges in the first steps of the usage example.
     """
@@ -129,7 +131,7 @@ def solved(
     """Return the kernel of a program with every block solved as ``asked``, and the choice for each block.
 
     Trials start from the state ``initial``, with run-time inputs equal to zero. ``asked`` is one of
-    :data:`CHOICES`; UnknownName is raised for another name. MethodError is raised if Newton's method needs
+    :data:`CHOICES`. UnknownName is raised for another name. MethodError is raised if Newton's method needs
     the derivative of a function of the scene or group, and orderconds contains no derivative of this
     function. A caller that already has the kernel with fixed-point iteration passes it as ``iterated``.
     """
@@ -176,8 +178,10 @@ def is_linear(loop: Loop) -> bool:
 
 
 def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
-    """Return the degree of an expression as a polynomial in the symbols of the table; NONLINEAR represents
-    all degrees above one."""
+    """Return the degree of an expression as a polynomial in the symbols of the table ``degrees``.
+
+    NONLINEAR represents all degrees above one.
+    """
     degree_of: dict[int, int] = {}
     for e in walk((root,)):
         args = [degree_of[a.id] for a in e.args]
@@ -196,8 +200,7 @@ def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
 
 
 class Candidate:
-    """A candidate: a kernel with its cost and two trials, one with steps of the usual size, and one with a
-    longer step."""
+    """A kernel with its cost and two trials: one with steps of the usual size, and one with a longer step."""
 
     def __init__(self, kernel: Kernel, scene: Problem, initial: tuple[float, ...]) -> None:
         self.kernel, self.cost = kernel, StepCost(kernel)
@@ -254,9 +257,11 @@ def measured(trial: Trial, k: int) -> str:
 
 
 class _Selection:
-    """The choice for one program. ``candidates`` contains the solvers that were tried, ``left_out`` the
-    reasons why others were not tried, and ``refused`` the errors of those for which no kernel can be
-    built."""
+    """The choice of solvers for one program.
+
+    ``candidates`` contains the solvers that were tried. ``left_out`` contains the reasons why other solvers
+    were not tried. ``refused`` contains the errors of solvers for which no kernel can be built.
+    """
 
     def __init__(self, program: Program, scene: Problem, initial: tuple[float, ...], fixed: Kernel) -> None:
         self.program, self.scene, self.initial, self.fixed = program, scene, initial, fixed
@@ -294,8 +299,8 @@ class _Selection:
     def consider(self, solver: str) -> None:
         """Build and try the kernel of a solver. A solver that cannot be the best is skipped.
 
-        If there are many unknowns and Newton's method converges, simplified Newton is tried only if it may be
-        faster, because it inverts a matrix in each step.
+        Simplified Newton inverts a matrix in each step. If there are many unknowns and Newton's method
+        converges, simplified Newton is tried only if it may be faster.
         """
         least = self.least(solver)
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
@@ -318,8 +323,8 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a bound in nanoseconds: another solver may be preferred to ``candidate`` only if its
-        predicted step time is below this bound."""
+        """Return the predicted step time, in nanoseconds, below which another solver may be preferred to
+        ``candidate``."""
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -332,7 +337,7 @@ class _Selection:
         sweep over each block.
 
         A sweep costs as much as a fixed-point sweep plus a product with the inverse matrix. Simplified Newton
-        inverts a matrix in each step; Newton's method inverts at least one matrix during the trial. Small
+        inverts a matrix in each step. Newton's method inverts at least one matrix during the trial. Small
         matrices are inverted by formulas. The number of operations in these formulas is unknown before the
         kernel is built, so the bound counts them as zero.
         """
@@ -356,10 +361,10 @@ class _Selection:
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate with the best solver of each block.
 
-        If one solver is the best for all blocks, its candidate has been tried already. Otherwise the kernel
-        with several solvers is tried. It is returned if it is robust. It is also returned if it converges and
-        the fastest candidate with one solver for all blocks is not robust. Otherwise that candidate is
-        returned.
+        If one solver is the best for all blocks, its candidate has been tried already and is returned.
+        Otherwise the kernel with several solvers is tried. It is returned if it is robust. It is also
+        returned if it converges and the fastest candidate with a single solver is not robust. In all other
+        cases the fastest candidate with a single solver is returned.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:

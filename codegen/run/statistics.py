@@ -1,7 +1,7 @@
-"""Statistics of a run: the sweeps over each block, the largest number of sweeps in one step, the block that
-failed, and the matrices of Newton's method.
+"""Statistics of a run: sweeps over each block, most sweeps in one step, the block that failed, Newton
+matrices.
 
-The record of statistics belongs to the caller. A run adds its counts to the record; if the caller passes no
+The record of statistics belongs to the caller. A run adds its counts to the record. If the caller passes no
 record, nothing is counted. Separate functions do the counting, so that a loop contains a single call.
 """
 
@@ -40,7 +40,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     adding = (
         Assign(total, total + sweeps),
         # The largest number is stored as well as the sum. A single step with many sweeps is the first sign
-        # that h is too large, and a mean value would not show it.
+        # that h is too large, and a mean value would hide this step.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )
@@ -61,13 +61,13 @@ def counters(plan: Plan) -> tuple[Function, ...]:
 
 
 def count_sweeps(plan: Plan, block: int, sweeps: Term = SWEEPS) -> Statement:
-    """Return the call that counts the sweeps of a loop; if the status is not OK, it records that the block
-    failed."""
+    """Return the call that counts the sweeps of a loop. If the status is not OK, it also records the
+    failure."""
     return Call("count_sweeps", (plan.statistics, whole(block), sweeps, STATUS.differs(code(OK))))
 
 
 def count_matrix(plan: Plan) -> Statement:
-    """Return the call that counts a matrix; it follows the computation of the matrix."""
+    """Return the call that counts a matrix. It follows the computation of the matrix."""
     return Call("count_matrix", (plan.statistics,))
 
 

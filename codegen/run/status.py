@@ -55,17 +55,20 @@ REASONS = {
     BAD_SHAPE: "too few sites in a dimension, or an odd number in a periodic dimension with flows of pairs",
     BAD_OPERATOR: "exp(c h L) or another function of h L is not finite for h = {h}",
 }
-"""The reason for each failure in error messages of both targets. ``{block}`` is replaced by the label of the
-implicit block that failed, and ``{h}`` by the step size."""
+"""The reason for each failure in error messages of both targets.
+
+``{block}`` is replaced by the label of the implicit block that failed, and ``{h}`` by the step size."""
 
 NOT_FINITE_BLOCK = "{block} computed a number that is not finite"
-"""The reason in the error message for the status NOT_FINITE if an implicit block has failed."""
+"""The reason in error messages for the status NOT_FINITE if an implicit block has failed."""
 
 
 @dataclass(frozen=True)
 class StatusCode:
-    """A status code: its name, its number, its meaning, and the reason for error messages ('' if the status
-    is no failure)."""
+    """A status code: name, number, meaning, and the reason for error messages.
+
+    The reason is '' if the status is no failure.
+    """
 
     name: str
     number: int

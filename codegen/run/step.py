@@ -1,8 +1,8 @@
 """One step: the kernel applied to a state, with checks of the result, and the composition of substeps.
 
-A step changes the state if it succeeds, and leaves it unchanged otherwise. It fails, among other cases, if an
-infinity or a NaN is in the step size, in the new state, or in an entry of the old state that the kernel does
-not read.
+A step changes the state if it succeeds, and leaves the state unchanged otherwise. A step fails if an infinity
+or a NaN occurs in the step size, in the new state, or in an entry of the old state that the kernel does not
+read. There are further reasons for failure, such as equations that do not converge.
 """
 
 from __future__ import annotations
@@ -63,14 +63,14 @@ def kernel_step(plan: Plan) -> Function:
     parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
-    # All outputs are computed before the first entry of the state is overwritten, because they read the old
+    # All outputs are computed before the first entry of the state is overwritten. The outputs read the old
     # state.
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The kernel does not read the entries ``unread``, because their values follow from other entries. A NaN
-    # in one of them would not appear in the new state, so they are tested.
+    # The kernel does not read the entries ``unread``, because other entries determine their values. A NaN in
+    # one of these entries would not appear in the new state, so they are tested.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # The extrapolation comes directly after the loops, because a processor can then compute it in parallel
-    # with the outputs.
+    # The extrapolation comes directly after the loops. A processor can then compute it in parallel with the
+    # outputs.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)
@@ -79,7 +79,7 @@ def kernel_step(plan: Plan) -> Function:
         *sampled(plan),
         *loaded(plan.symbols, state, names_in([*inner, *_errors(plan)])),
         *inner,
-        # Nothing is written to the state before this last test: a failed step leaves the state unchanged.
+        # Nothing is written to the state before this last test. A failed step leaves the state unchanged.
         If(negated(finite), (Return(code(NOT_FINITE)),)),
         *_errors(plan),
         *_aged(plan),
@@ -91,12 +91,14 @@ def kernel_step(plan: Plan) -> Function:
 
 
 def _remembered(plan: Plan) -> list[Statement]:
-    """Return the statements that store the solution of the equations for the warm start, and extrapolate the
-    solution of the next step; no statements without a warm start."""
+    """Return the statements that store the solution of the equations and extrapolate it to the next step.
+
+    The extrapolated solution is the warm start of the next step. Without a warm start the list is empty.
+    """
     if plan.start is None:
         return []
     solution = real("solution", len(plan.start.unknowns))
-    # One array contains the unknowns of all loops, because all loops of a step share one warm start.
+    # One array contains the unknowns of all loops, because the loops of a step share one warm start.
     unknowns = tuple(own(u) for u in plan.start.unknowns)
     return [Array(solution, unknowns), Call("remember", (plan.memory, solution))]
 
@@ -111,8 +113,7 @@ def _errors(plan: Plan) -> list[Statement]:
 
 
 def _aged(plan: Plan) -> list[Statement]:
-    """Return the statements that, for each loop over residuals, count the age of the stored inverse in
-    steps."""
+    """Return the statements that count the age in steps of the inverse stored by each loop over residuals."""
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:
@@ -127,8 +128,8 @@ def _aged(plan: Plan) -> list[Statement]:
 
 def exact_time(start: Term, steps: Term, h: Term) -> Term:
     """Return start + steps h, computed as a double and rounded once."""
-    # t += h would accumulate one rounding error in each step, and in single precision short steps
-    # would not change t.
+    # t += h would accumulate one rounding error in each step. In single precision, short steps would not even
+    # change t.
     return narrow(wide(start) + wide(steps) * wide(h))
 
 
@@ -148,8 +149,7 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
 
 def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
     """Return the arguments for the time and length of a substep."""
-    # Times are computed from the beginning of the step, because a sum over substeps would accumulate rounding
-    # errors.
+    # Times are computed from the beginning of the step. A sum over substeps would accumulate rounding errors.
     begins = exact_time(TIME, real("offset", plan.parts)[part], STEP)
     return plan.moment(begins, real("fraction", plan.parts)[part] * STEP)
 
@@ -157,8 +157,8 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the function that composes the substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # Each substep has its own memory, because only the solutions of the same substep in successive steps lie
-    # on a smooth curve.
+    # Each substep has its own memory. Only the solutions of the same substep in successive steps lie on a
+    # smooth curve.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)
@@ -170,8 +170,7 @@ def composed_step(plan: Plan) -> Function:
         Assign(part, part + 1),
     )
     body: tuple[Statement, ...] = (
-        # Substeps work on a copy: if a later one fails, the caller keeps the state before the whole
-        # step.
+        # Substeps work on a copy. If a later substep fails, the caller keeps the state before the whole step.
         Array(following),
         Assign(following, state),
         Assign(STATUS, code(OK)),

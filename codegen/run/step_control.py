@@ -1,19 +1,21 @@
 """Step control: steps as large as the tolerances allow, by a proportional-integral controller.
 
-To form the error norm of a step, each component of the error estimate is divided by atol + rtol |y_i|; the
-norm is the root mean square of these quotients. A step is accepted if the norm is at most one. Let p be the
-order of the estimate. After an accepted step, the step size is multiplied by 0.9 norm^(-0.8/p)
-before^(0.2/p), where ``before`` is the norm of the previous accepted step. This factor is limited to [0.2,
-5], or to [0.2, 1] if the step was accepted after a rejection. A rejected step is repeated with the factor 0.9
-norm^(-1/p), limited to [0.2, 0.9]. The limits are taken from Hairer, Norsett and Wanner, Solving Ordinary
-Differential Equations I, section II.4; the controller is Gustafsson's (II, section IV.2). The exponents 0.7/p
-and 0.4/p, in place of 0.8/p and 0.2/p, would damp changes of the step size more strongly, and the step size
-would follow the solution more slowly. With 0.7/p and 0.4/p, DOP853 needs 15 to 20 % more steps on
-``heavy_top``. Since 0.8 = 4 * 0.2, both factors are computed from one power, norm^(-0.2/p).
+In the error norm of a step, each component of the error estimate is divided by atol + rtol |y_i|. The norm is
+the root mean square of these quotients. A step is accepted if the norm is at most one. Let p be the order of
+the estimate. After an accepted step, the step size is multiplied by 0.9 norm^(-0.8/p) before^(0.2/p), where
+``before`` is the norm of the previous accepted step. This factor is limited to [0.2, 5], or to [0.2, 1] if
+the step was accepted after a rejection. A rejected step is repeated with the factor 0.9 norm^(-1/p), limited
+to [0.2, 0.9].
+
+The limits are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.4.
+The controller is Gustafsson's (II, section IV.2). The exponents 0.7/p and 0.4/p, in place of 0.8/p and 0.2/p,
+would damp changes of the step size more strongly, but the step size would follow the solution more slowly.
+With 0.7/p and 0.4/p, DOP853 needs 15 to 20 % more steps on ``heavy_top``. Since 0.8 = 4 * 0.2, both factors
+are computed from one power, norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
-a few rejected steps; a guess that is too small would make many of the steps of a short run too small.
+a few rejected steps. A guess that is too small would make many of the steps of a short run too small.
 
 An implicit step does not use the solutions of earlier steps, because solutions of steps of another size are
 bad initial guesses.
@@ -53,21 +55,20 @@ from codegen.run.terms import (
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
 FIRST = 16.0
-"""The first trial covers 1/FIRST of the interval; the step after it is at most FIRST times as long."""
+"""The first trial covers 1/FIRST of the interval. The next step is at most FIRST times as long."""
 
 SHARE = 0.2
 """If p is the order of the estimate, the exponents of the controller are -4 SHARE/p and SHARE/p."""
 
 FLOOR = 1e-4
-"""The least error norm that the controller stores; a norm may be smaller by accident, and is then replaced by
-this value."""
+"""The least error norm that the controller stores. A smaller norm, which may occur by accident, is replaced
+by this value."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the run with step control and the functions that it calls; no functions for a kernel without an
-    error estimate."""
+    """Return the run with step control and the functions that it calls; () without an error estimate."""
     if plan.kernel.estimate is None:
         return ()
     return weighted(plan), between(), Controlled(plan).function()
@@ -76,8 +77,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 def weighted(plan: Plan) -> Function:
     """Return the function that computes the norm of an error estimate."""
     n, i = plan.size, count("i")
-    # The norm is computed by a separate function, so that the body of the run contains no loop over
-    # components.
+    # The norm is computed by a separate function. The body of the run then contains no loop over components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
     # |y_i| is the larger of its values before and after the step. With one of these values alone, the error
@@ -115,7 +115,7 @@ def between() -> Function:
 
 
 class Controlled:
-    """Builds the run with step control; the attributes are variables of the run."""
+    """Builds the run with step control. The attributes are variables of the run."""
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
@@ -129,7 +129,7 @@ class Controlled:
     def __init__(self, plan: Plan) -> None:
         assert plan.kernel.estimate is not None
         self.plan, self.order = plan, plan.kernel.estimate.order
-        # A trial step works on a copy, because a rejected step must leave the state unchanged.
+        # A trial step works on a copy. A rejected step must leave the state unchanged.
         self.trial, self.error = plan.state("trial"), real("error", plan.size)
 
     def function(self) -> Function:
@@ -148,8 +148,8 @@ class Controlled:
         return (
             *self.begin(),
             While(both(STATUS.equals(code(OK)), moving), self.step()),
-            # Time and step size are stored after a failure, too: the caller then knows the last good time and
-            # can continue from there.
+            # Time and step size are also stored after a failure. The caller can then continue from the last
+            # good time.
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.length),
             If(given(self.accepted), (Assign(self.accepted[0], self.accepted_steps),)),
@@ -160,14 +160,14 @@ class Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
-        # The arguments are tested once, before the loop. This is enough, because the loop only multiplies
+        # The arguments are tested once, before the loop. One test is enough, because the loop only multiplies
         # step sizes by bounded factors.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # If a tolerance is a NaN, its comparison is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
-        # A rough first step size is sufficient: a rejection divides the step size by up to 5, and an accepted
-        # first step multiplies it by up to FIRST.
+        # A rough first step size is sufficient. A rejection divides the step size by up to 5, and an accepted
+        # first step multiplies the step size by up to FIRST.
         chosen = size(self.end - self.now) / FIRST
         return (
             Assign(STATUS, code(OK)),
@@ -211,14 +211,14 @@ class Controlled:
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
-        # The memory is cleared, because the extrapolation assumes solutions at equal distances in time.
+        # The memory is cleared. Extrapolation assumes solutions at equal distances in time.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (
             Assign(self.trial, state),
             *forgotten,
             Call(ADVANCE, (self.trial, *arguments), (STATUS,)),
-            # A failed step is rejected like a step with a large error, because a shorter step may succeed.
+            # A failed step is rejected like a step with a large error. A shorter step may succeed.
             Assign(self.norm, INFINITY),
             If(STATUS.equals(code(OK)), (measured,)),
         )
@@ -242,10 +242,10 @@ class Controlled:
         square = self.root * self.root
         # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous accepted
         # step, but at most FLOOR^(-SHARE/p). The factor 1/``previous`` damps the controller: step sizes
-        # oscillate less where stability limits them. The first step has no previous error, so ``root`` is
-        # used in place of this factor.
+        # oscillate less where stability limits them. The first step has no previous error. For this step,
+        # ``root`` replaces the factor.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
-        # After a rejection the predicted step size was too large, so the next step is not longer (Hairer,
+        # After a rejection the predicted step size was too large. The next step is not longer (Hairer,
         # Norsett and Wanner).
         longer = select(self.shrunk, number(1.0), select(self.starting, number(FIRST), number(MOST)))
         return (
@@ -256,8 +256,8 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step was shortened to end at the end of the interval. The step size that the caller
-                # gets for the next call is not shortened, unless the error requires it.
+                # The last step was shortened to end at the end of the interval. The caller gets the step size
+                # before this shortening for the next call, except if the error requires a smaller one.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),

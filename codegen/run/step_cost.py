@@ -1,22 +1,22 @@
-"""The cost model: predicted CPU time of a step, from its operations and its numbers of sweeps and matrices.
+"""The cost model: predicted CPU time of a step, from counts of operations, sweeps and matrices.
 
 A prediction is a sum of amounts times :data:`WEIGHTS`:
 
 - operations (:mod:`codegen.kernel.operations`): operations outside of sweeps and matrices count once for each
-  step, and operations of a sweep or a matrix count once for each sweep or each computed matrix;
-- unknowns: each costs time in a step, for the warm start, and in a sweep, for the stopping rule;
+  step. Operations of a sweep or a matrix count once for each sweep or each computed matrix.
+- unknowns: each unknown costs time in a step, for the warm start, and in a sweep, for the stopping rule.
 - corrections: a sweep of Newton's method on u = g(u) ends with the product of the inverse and the residuals
   g(u) - u. The next sweep cannot begin before this product is computed, so each sweep adds one correction.
-  For blocks in the form r(u) = 0 (not u = g(u)), the time of this product is already counted in the sweep,
-  so no correction is added;
+  For blocks in the form r(u) = 0 (not u = g(u)), the sweep already includes the time of this product, and no
+  correction is added.
 - cubes: if there is no closed formula for the inverse of an n x n matrix, its numerical inversion counts n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` times emitted C of the implicit methods on every scene of the
 gallery, with each solver, and writes predictions and measurements into ``benchmarks/README.md``.
 ``python benchmarks/solver_choice.py --fit`` prints the weights that fit the measurements best: non-negative
-least squares of relative errors. We also tried the length of the critical path as one more amount. It reduced
-the median error by less than one part in a hundred and improved no choice, because the critical path of a
-sweep grows with its operations.
+least squares of relative errors. The length of the critical path was also tried as an amount. It reduced the
+median error by less than one part in a hundred and improved no choice, because the critical path of a sweep
+grows with its operations.
 """
 
 from __future__ import annotations
@@ -34,12 +34,13 @@ Work = Mapping[str, Mapping[str, int]]
 
 @dataclass(frozen=True)
 class Amounts:
-    """Amounts of work, with one field for each kind of work. The weights have the same type: their fields are
-    the nanoseconds that one unit of each kind takes.
+    """Amounts of work, with one field for each kind of work.
 
-    ``unknowns`` counts the unknowns of a step once, ``swept`` counts them in each sweep. ``arithmetic``
-    counts additions and products, ``calls`` function calls, and ``corrections`` the sweeps of Newton's method
-    on u = g(u). ``cubes`` is the sum of n^3 over all inversions of n x n matrices.
+    The weights have the same type. Their fields are the nanoseconds that one unit of each kind takes.
+
+    ``unknowns`` counts the unknowns of a step once, and ``swept`` counts them in each sweep. ``arithmetic``
+    counts additions and products, and ``calls`` counts function calls. ``corrections`` counts the sweeps of
+    Newton's method on u = g(u). ``cubes`` is the sum of n^3 over all inversions of n x n matrices.
     """
 
     unknowns: float = 0.0
@@ -87,7 +88,7 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
     True
     """
     arithmetic, divisions = sum(counts.get(name, 0) for name in CHEAP), counts.get("div", 0)
-    # All calls count alike, because nearly all calls are Stumpff functions of small arguments, which are
+    # All calls count alike, because nearly all of them are Stumpff functions of small arguments. These are
     # computed by short polynomials.
     calls = sum(counts.values()) - arithmetic - divisions
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
@@ -110,7 +111,7 @@ def of_sweep(loop: Loop, work: Work) -> Amounts:
 
 
 def of_matrix(loop: Loop, work: Work) -> Amounts:
-    """Return the amounts of one matrix and its inversion; they are zero for fixed-point iteration."""
+    """Return the amounts of one matrix and its inversion. They are zero for fixed-point iteration."""
     if loop.newton is None:
         return Amounts()
     return of_operations(work[matrix_of(loop.label)]) + inversion(
@@ -127,11 +128,11 @@ def inversion(n: int) -> Amounts:
 class StepCost:
     """The predicted cost of a kernel's steps.
 
-    The arguments ``sweeps`` and ``matrices`` of its methods are average numbers per step, for each block.
+    The arguments ``sweeps`` and ``matrices`` of the methods are average numbers per step, for each block.
     """
 
     def __init__(self, kernel: Kernel) -> None:
-        # Operations are counted once, because a choice of solvers needs many sums of the same operations.
+        # Operations are counted once. A choice of solvers needs many sums of the same operations.
         self.kernel, self.work = kernel, operations(arrange(kernel))
 
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:

@@ -1,13 +1,13 @@
 """The stopping rule for all loops over implicit equations.
 
-``change`` is the largest change of an unknown in a sweep, ``scale`` the largest absolute value of an unknown.
-``previous`` is the change in the sweep before. The rate of convergence is change/previous. A loop ends in
-three cases:
+``change`` is the largest change of an unknown in a sweep, and ``scale`` the largest absolute value of an
+unknown. ``previous`` is the change in the sweep before. The rate of convergence is change/previous. A loop
+ends in three cases:
 
 - *close*: the change is at rounding level, and the predicted next change, change times rate, is below half a
   unit in the last place. A small change alone does not prove convergence, because a slow iteration makes
   small changes far from the solution.
-- *still*: the change no longer decreases and is near rounding level, that is, only rounding errors are left.
+- *still*: the change no longer decreases and is near rounding level. Then only rounding errors are left.
 - *lost*: the change no longer decreases, and its effect on the state, h times the change, is below the
   rounding errors of the state. Unknowns that are small differences of large numbers never reach rounding
   level themselves.
@@ -16,8 +16,8 @@ All tests are relative, so the number of sweeps does not depend on the units of 
 diverging iteration is never accepted, even if its values are small numbers. A change that is not finite ends
 a loop with NOT_FINITE.
 
-The stopping test by rate times change is taken from Hairer and Wanner, Solving Ordinary Differential
-Equations II, section IV.8.
+The test of rate times change is taken from Hairer and Wanner, Solving Ordinary Differential Equations II,
+section IV.8.
 """
 
 from __future__ import annotations
@@ -54,13 +54,16 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""A loop over residuals adds the last change to the unknowns before it stops. The relative error of this
-change is about LEAST_RATE, so the stopping test adds LEAST_RATE to the rate of convergence.
+"""This number is added to the rate of convergence in the stopping test of a loop over residuals.
+
+Such a loop adds the last change to the unknowns before it stops. The relative error of this change is about
+LEAST_RATE.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
-"""The stopping bound of loops over residuals: four roundings of the sum of the absolute values of the
-unknowns (see :meth:`Stopping.sums`).
+"""The stopping bound of loops over residuals, relative to the sum of the absolute values of the unknowns.
+
+It is four times 2^-52, the distance between 1 and the next double (see :meth:`Stopping.sums`).
 """
 
 CHANGE, SCALE = real("change"), real("scale")
@@ -68,8 +71,10 @@ CHANGE, SCALE = real("change"), real("scale")
 
 @dataclass(frozen=True)
 class Stopping:
-    """The stopping rule for one loop. The loops of a kernel are counted from 1, and ``number`` is the number
-    of this loop."""
+    """The stopping rule for one loop.
+
+    ``number`` is the number of this loop. The loops of a kernel are counted from 1.
+    """
 
     plan: Plan
     loop: Loop
@@ -83,8 +88,10 @@ class Stopping:
 
     @property
     def rate(self) -> Term:
-        """The rate of convergence. In the first sweep it is the rate that the previous step has stored, or 1
-        if no rate is stored."""
+        """The rate of convergence.
+
+        In the first sweep it is the rate that the previous step has stored, or 1 if no rate is stored.
+        """
         return real(f"rate_{self.number}")
 
     @property
@@ -106,22 +113,26 @@ class Stopping:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
             # Between steps of equal size the rate hardly changes. A loop therefore starts with the rate of
             # the step before, as in the book of Hairer and Wanner. It may then end after one sweep, although
-            # a single sweep measures no rate. If there is no old rate, the rate is 1, and a loop ends after
-            # one sweep only if the change is at rounding level.
+            # a single sweep measures no rate. Without an old rate, the rate is 1. Then a loop ends after one
+            # sweep only if the change is at rounding level.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
     def measured(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements that compute the largest change and the largest unknown in a sweep;
-        ``changes`` are absolute values."""
+        """Return the statements that compute the largest change and the largest unknown in a sweep.
+
+        ``changes`` are absolute values.
+        """
         return [
             Assign(CHANGE, greatest(changes)),
             Assign(SCALE, greatest(map(size, unknowns))),
         ]
 
     def rates(self) -> list[Statement]:
-        """Return the statements that store the error of the initial guess, and the rate of convergence. There
-        are no such statements for a loop without a warm start."""
+        """Return the statements that store the error of the initial guess and the rate of convergence.
+
+        The list is empty for a loop without a warm start.
+        """
         if not self.warm:
             return []
         first = self.plan.memory.field("first")
@@ -144,7 +155,7 @@ class Stopping:
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
         # The predicted next change, rate times change, must be below rounding level, because a small change
         # alone does not prove convergence. Without a stored rate the test is written as change^2 <= bound *
-        # previous, to avoid a division. In the first sweep previous = 0, so only the change zero satisfies
+        # previous, to avoid a division. In the first sweep previous = 0. Only the change zero then satisfies
         # the test.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
@@ -152,7 +163,7 @@ class Stopping:
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
         # Rounding errors may keep the change above the bound. The change then no longer decreases, and more
-        # sweeps are useless. In a diverging iteration the change does not decrease, either, but it exceeds
+        # sweeps are useless. In a diverging iteration the change does not decrease either, but it exceeds
         # ``tolerance``.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
@@ -165,8 +176,11 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test that h times the change is below the rounding errors of the state. In a loop that
-        solves equations for a variation (a derivative of the state), the variation replaces the state."""
+        """Return the test that h times the change is below the rounding errors of the state.
+
+        In a loop that solves equations for a variation (a derivative of the state), the variation replaces
+        the state.
+        """
         # The unknowns of a variation do not change the state, so they are compared with the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
@@ -178,11 +192,13 @@ class Stopping:
         return both(*tests)
 
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements that compute, in a sweep over residuals, the sums of the absolute values of
-        the changes and of the unknowns."""
+        """Return the statements that sum the absolute values of the changes and of the unknowns.
+
+        They belong to a sweep over residuals.
+        """
         return [
-            # Sums are used, because a sum with a NaN is NaN, and no other test for finite numbers is needed.
-            # A maximum may lose a NaN.
+            # A sum with a NaN is NaN, so no other test for finite numbers is needed. A maximum may lose a
+            # NaN.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]
@@ -191,12 +207,12 @@ class Stopping:
         """Return the statements that set the flag ``converged`` for a loop over residuals.
 
         The matrix is exact to first order in h, so the rate of the previous step is a good estimate in the
-        first sweep. The bound in the following rules is four roundings of the sum of the absolute values of
-        the unknowns. If the rate is below 1/2, the loop ends when the predicted next change is below this
-        bound. If the rate is at least 1/2, the loop makes two sweeps or more. It then ends when the sum of
-        all later changes, a geometric series, is below the bound. If the changes no longer decrease, it ends
-        when the change is below the tolerance, or h times the change is below the rounding errors of the
-        state.
+        first sweep. The bound in the following rules is :data:`FOUR_ROUNDINGS` times the sum of the absolute
+        values of the unknowns. If the rate is below 1/2, the loop ends when the predicted next change is
+        below this bound. If the rate is at least 1/2, the loop makes two sweeps or more. It then ends when
+        the sum of all later changes, a geometric series, is below the bound. If the changes no longer
+        decrease, the loop ends when the change is below the tolerance. It also ends when h times the change
+        is below the rounding errors of the state.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))
@@ -214,8 +230,8 @@ class Stopping:
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
-                    # If the iteration does not contract clearly, the distance to the solution is unknown
-                    # after a single sweep.
+                    # If the iteration does not contract clearly, a single sweep does not show the distance to
+                    # the solution.
                     both(
                         SWEEPS > 1,
                         # A small change that still decreases is no rounding error: at the rate 0.9, the sum
@@ -230,29 +246,29 @@ class Stopping:
         ]
 
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
-        """Return the statement that sets the status: NOT_FINITE if the value of the term ``finite`` is not
-        finite, otherwise OK if the flag ``converged`` is true, and NOT_CONVERGED if it is false.
+        """Return the statement that sets the status.
 
-        If the matrix is singular, ``converged`` is meaningless and the test ``possible`` is false. Then the
-        status is not OK.
+        The status is NOT_FINITE if the value of the term ``finite`` is not finite. Otherwise it is OK if the
+        flag ``converged`` is true, and NOT_CONVERGED if the flag is false. If the matrix is singular,
+        ``converged`` is meaningless and the test ``possible`` is false. Then the status is not OK.
         """
-        # The test for finite numbers comes first: comparisons with a NaN are false, so the loop would
+        # The test for finite numbers comes first. Comparisons with a NaN are false, so the loop would
         # otherwise continue.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))
         outcome = select(converged, code(OK), code(NOT_CONVERGED))
         return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))
 
     def going_on(self, astray: Term | None = None) -> Term:
-        """Return the test that a loop makes another sweep; the loop ends if the flag ``astray`` is true."""
-        # The limit ends iterations that contract too slowly; the step is then repeated by continuation in h.
+        """Return the test that a loop makes another sweep. The loop ends if the flag ``astray`` is true."""
+        # The limit ends iterations that contract too slowly. The continuation in h then repeats the step.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))
 
     def after(self) -> list[Statement]:
         """Return the statements after a loop that has succeeded.
 
-        A single sweep measures no rate. In that case the old rate is doubled, so after some steps with one
-        sweep a second sweep measures the rate again.
+        A single sweep measures no rate. In that case the old rate is doubled. After some steps with one
+        sweep, a second sweep is then made and measures the rate again.
         """
         if not self.warm:
             return []

@@ -1,10 +1,10 @@
 """Large matrices A(t) as arrays of emitted code: their evaluation, sums, products with vectors, and norms.
 
 A banded matrix is stored diagonal by diagonal. Each diagonal has n places, and the entry a_{i, i + d} is at
-place i of its diagonal; places for which i + d is not a column of the matrix contain zeros. The entries of a
-full matrix are computed from formulas in the indices i and j. The entries themselves are not stored. Only the
-subexpressions that contain neither i nor j are stored, and each product with a vector computes the entries
-from their values.
+place i of its diagonal. If i + d is not a column of the matrix, the place contains zero. The entries of a
+full matrix are formulas in the indices i and j and are not stored. Only the subexpressions that contain
+neither i nor j are stored. Each product with a vector computes the entries from the values of these
+subexpressions.
 """
 
 from __future__ import annotations
@@ -33,8 +33,10 @@ _ENTRY, _TOTAL, _NORM = real("entry"), real("total"), real("norm")
 
 @dataclass
 class Hoisted:
-    """Formulas in the indices i and j. Their subexpressions without indices are replaced by names, whose
-    values are computed before a loop."""
+    """Formulas in the indices i and j, in which names replace the subexpressions without indices.
+
+    The values of these names are computed before a loop.
+    """
 
     names: dict[Expr, str] = field(default_factory=dict)
 
@@ -73,7 +75,9 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
 
 class StoredMatrix(ABC):
     """The arrays for the matrices A(t_i) and for letters, and the functions that evaluate and multiply them.
-    A letter is a linear combination of the matrices h A(t_i); it is multiplied by n x k matrices."""
+
+    A letter is a linear combination of the matrices h A(t_i). It is multiplied by n x k matrices.
+    """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         self.matrix, self.columns, self.nodes, self.n = matrix, columns, nodes, matrix.rows
@@ -92,8 +96,7 @@ class StoredMatrix(ABC):
 
     @abstractmethod
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that compute a letter from the arrays ``nodes``, each for A at one time
-        t_i."""
+        """Return the statements that compute a letter from the arrays ``nodes`` of A at the times t_i."""
 
     @abstractmethod
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
@@ -104,13 +107,15 @@ class StoredMatrix(ABC):
         return real(name, self.n * self.columns)
 
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
-        """Return an entry of A(t): a sum of coefficients times entries of constant matrices. Each element of
-        ``entries`` contains the index of a term of A(t), the entry of its matrix, and the name of the table
-        with the numbers of this matrix."""
+        """Return an entry of A(t): a sum of coefficients times entries of constant matrices.
+
+        Each element of ``entries`` contains the index of a term of A(t), the entry of its matrix, and the
+        name of the table with the numbers of this matrix.
+        """
         total: Term | None = None
         for term, given, table in entries:
-            # The first result, the statements that convert the indices to reals, is ignored here: ``before``
-            # returns them.
+            # The first result contains the statements that convert the indices to reals. It is ignored here,
+            # because ``before`` returns these statements.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             if not (coefficient.op == "const" and coefficient.payload.is_one):
@@ -120,7 +125,7 @@ class StoredMatrix(ABC):
         return total
 
     def before(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term) -> list[Statement]:
-        """Return the statements that convert to reals those indices that the entries read."""
+        """Return the statements that convert the indices in ``entries`` to reals."""
         indices: dict[str, Statement] = {}
         for _, given, table in entries:
             for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
@@ -129,13 +134,15 @@ class StoredMatrix(ABC):
         return list(indices.values())
 
     def hoist(self, given: Entry) -> Entry:
-        """Return an entry in which names replace the subexpressions without indices. An entry that is a tuple
-        of numbers is returned unchanged."""
+        """Return an entry in which names replace the subexpressions without indices.
+
+        An entry that is a tuple of numbers is returned unchanged.
+        """
         return given if isinstance(given, tuple) else self.hoisted.formula(given)
 
 
 class BandedMatrix(StoredMatrix):
-    """A banded matrix; the array for the time t_i contains h A(t_i)."""
+    """A banded matrix. The array for the time t_i contains h A(t_i)."""
 
     @property
     def node_size(self) -> int:
@@ -200,15 +207,15 @@ class BandedMatrix(StoredMatrix):
 
 
 class FullMatrix(StoredMatrix):
-    """A full matrix; the array for the time t_i contains the values of the subexpressions without indices.
+    """A full matrix. The array for the time t_i contains the values of the subexpressions without indices.
 
-    The array of a letter contains h times the coefficient of each A(t_i), and the arrays for all t_i.
+    The array of a letter contains, for each A(t_i), h times its coefficient, and the arrays for all t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
-        # The sizes of arrays depend on the number of names in ``hoisted``, so all names are found here,
-        # before any array is declared.
+        # The sizes of arrays depend on the number of names in ``hoisted``. Therefore all names are found
+        # here, before any array is declared.
         self.entries: list[tuple[int, Entry, str]] = []
         self.banded: list[tuple[int, int, Entry, str]] = []
         for term, (_, own_matrix) in enumerate(matrix.terms):
@@ -279,11 +286,13 @@ class FullMatrix(StoredMatrix):
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
-        """Return the statement that adds ``weight`` times an entry of a diagonal, if the current row and
-        column lie on this diagonal."""
+        """Return the statement that adds ``weight`` times an entry of a diagonal.
+
+        The entry is added only if the current row and column lie on this diagonal.
+        """
         # The index of an entry in the table of its diagonal is the smaller of its row and column. The test
-        # below adds |offset| to this index and compares the sum with the larger of row and column. It
-        # subtracts nothing, because counts must not become negative.
+        # below adds |offset| to this index and compares the sum with the larger of row and column. A
+        # subtraction is avoided, because counts must not become negative.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]
@@ -297,8 +306,11 @@ class FullMatrix(StoredMatrix):
 
 
 def stored_matrix(matrix: TimeMatrix, columns: int, nodes: int) -> StoredMatrix:
-    """Return the arrays and functions for a matrix. ``columns`` is the number of columns of the state, and
-    ``nodes`` the number of times t_i at which a step evaluates the matrix."""
+    """Return the arrays and functions for a matrix.
+
+    ``columns`` is the number of columns of the state. ``nodes`` is the number of times t_i at which a step
+    evaluates the matrix.
+    """
     kind = BandedMatrix if matrix.is_banded else FullMatrix
     return kind(matrix, columns, nodes)
 
@@ -321,8 +333,10 @@ def _combined(nodes: Sequence[Term], letter: Letter) -> Term:
 
 
 def _row(entry: Term, x: Term, y: Term, i: Term, j: Term, k: int, *, first: bool) -> list[Statement]:
-    """Return the statements that add an entry times a row of x to a row of y. If ``first`` is true, they
-    overwrite the row of y instead."""
+    """Return the statements that add an entry times a row of x to a row of y.
+
+    If ``first`` is True, they overwrite the row of y instead.
+    """
     if k == 1:
         one = entry * x[j]
         return [Assign(y[i], one if first else y[i] + one)]

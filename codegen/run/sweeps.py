@@ -1,17 +1,17 @@
 """Loops over implicit equations: fixed-point iteration for u = g(u), and Newton's method in three forms.
 
-A sweep computes the images of the unknowns u: the components of the right-hand side g(u). Fixed-point
-iteration replaces the unknowns by the images, except in the last sweep. Values computed in the last sweep
-therefore belong to the accepted unknowns. Newton's method adds the inverse of a matrix times the residuals to
-the unknowns, in the last sweep too. Its three forms use different matrices:
+A sweep computes the images of the unknowns u, which are the components of the right-hand side g(u).
+Fixed-point iteration replaces the unknowns by the images, except in the last sweep. Values computed in the
+last sweep therefore belong to the accepted unknowns. Newton's method adds the inverse of a matrix times the
+residuals to the unknowns, also in the last sweep. Its three forms use different matrices:
 
-- *Newton*: the exact matrix is kept from sweep to sweep and from step to step, until a change exceeds
+- *Newton*: the exact matrix is stored from sweep to sweep and from step to step, until a change exceeds
   ``Newton.CONTRACTION`` times the previous change. If no matrix is stored yet, the first sweep computes it.
   The loop fails if the change does not decrease right after the matrix was computed, or if the matrix is
   singular.
-- *simplified Newton*: the matrix to first order in h is computed before the sweeps of each step.
-- *residuals*: the matrix of residual equations r(u) = 0, to first order in h, is kept for ``Newton.period``
-  steps.
+- *simplified Newton*: the matrix, correct to first order in h, is computed before the sweeps of each step.
+- *residuals*: the matrix of residual equations r(u) = 0, correct to first order in h, is stored for
+  ``Newton.period`` steps.
 """
 
 from __future__ import annotations
@@ -63,8 +63,11 @@ statement."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
-    """Return the statements of one loop. If the loop fails, the emitted function that contains them returns
-    the status of the loop. Sweeps are counted in the statistics if ``counting`` is true."""
+    """Return the statements of one loop.
+
+    If the loop fails, the emitted function that contains these statements returns the status of the loop. If
+    ``counting`` is True, sweeps are counted in the statistics.
+    """
     newton = iteration.loop.newton
     if newton is None:
         return _FixedPoint(plan, iteration, counting).statements()
@@ -73,8 +76,7 @@ def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
 
 @dataclass(frozen=True)
 class _Loop:
-    """The common part of fixed-point iteration and Newton's method; if ``counting`` is true, sweeps are
-    counted."""
+    """The common part of fixed-point iteration and Newton's method. With ``counting``, sweeps are counted."""
 
     plan: Plan
     iteration: Iteration
@@ -87,7 +89,7 @@ class _Loop:
 
     @property
     def number(self) -> int:
-        """The number of the loop in the kernel; the first loop has the number 1."""
+        """The number of the loop in the kernel. The first loop has the number 1."""
         return self.iteration.number
 
     @property
@@ -97,8 +99,11 @@ class _Loop:
 
     @cached_property
     def images(self) -> list[Term]:
-        """The names of the images. An image that is already a variable keeps its name; the other names are
-        ``next`` followed by the name of the unknown."""
+        """The names of the images.
+
+        An image that is already a variable keeps its name. The name of any other image is ``next`` followed
+        by the name of the unknown.
+        """
         loop = self.iteration.loop
         return [
             own(x.payload) if x.op == "sym" and x.payload not in loop.unknowns else own(f"next {u}")
@@ -140,8 +145,8 @@ class _Loop:
         The loop ends with a failure if the test ``astray`` is true. If the loop has failed and the test
         ``singular`` is true, the status is SINGULAR.
         """
-        # The loop continues as long as the status is NOT_CONVERGED. A change of the status ends it, because
-        # array languages cannot leave a loop from its middle. If the loop reaches its limit of sweeps, the
+        # The loop continues as long as the status is NOT_CONVERGED. Array languages cannot leave a loop from
+        # its middle, so a change of the status ends the loop. If the loop reaches its limit of sweeps, the
         # status is still NOT_CONVERGED.
         sequence: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
         sequence.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
@@ -149,8 +154,7 @@ class _Loop:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # The sweeps are counted before the guard returns, because the statistics must name the block that
-            # failed.
+            # The sweeps are counted before the guard returns. The statistics must name the block that failed.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
@@ -169,22 +173,25 @@ class _FixedPoint(_Loop):
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
         # Statements after the loop read values that the last sweep computed. The last sweep does not change
-        # the unknowns, so these values belong to the accepted unknowns. A branch is used and not a select,
-        # because after convergence nothing needs to be copied.
+        # the unknowns, so these values belong to the accepted unknowns. A branch is used and not a select.
+        # The branch copies nothing after convergence.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that compute the changes, and a term that is finite only if all changes are
-        finite."""
+        """Return the statements that compute the changes, and a term that shows whether all changes are
+        finite.
+
+        The term is finite only if all changes are finite.
+        """
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))
             for change, x, u in zip(changes, self.images, self.unknowns, strict=True)
         ]
         # CHANGE is a maximum, and `a > b ? a : b` may lose a NaN. A sum of absolute values keeps NaNs, and
-        # infinities in it cannot cancel.
+        # its infinities cannot cancel.
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
@@ -218,7 +225,7 @@ class _Newton(_Loop):
 
     @property
     def kept(self) -> bool:
-        """True if the matrix is kept from step to step."""
+        """True if the matrix is stored from step to step."""
         return self.iteration.loop.solver == NEWTON
 
     @property
@@ -252,8 +259,8 @@ class _Newton(_Loop):
         if self.kept:
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
-            # No matrix is computed from unknowns that are not finite, because it would replace a good matrix
-            # in the memory.
+            # No matrix is computed from unknowns that are not finite. It would replace a good matrix in the
+            # memory.
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
             sequence += self.prepared()
@@ -269,14 +276,14 @@ class _Newton(_Loop):
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
             # If the change does not decrease although the matrix is exact at the current unknowns, more
-            # sweeps cannot help, and the step needs a better initial guess (continuation).
+            # sweeps cannot help. The step then needs a better initial guess, which the continuation provides.
             stalled = both(flag("still"), self.making)
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))
             body.append(Assign(flag("astray"), stalled))
             # With an old matrix, each sweep multiplies the error by about the relative error of the matrix.
             # If the contraction is slow, a new matrix costs less than many more sweeps. In the first sweep
-            # the contraction is not known yet: ``previous`` is 0, and no new matrix is requested.
+            # ``previous`` is 0, because the contraction is not known yet. No new matrix is then requested.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -304,8 +311,8 @@ class _Newton(_Loop):
         body += self.corrected(changes)
         body += rule.converged_by_residuals()
         body.append(rule.decided(CHANGE, self.age > 0 if inverted else None))
-        # At most one matrix is computed in a step, because a second one would cost more than the sweeps that
-        # it saves.
+        # At most one matrix is computed in a step. A second matrix would cost more than the sweeps that it
+        # saves.
         body.append(Assign(self.making, truth(False)))
         body.append(Assign(rule.previous, CHANGE))
         astray = negated(self.age > 0) if inverted else None
@@ -320,19 +327,21 @@ class _Newton(_Loop):
         sequence = self.entries()
         if self.newton.inverted:
             return [*sequence, Assign(self.age, whole(1)), *self.matrix_counted()]
-        # Computing the inverse costs more than a factorisation. But the inverse is used in many sweeps, and a
-        # product with the inverse is faster than forward and back substitution.
+        # Computing the inverse costs more than a factorisation. However, the inverse is used in many sweeps,
+        # and a product with the inverse is faster than forward and back substitution.
         sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.age,)))
         counted = self.matrix_counted()
         return [*sequence, *([If(self.age > 0, tuple(counted))] if counted else [])]
 
     def matrix_counted(self) -> list[Statement]:
-        """Return the statement that counts a matrix in the statistics; none if nothing is counted."""
+        """Return the statement that counts a matrix in the statistics; [] if nothing is counted."""
         return [count_matrix(self.plan)] if self.counting else []
 
     def prepared(self) -> list[Statement]:
-        """Return the statements that compute and invert the matrix of one step, before its sweeps. If the
-        matrix is singular, the emitted function returns the status SINGULAR."""
+        """Return the statements that compute and invert the matrix of one step, before its sweeps.
+
+        If the matrix is singular, the emitted function returns the status SINGULAR.
+        """
         sequence = self.entries()
         if self.newton.inverted:
             return sequence
@@ -352,23 +361,24 @@ class _Newton(_Loop):
         n, matrix = len(self.unknowns), [value(x) for x in self.iteration.matrix]
         if n > WIDE:
             whole_matrix = real(f"matrix_{self.number}", n * n)
-            # An array initialiser and one copy store the entries, because n^2 separate assignments would make
-            # the function very long.
+            # An array initialiser and one copy store the entries. n^2 separate assignments would make the
+            # function very long.
             return [*sequence, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
-        """Return an entry of the inverse: an entry of an array, or a scalar if a formula computes the inverse
-        in each step."""
+        """Return an entry of the inverse matrix as an entry of an array or as a scalar.
+
+        It is a scalar if a formula computes the inverse in each step.
+        """
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
-            # This inverse is used in one step only, so its entries can be scalars, which a compiler keeps in
+            # This inverse is used in one step only. Its entries can be scalars, which a compiler keeps in
             # registers.
             return real(f"inverse_{self.number}_{place}")
         return self.inverse[place]
 
     def product(self, changes: Sequence[Term], residuals: Sequence[Term]) -> list[Statement]:
-        """Return the statements changes = inverse residuals: a separate sum for each row, or loops if there
-        are many rows."""
+        """Return the statements changes = inverse residuals: a sum for each row, or loops for many rows."""
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]

@@ -1,11 +1,11 @@
-"""Step control by Taylor coefficients: each step size is computed from the Taylor coefficients before the
-step is made, so no step is rejected.
+"""Step control by Taylor coefficients: each step size follows from the Taylor coefficients before the step.
 
-Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree of the polynomial. Let
-epsilon = atol + rtol |y|, with the maximum norm. The number (epsilon/|c_k|)^(1/k) is computed for k = p - 1
-and for k = p. The step size is the smaller one of these two numbers times exp(-0.7/(p - 1)). The last terms
-of the polynomial are then about as large as the tolerance (A. Jorba and M. Zou, Experimental Mathematics 14
-(2005) 99, section 3.2.1, where the tolerance determines the degree, too).
+No step is rejected. Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree
+of the polynomial. Let epsilon = atol + rtol |y|, with the maximum norm. The number (epsilon/|c_k|)^(1/k) is
+computed for k = p - 1 and for k = p. The step size is the smaller of these two numbers times
+exp(-0.7/(p - 1)). The last terms of the polynomial are then about as large as the tolerance (A. Jorba and
+M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1). In that paper the tolerance also determines the
+degree.
 """
 
 from __future__ import annotations
@@ -65,11 +65,11 @@ ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "m
 """The names of the emitted functions that the adaptive run calls."""
 
 LEAST = 1e-30
-"""The formula of the step size divides by the norm of a Taylor coefficient. A norm below this number is
-replaced by this number."""
+"""The least norm of a Taylor coefficient in the formula of the step size, which divides by this norm. A
+smaller norm is replaced by this number."""
 
 ROWS = 4
-"""Each pass through the loop of the Cauchy products adds this number of products of coefficients to each
+"""The number of products of coefficients that each iteration of the loop of the Cauchy products adds to each
 sum."""
 
 RTOL, ATOL = real("rtol"), real("atol")
@@ -78,8 +78,10 @@ ORDER_TERM = own(ORDER)
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the function of the adaptive run and the functions that it calls, except those that
-    :func:`polynomial_step` returns. The result is empty if the method does not choose its step sizes.
+    """Return the function of the adaptive run and the functions that it calls.
+
+    The functions that :func:`polynomial_step` returns are omitted. The result is empty if the method does not
+    choose its step sizes.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
@@ -89,8 +91,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def polynomial_step(plan: Plan) -> tuple[Function, ...]:
-    """Return the function that makes one step by evaluating the Taylor polynomial, and the functions that it
-    calls."""
+    """Return the function that makes one step by the Taylor polynomial, and the functions that it calls."""
     expansion = plan.kernel.expansion
     assert expansion is not None
     own = _Controlled(plan, expansion)
@@ -98,22 +99,24 @@ def polynomial_step(plan: Plan) -> tuple[Function, ...]:
 
 
 def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
-    """Return the statements that compute the inner sums of order n = k + 1 of all products of two series a
-    and b: the sums of a_j b_{n-j} over 0 < j < n. Row j - 1 of ``left`` contains a_j for all products, and
-    row j - 1 of ``right`` contains b_j. The number of columns is ``width``."""
+    """Return the statements that compute the inner sums of order n = k + 1 of products of two series a and b.
+
+    An inner sum is the sum of a_j b_{n-j} over 0 < j < n. There are ``width`` products, one in each column.
+    Row j - 1 of ``left`` contains a_j for all products, and row j - 1 of ``right`` contains b_j.
+    """
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
-        """Return the product of two entries of column ``lane``: of ``left`` in row ``first + i``, and of
-        ``right`` in row ``last - i``."""
+        """Return the product of the entries of ``left`` in row ``first + i`` and of ``right`` in row ``last -
+        i``."""
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
         pairs = [products(i) for i in range(rows)]
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
-    # The inner loop runs over the sums, so that consecutive additions are independent. For each sum, it adds
-    # the products of several rows between one load and one store.
+    # The inner loop runs over the sums. Consecutive additions are then independent. For each sum, it adds the
+    # products of several rows between one load and one store.
     many = For(
         j,
         k // ROWS,
@@ -136,7 +139,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
 
 
 class _Controlled:
-    """The variables of the adaptive run; the methods return its functions and statements."""
+    """The variables of the adaptive run. The methods return its functions and statements."""
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
@@ -158,9 +161,7 @@ class _Controlled:
         self.series = real("series", self.degree * self.size)
 
     def polynomial(self) -> tuple[Function, ...]:
-        """Return the functions that compute and evaluate the polynomial, and the functions that convert its
-        coordinates.
-        """
+        """Return the functions that compute and evaluate the polynomial and convert its coordinates."""
         enter, leave = self.expansion.enter, self.expansion.leave
         listed = []
         if enter is not None:
@@ -213,8 +214,9 @@ class _Controlled:
         )
 
     def is_sound(self) -> Term:
-        """Return the test that the old state and the new state are finite. The old state is tested, too,
-        because the new state need not depend on all its entries.
+        """Return the test that the old state and the new state are finite.
+
+        The old state is also tested, because the new state need not depend on all its entries.
         """
         return both(all_finite(self.trial), all_finite(self.state))
 
@@ -225,7 +227,7 @@ class _Controlled:
         every = Plan(following, self.plan.format)
         ends, symbols = first.arrangement.outputs, every.arrangement.symbols()
         m, k = self.expansion.sums, count("k")
-        # An even number of sums suits vector instructions; the last sum may be unused.
+        # An even number of sums suits vector instructions. The last sum may be unused.
         width = m + m % 2
         left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
         sums, values = own("sum", width), len(ends) - n
@@ -263,8 +265,10 @@ class _Controlled:
         return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
 
     def numbers(self, symbols: frozenset[str]) -> list[Statement]:
-        """Return the statements that compute the factors in ``symbols`` that depend only on the order of a
-        Taylor coefficient, such as 1/order."""
+        """Return the statements that compute the factors in ``symbols``, such as 1/order.
+
+        These factors depend only on the order of a Taylor coefficient.
+        """
         one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
         known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
         return [Assign(own(name), x) for name, x in known.items() if name in symbols]
@@ -352,8 +356,8 @@ class _Controlled:
         return (
             *self.entered(),
             Call(EXPAND, (self.start, *moment, self.series)),
-            # If a coefficient is infinite or NaN, a shorter step would fail, too, because the coefficients do
-            # not depend on h.
+            # The coefficients do not depend on h. If a coefficient is infinite or NaN, a shorter step would
+            # also fail.
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),
@@ -383,7 +387,7 @@ class _Controlled:
                     Assign(self.now, self.following),
                     Assign(self.steps, self.steps + 1),
                 ),
-                # All coefficients are finite. If the old state is finite, too, the step was too long.
+                # All coefficients are finite. If the old state is also finite, the step was too long.
                 (Assign(STATUS, select(all_finite(self.state), code(TOO_FAR), code(NOT_FINITE))),),
             ),
         )

@@ -27,12 +27,11 @@ STATUSES = (
     *(OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT, TOO_FAR, SINGULAR, TOO_SHORT),
     *(EVENT, BAD_TIMES, LEAST_STEP, BAD_EVENT, BAD_SHAPE, BAD_OPERATOR),
 )
-"""The status codes; the number of a code is its index in this tuple."""
+"""The status codes. The number of a code is its index in this tuple."""
 
 
 class Kind(Enum):
-    """The kind of a term. A WIDE real has the range and precision of a double, whatever the format of the
-    module."""
+    """The kind of a term. A WIDE real is a double in modules of every format."""
 
     REAL = "real"
     WIDE = "wide"
@@ -49,10 +48,10 @@ class Kind(Enum):
 class Term:
     """An operation on terms, a name, or a constant.
 
-    ``text`` is the name of a variable, function or field. ``own`` is True for a name from the kernel; a
-    target may have to replace such a name. ``shape`` is the shape of an array and () for a single value; an
-    entry 0 is a size that only the caller knows. If ``optional`` is True, callers may omit the argument. A
-    ``cell`` is an array of one entry through which a function returns a value.
+    ``text`` is the name of a variable, function or field. ``own`` is True for a name from the kernel. A
+    target may have to replace such a name. ``shape`` is the shape of an array and () for a single value. An
+    entry 0 of the shape is a size that only the caller knows. If ``optional`` is True, callers may omit the
+    argument. A ``cell`` is an array of one entry through which a function returns a value.
     """
 
     op: str
@@ -100,7 +99,7 @@ class Term:
     def __neg__(self) -> Term:
         return Term("neg", (self,), self.kind)
 
-    # ``==`` is not overloaded, so terms are compared by identity. Dictionaries with terms as keys need this.
+    # ``==`` is not overloaded, so terms are compared by identity. Dictionaries with terms as keys require it.
     def __lt__(self, other: Operand) -> Term:
         return _comparison("<", self, other)
 
@@ -128,7 +127,7 @@ class Term:
 
     def __iter__(self) -> Iterator[Term]:
         """Raise TypeError: an array is not a Python sequence."""
-        # Without this method Python would iterate by ``__getitem__``. This iteration would never end, because
+        # Without this method Python would iterate by ``__getitem__``. The iteration would never end, because
         # ``__getitem__`` accepts every index.
         raise TypeError("a Term is symbolic and cannot be iterated; index its entries up to its shape")
 
@@ -146,8 +145,8 @@ class Term:
 
 Operand = Term | float | int
 
-# A Python number gets the kind of the other operand. The index of an array has no other operand, so _COUNT
-# is used in its place.
+# A Python number gets the kind of the other operand. The index of an array has no other operand. _COUNT is
+# used in its place.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
@@ -228,9 +227,8 @@ def truth(x: bool) -> Term:
 
 
 def value(x: Expr) -> Term:
-    """Return the term for an expression of the kernel; if the expression is a symbol, the term is a name."""
-    # A symbol is returned as a name, so that a copy of a scalar is recognised without inspecting an
-    # expression.
+    """Return the term for an expression of the kernel. For a symbol the term is a name."""
+    # A symbol is returned as a name. A copy of a scalar is then recognised without inspecting an expression.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -240,13 +238,13 @@ INFINITY = Term("infinity")
 
 
 def both(*tests: Term) -> Term:
-    """Return the conjunction of tests; evaluation ends at the first test that is false."""
+    """Return the conjunction of tests. Evaluation ends at the first test that is false."""
     # The tests are joined as (a and b) and c, because all targets print this nesting without parentheses.
     return reduce(lambda a, b: Term("and", (a, b), Kind.FLAG), tests)
 
 
 def either(*tests: Term) -> Term:
-    """Return the disjunction of tests; evaluation ends at the first test that is true."""
+    """Return the disjunction of tests. Evaluation ends at the first test that is true."""
     return reduce(lambda a, b: Term("or", (a, b), Kind.FLAG), tests)
 
 
@@ -256,10 +254,11 @@ def negated(test: Term) -> Term:
 
 
 def select(test: Term, yes: Operand, no: Operand) -> Term:
-    """Return the term that has the value ``yes`` if the test is true, otherwise the value ``no``. In array
-    languages this term computes both values, whereas a branch computes only one.
+    """Return the term that has the value ``yes`` if the test is true, otherwise the value ``no``.
+
+    In array languages this term computes both values, but a branch computes only one.
     """
-    # A Python number beside a term gets the kind of the term; two Python numbers are reals.
+    # A Python number beside a term gets the kind of the term. Two Python numbers are reals.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)
@@ -278,8 +277,7 @@ def size(x: Term) -> Term:
 def greatest(terms: Iterable[Term]) -> Term:
     """Return the maximum of some reals."""
     listed = tuple(terms)
-    # If there is only one term, it is returned without a call, because ``max`` of a single number is an error
-    # in Python.
+    # A single term is returned without a call, because ``max`` of a single number is an error in Python.
     return listed[0] if len(listed) == 1 else call("greatest", *listed)
 
 
@@ -305,14 +303,14 @@ def total(terms: Iterable[Term]) -> Term:
 
 
 def paired(terms: Iterable[Term]) -> Term:
-    """Return the sum of terms. Neighbouring terms are first added in pairs; the sums of the pairs are then
-    added from left to right."""
+    """Return the sum of terms. Neighbouring terms are added in pairs, and then the pairs from left to
+    right."""
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)
     # The pairs are independent of one another, so only about half of the additions depend on an earlier one.
-    # The grouping is chosen here, because compilers must not regroup a sum: floating-point addition is not
-    # associative.
+    # Floating-point addition is not associative, and compilers must not regroup a sum. Therefore the grouping
+    # is chosen here.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 
@@ -323,7 +321,7 @@ def given(argument: Term) -> Term:
 
 def absent(parameter: Term) -> Term:
     """Return the argument that a call passes for an optional parameter without a value."""
-    # The kind and shape of the parameter are kept: they decide how printers pass an argument.
+    # The kind and shape of the parameter are kept, because they decide how printers pass an argument.
     return replace(parameter, op="none", args=())
 
 
@@ -333,7 +331,7 @@ def holding(inputs: Term) -> Term:
 
 
 def fresh(of: Term) -> Term:
-    """Return a record of the same type as ``of``, whose fields are all zero."""
+    """Return a record of the same type as ``of``. All its fields are zero."""
     return Term("fresh", (), Kind.RECORD, record=of.record)
 
 
@@ -349,7 +347,7 @@ def narrow(x: Term) -> Term:
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
     """Yield every name in terms, including names in expressions of the kernel."""
-    # The stack is read from its end, so the terms are pushed in reverse order: names are then yielded in the
+    # The stack is read from its end, so the terms are pushed in reverse order. Names are then yielded in the
     # order in which they occur.
     waiting = list(terms)[::-1]
     while waiting:
@@ -363,15 +361,16 @@ def names(terms: Iterable[Term]) -> Iterator[Term]:
 
 @lru_cache(maxsize=4096)
 def _read(name: str) -> Term:
-    """Return the name of a symbol that an expression reads. All expressions that read the symbol share one
-    object.
+    """Return the name of a symbol that an expression reads.
+
+    All expressions that read the symbol share one object.
     """
     return own(name)
 
 
 def symbols(root: Expr) -> Iterator[str]:
     """Yield the symbols of an expression, in the order in which the expression reads the symbols."""
-    # Expressions share nodes: without this set, the walk could take exponential time.
+    # Expressions share nodes. Without this set, the walk could take exponential time.
     seen: set[int] = set()
     waiting = [root]
     while waiting:

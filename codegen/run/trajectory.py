@@ -46,8 +46,9 @@ RAISING = frozenset({"sqrt", "log", "exp", *(f.name for f in ELEMENTARY.values()
 """Functions that raise an exception in Python for some arguments."""
 
 REGISTERS = 6
-"""The largest number of components of a state that is kept in registers together with the intermediate values
-of a step."""
+"""The largest number of components of a state for which the kernel is inlined in a run.
+
+So many components stay in registers together with the intermediate values of a step."""
 
 DONE = count("step")
 """The number of completed steps."""
@@ -60,11 +61,13 @@ inlined."""
 
 
 def is_looped(plan: Plan) -> bool:
-    """Return True if the kernel is inlined in a run: its state is small, and no other function needs to
-    contain the kernel."""
+    """Return True if the kernel is inlined in a run.
+
+    The state must be small, and no other function may need to contain the kernel.
+    """
     kernel = plan.kernel
-    # An inlined kernel keeps a small state in registers. If each step were a function call, the state would
-    # have to be stored in memory.
+    # An inlined kernel keeps a small state in registers. With a function call for each step, the state would
+    # be stored in memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
     plain = bool(kernel.outputs) and kernel.estimate is None
     return alone and plain and not (plan.counting or plan.time or _may_raise(kernel))
@@ -72,8 +75,8 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Return True if a target may raise an exception where C computes an infinity or a NaN."""
-    # Such a kernel must be in a function of its own, which catches the exception and returns a status, so it
-    # is not inlined.
+    # Such a kernel is not inlined. It must be in a function of its own, which catches the exception and
+    # returns a status.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
@@ -87,14 +90,14 @@ class Rows:
 
     @property
     def trajectory(self) -> Term:
-        """The array in which the rows are stored; the caller may omit it."""
+        """The array in which the rows are stored. The caller may omit it."""
         return real("trajectory", 0, self.plan.size, optional=True)
 
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
-            # The stride and the array are tested once, before the loop, because testing one flag in the loop
-            # is cheaper than two tests.
+            # The stride and the array are tested once, before the loop. Testing one flag in the loop is
+            # cheaper than two tests.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),
@@ -108,8 +111,8 @@ class Rows:
     def add(self, state: Term) -> list[Statement]:
         """Return the statements that write another row."""
         return [
-            # Rows are counted, because computing the index as step / stride in each step would cost more than
-            # writing the row.
+            # Rows are counted. Computing the index as step / stride in each step would cost more than writing
+            # the row.
             Assign(self.written, self.written + 1),
             Assign(self.trajectory[self.written], state),
         ]
@@ -117,7 +120,7 @@ class Rows:
 
 def own_memory(plan: Plan) -> list[Statement]:
     """Return the statement that creates the memory of a run."""
-    # The memory is local to a run, so a run depends on its arguments only, and threads can make runs
+    # The memory is local to a run. A run therefore depends on its arguments only, and threads can make runs
     # at the same time.
     return [Array(plan.memories, zero=True)] if plan.remembers else []
 
@@ -134,8 +137,10 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 
 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statements that call a step and set the status. If a step with a warm start and without
-    substeps fails, they also call the continuation."""
+    """Return the statements that call a step and set the status.
+
+    If a step with a warm start and without substeps fails, they also call the continuation.
+    """
     # A run with steps of constant size does not read the error estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
     call = Call(ADVANCE, (state, *given_arguments, *error), (STATUS,))
@@ -143,16 +148,16 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
 
 
 def step(plan: Plan) -> Function:
-    """Return the public function for one step; run-time inputs are constant during this step."""
+    """Return the public function for one step. Run-time inputs are constant during this step."""
     state = plan.state()
-    # The inputs of a single step are values and not functions of time, because the caller may change the
-    # values between steps.
+    # The inputs of a single step are values and not functions of time. The caller may change the values
+    # between steps.
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
     if is_looped(plan):
-        # If the kernel is inlined in the run, the step calls a run of one step, because a second copy of the
-        # kernel would add code.
+        # If the kernel is inlined in the run, the step calls a run of one step. A second copy of the kernel
+        # would add code.
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
@@ -181,10 +186,12 @@ def run_parameters(plan: Plan) -> tuple[Term, ...]:
 
 
 def looped_runs(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of a run that contains the kernel: the loop, the function that finds the cause of
-    a failure, and the public run."""
-    # The loop is a separate function, because the search for the cause of a failure calls it again with a
-    # step of size zero.
+    """Return the functions of a run that contains the kernel.
+
+    They are the loop, the function that finds the cause of a failure, and the public run.
+    """
+    # The loop is a separate function. The search for the cause of a failure calls it again with a step of
+    # size zero.
     loop = replace(run(plan), name=LOOP, about="The loop of a run.", public=False)
     alone = (whole(1), *plan.parameters, absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
     parameters = run_parameters(plan)
@@ -208,13 +215,13 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # The row is first a copy of the initial state, and LEAVE updates it to the current state in the
+            # The row is first a copy of the initial state. LEAVE updates the row to the current state in the
             # space frame. The run itself continues in the body frame.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # Each time is computed from the initial time, so that errors do not accumulate.
         later = exact_time(TIME, DONE, STEP)
-        # The counter advances after success only, so it is the number of completed steps.
+        # The counter advances after success only. It is the number of completed steps.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
@@ -239,7 +246,7 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # Entries of the state that the kernel does not read are tested separately: they do not affect the new
+    # Entries of the state that the kernel does not read are tested separately. They do not affect the new
     # values, so the test of the new values would miss a NaN in such an entry.
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
@@ -255,8 +262,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # The loop works on local copies, because the compiler cannot prove that rows of the trajectory do
-        # not alias the state. Without the copies it would store the state in each step.
+        # The loop works on local copies. The compiler cannot prove that rows of the trajectory do not alias
+        # the state. Without the copies the compiler would store the state in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

@@ -1,7 +1,7 @@
 """Trials: a kernel makes a few steps from the initial state, and its sweeps and matrices are counted.
 
-The executor (:mod:`codegen.run.execute`) executes the statements that printers translate, so a trial takes
-the same numbers of sweeps and matrices as the emitted program.
+The executor (:mod:`codegen.run.execute`) executes the statements that printers translate. A trial therefore
+takes the same numbers of sweeps and matrices as the emitted program.
 """
 
 from __future__ import annotations
@@ -43,27 +43,28 @@ class Trials:
 
     If the iterations of a step do not converge, the step is repeated once, with an initial guess that does
     not use earlier steps. If the repeated step fails and ``continuation`` is True, the solution is computed
-    by continuation in h from shorter steps, as in the emitted program.
+    by continuation in h from shorter steps. The emitted program does the same.
     """
 
     def __init__(
         self, kernel: Kernel, scene: Problem, initial: tuple[float, ...], continuation: bool = False
     ) -> None:
-        # Error estimates and derivatives do not change the number of sweeps, but would make the trial
-        # longer.
+        # Error estimates and derivatives are removed. They do not change the number of sweeps, but make the
+        # trial longer.
         plain = replace(kernel, estimate=None, vary=None, observed=None)
-        # Trials always compute in doubles, because the choice of a solver should not depend on the format of
-        # the module.
+        # Trials always compute in doubles. The choice of a solver should not depend on the format of the
+        # module.
         self.plan = Plan(plain, DOUBLE, tries=None if continuation else 1)
-        # Functions are rounded as in emitted code, because a difference in the last bit can cause one more
-        # sweep.
+        # Functions are rounded as in emitted code. A difference in the last bit can cause one more sweep.
         self.machine = Machine(unit_of(self.plan), EmittedFloats(chain=chain(kernel)))
         self.initial, self.span = initial, scene.span
         self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]
 
     def run(self, steps: int, longer: int = 1) -> Trial:
-        """Make ``steps`` steps, each ``longer`` times as long as the steps of the usage example. Return the
-        counts of these steps."""
+        """Make ``steps`` steps and return their counts.
+
+        Each step is ``longer`` times as long as a step of the usage example.
+        """
         first, last = self.span
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops
         counts, state = self.machine.record(STATISTICS), list(self.initial)
@@ -75,8 +76,8 @@ class Trials:
         # No rows of a trajectory are stored, because only the counts are read.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
-        # The record counts the matrices of all blocks together, so each block with Newton's method is
-        # assigned the mean number.
+        # The record counts the matrices of all blocks together. Each block with Newton's method is assigned
+        # the mean number.
         newton = [loop.solver for loop in loops].count(NEWTON)
         of_solver = {
             NEWTON: counts.matrices / steps / newton if newton else 0.0,

@@ -62,8 +62,8 @@ def _steps(plan: Plan) -> list[Function]:
         listed += counters(plan)
     if plan.start is not None:
         listed += WarmStart(plan).functions()
-    # If the kernel is inlined in ``run``, ``run`` comes first, because ``step`` calls it. Otherwise both
-    # functions call the function that contains the kernel.
+    # If the kernel is inlined in ``run``, ``run`` comes first, because ``step`` calls it. Otherwise ``step``
+    # and ``run`` call the function that contains the kernel.
     if is_looped(plan):
         return [*listed, *turning(plan), *looped_runs(plan), step(plan)]
     if plan.kernel.arrays is not None:
@@ -72,8 +72,8 @@ def _steps(plan: Plan) -> list[Function]:
         return [*listed, *taylor_control.polynomial_step(plan), *_causes(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
-        # The continuation calls the kernel, so it comes after the kernel. The composition and the run call
-        # the continuation, so they come later.
+        # The continuation calls the kernel and comes after it. The composition and the run call the
+        # continuation and come later.
         listed.append(continued(plan, core(plan)))
     if plan.parts:
         listed.append(composed_step(plan))
@@ -90,8 +90,10 @@ def _array_functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _causes(plan: Plan) -> list[Function]:
-    """Return a list with the function that finds the cause of a failure. The list is empty if the
-    continuation finds the cause, or if the kernel has run-time inputs."""
+    """Return a list with the function that finds the cause of a failure.
+
+    The list is empty if the continuation finds the cause, or if the kernel has run-time inputs.
+    """
     return [cause(plan, ADVANCE, step_arguments(plan))] if is_searched(plan) else []
 
 

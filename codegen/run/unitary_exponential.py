@@ -1,6 +1,6 @@
 """The emitted functions that compute the exponential of a matrix of su(3).
 
-The statements compute exactly what :mod:`codegen.ir.unitary_exponential` computes in doubles, by the same
+The statements execute the same operations as :mod:`codegen.ir.unitary_exponential` in doubles, by the same
 formulas.
 """
 
@@ -28,8 +28,10 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 def unitary_functions(
     function: SpecialUnitaryExponential, precision: Precision, coefficient: Term
 ) -> list[Function]:
-    """Return the functions that square a matrix and compute its exponential, in this order; ``coefficient``
-    is the table of the numbers 1/k!."""
+    """Return the function that squares a matrix and the function that computes its exponential.
+
+    ``coefficient`` is the table of the numbers 1/k!.
+    """
     return [_square(function), _exponential(function, precision, coefficient)]
 
 
@@ -56,7 +58,7 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
             squarings,
             (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
         ),
-        # If the norm is a NaN, the comparison is false, so the result is filled with NaNs in this case, too.
+        # If the norm is a NaN, the comparison is false. The result is then also filled with NaNs.
         If(
             negated(norm <= least),
             (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),
@@ -74,8 +76,10 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
 def _polynomial(
     y: Term, norm: Term, result: Term, coefficient: Term, precision: Precision
 ) -> list[Statement]:
-    """Return the statements that evaluate a Taylor polynomial of the exponential. Its degree is the lowest
-    one whose remainder is below rounding level for this norm."""
+    """Return the statements that evaluate a Taylor polynomial of the exponential.
+
+    The polynomial has the lowest degree whose remainder is below rounding level for the given norm.
+    """
     first, second, third, _ = largest_norms(precision.bits)
     groups, group = count("groups"), count("group")
     trace, det = real("half_trace"), real("determinant")
@@ -83,8 +87,8 @@ def _polynomial(
     zero, coordinates = number(0.0), _coordinates(y)
     steps: list[Statement] = []
     for k in (3, 2, 1, 0):
-        # The number i^k/k! is real for even k and imaginary for odd k, so it is added either to the real
-        # parts or to the imaginary parts.
+        # The number i^k/k! is real for even k and imaginary for odd k. Therefore it is added either to the
+        # real parts or to the imaginary parts.
         for parity, part in enumerate(parts):
             steps += _horner(part, trace, det, (coefficient[4 * group + k], k) if k % 2 == parity else None)
     square = [real(f"square_{k}") for k in range(SIZE)]
@@ -114,10 +118,12 @@ def _coordinates(array: Term) -> tuple[Term, ...]:
 
 
 def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | None) -> list[Statement]:
-    """Return the statements of one step P := i^k/k! + H P of Horner's rule. P is a polynomial of degree 2 in
-    H, because the characteristic equation H^3 = trace H + det replaces H^3. ``part`` contains the real or the
-    imaginary parts of the coefficients of P. ``added`` is the pair (1/k!, k), or None if i^k/k! does not
-    belong to ``part``."""
+    """Return the statements of one step P := i^k/k! + H P of Horner's rule.
+
+    P is a polynomial of degree 2 in H, because the characteristic equation H^3 = trace H + det replaces H^3.
+    ``part`` contains the real or the imaginary parts of the coefficients of P. ``added`` is the pair
+    (1/k!, k), or None if i^k/k! does not belong to ``part``.
+    """
     last = real("last")
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [

@@ -11,21 +11,19 @@ from codegen.run.terms import Term, own, value
 
 
 def simple(statement: Simple) -> list[Statement]:
-    """Return the statements for an assignment, a call of Stumpff functions, or a call of an outlined
-    function."""
+    """Return the statements for an assignment, or for a call of Stumpff functions or an outlined function."""
     if isinstance(statement, Assignment):
         return [Assign(own(statement.name), value(statement.value))]
     if isinstance(statement, Invocation):
         given = tuple(map(value, statement.arguments))
         if statement.arrays:
             return _in_arrays(statement)
-        # A single result is returned by value, because an array of one entry would cost a store and a load.
+        # A single result is returned by value. An array of one entry would cost a store and a load.
         if statement.results == 1:
             return [Call(statement.function, given, (own(statement.names[0]),))]
         results = own(statement.name, statement.results)
         return [Array(results), Call(statement.function, (*given, results))]
-    # One call computes all Stumpff functions of an argument, because they share a square root, a sine and a
-    # cosine.
+    # One call computes all Stumpff functions of an argument. They share a square root, a sine and a cosine.
     names = tuple(map(own, statement.names))
     return [Call(statement.function, (value(statement.argument),), names)]
 
@@ -40,8 +38,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
         first += size
         array = _part(arguments)
         if array is None:
-            # No name of the kernel contains a space, so the name of the array differs from all names of the
-            # kernel.
+            # Names of the kernel contain no space, so the name of the array differs from all of them.
             array = own(f"{statement.name} given {number}", size)
             declared.append(Array(array, tuple(map(value, arguments))))
         given.append(array)
@@ -50,8 +47,10 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 
 
 def _part(arguments: Sequence[Expr]) -> Term | None:
-    """Return a part of the array of results of an earlier call, if the entries of this part are exactly the
-    arguments; else None."""
+    """Return the part of an array of results whose entries are exactly ``arguments``; None if there is none.
+
+    The array contains the results of an earlier call.
+    """
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
     # A single result of an outlined function is no array.
     if results[0] is None or len(results) == 1:

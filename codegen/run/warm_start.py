@@ -2,11 +2,11 @@
 
 The degree of the polynomial grows while the backward differences of the solutions decrease. Once the memory
 is full, the degree is adapted in every eighth step only. If the error of the guess exceeds ``Start.ROUGH``
-times the change of the unknowns over the step, the motion has changed, and only the last solution is kept.
+times the change of the unknowns over the step, the motion has changed. Then only the last solution is kept.
 
 Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous.
 The extrapolation of an unknown is a sum over these solutions. Up to :data:`FEW` unknowns, each of these sums
-is a scalar variable, because loops over arrays would cost as much as the sweeps that the warm start avoids.
+is a scalar variable. Loops over arrays would cost as much as the sweeps that the warm start avoids.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ FEW = 12
 """The largest number of unknowns for which differences are computed in scalars, without inner loops."""
 
 SELDOM = 8
-"""When the memory is full, the degree is adapted only in every SELDOM-th step."""
+"""When the memory is full, the degree is adapted only in every step whose number is a multiple of SELDOM."""
 
 _I = count("i")
 
@@ -64,15 +64,15 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # This is a branch and not a select: the initial guess without stored solutions evaluates parts of the
+    # This is a branch and not a select. The initial guess without stored solutions evaluates parts of the
     # kernel, and it is needed only once in a run.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
 def memory_record(plan: Plan) -> Record:
-    """Return the record of the data that one step of a run stores for the next."""
+    """Return the record of the data that one step of a run stores for the next step."""
     fields: list[tuple[Term, str]] = []
-    # The emitted comment lists only what this kernel stores.
+    # The emitted comment lists only the data that this kernel stores.
     words = []
     if plan.start is not None:
         past, depth = len(plan.start.unknowns), plan.start.depth
@@ -87,8 +87,7 @@ def memory_record(plan: Plan) -> Record:
                 "ring buffer; each solution is stored twice, so the last ones are contiguous",
             ),
         ]
-        # The rates of convergence are stored with the solutions, because both become invalid when the motion
-        # changes.
+        # The rates of convergence are stored with the solutions. Both become invalid when the motion changes.
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of its equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
@@ -106,12 +105,14 @@ def memory_record(plan: Plan) -> Record:
 
 
 def differences(start: Start) -> Table:
-    """Return the table of the coefficients of backward differences. Row k contains those of order k, the
-    coefficient of the latest solution first."""
+    """Return the table of the coefficients of backward differences.
+
+    Row k contains the coefficients of order k, the coefficient of the latest solution first.
+    """
     rows = tuple(
         tuple(float((-1) ** j * comb(order, j)) for j in range(order + 1)) for order in range(start.depth + 1)
     )
-    # Padding with zeros lets a loop read the terms in pairs: an odd last term is paired with a zero.
+    # Padding with zeros lets a loop read the terms in pairs. An odd last term is paired with a zero.
     padded = tuple((*row, *(0.0,) * (start.depth + 2 - len(row))) for row in rows)
     about = "Coefficients of backward differences by order, the latest solution first."
     return Table(_factors(start), padded, about)
@@ -124,14 +125,13 @@ def _factors(start: Start) -> Term:
 def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
     """Return statements for all indices: a separate statement for each index up to FEW, otherwise a loop."""
     if n <= FEW:
-        # A compiler can interleave separate statements. A loop with few iterations would cost additional
-        # time.
+        # A compiler can interleave separate statements. A loop with few iterations would be slower.
         return [statement(whole(k)) for k in range(n)]
     return [For(_I, whole(n), (statement(_I),))]
 
 
 class WarmStart:
-    """The functions that store solutions and extrapolate the next one."""
+    """The functions that store solutions and extrapolate the next solution."""
 
     def __init__(self, plan: Plan) -> None:
         assert plan.start is not None
@@ -147,13 +147,13 @@ class WarmStart:
 
     def functions(self) -> tuple[Function, ...]:
         """Return the functions of the warm start, callees first."""
-        # The functions are printed in this order, because C needs a declaration before each call.
+        # C needs a declaration before each call, so callees come first.
         return self.difference(), self.difference_size(), self.remember()
 
     def difference(self) -> Function:
         """Return the function that fills ``sum`` with a backward difference.
 
-        The latest solution is added last: the rest of the sum can then be computed before the latest solution
+        The latest solution is added last. The rest of the sum can then be computed before the latest solution
         is known.
         """
         order, first, sign, result = count("order"), count("first"), real("sign"), real("sum", self.n)
@@ -165,8 +165,8 @@ class WarmStart:
             body = [
                 For(i, whole(self.n), (Assign(result[i], number(0.0)),)),
                 For(
-                    # The outer loop runs over the solutions and the inner loop over the unknowns, so that the
-                    # inner loop reads contiguous memory.
+                    # The outer loop runs over the solutions and the inner loop over the unknowns. The inner
+                    # loop then reads contiguous memory.
                     count("back"),
                     order + 1 - first,
                     (Assign(j, first + count("back")), inner),
@@ -181,8 +181,10 @@ class WarmStart:
         return Function("difference", about, parameters, tuple(body), often=True)
 
     def difference_of_few(self, order: Term, first: Term, sign: Term, result: Term) -> list[Statement]:
-        """Return the statements that compute a difference for few unknowns: each sum is a scalar variable,
-        and two solutions are added at a time."""
+        """Return the statements that compute a difference for few unknowns.
+
+        Each sum is a scalar variable, and two solutions are added at a time.
+        """
         pair, place, column = count("pair"), count("row"), count("column")
         sums = [real(f"sum_{k}") for k in range(self.n)]
         newer, older = real("newer"), real("older")
@@ -199,27 +201,25 @@ class WarmStart:
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The sum begins with the oldest solution. The latest solution, which the sweeps of this step have
-            # just computed, is added last, so only its product must wait for the sweeps.
+            # The sum begins with the oldest solution. The sweeps of this step have just computed the latest
+            # solution, which is added last. Only its product must wait for the sweeps.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
 
     def difference_size(self) -> Function:
-        """Return the function that computes the size of a backward difference: the sum of the absolute values
-        of its components."""
+        """Return the function that sums the absolute values of the components of a backward difference."""
         order, row, size_now = count("order"), real("row", self.n), real("size")
         body = (
             Array(row),
-            # The difference of order k is the error that an extrapolation of degree k - 1 would
-            # have had.
+            # An extrapolation of degree k - 1 would have had the difference of order k as its error.
             Call("difference", (self.memory, order, whole(0), number(1.0), row)),
             Assign(size_now, number(0.0)),
             For(_I, whole(self.n), (Assign(size_now, size_now + size(row[_I])),)),
             Return(size_now),
         )
-        # The size is a sum and not a maximum, because a sum needs no comparison. Both are suitable, because
-        # only ratios of sizes are compared.
+        # The size is a sum and not a maximum, because a sum needs no comparison. Both would be suitable,
+        # since only ratios of sizes are compared.
         about = "The sum of the absolute values of the components of a backward difference."
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
 
@@ -232,13 +232,13 @@ class WarmStart:
         ]
         body += [
             Assign(self.first, number(0.0)),
-            # Fill the ring downwards, so that row place + j is the solution j steps ago.
+            # The ring is filled downwards, so that row place + j contains the solution j steps ago.
             Assign(place, select(self.place > 0, self.place - 1, self.depth - 1)),
             Assign(self.place, place),
         ]
 
-        # Store each solution twice: the last ``depth`` are then contiguous at every position in the ring, and
-        # the inner loops need no index modulo ``depth``.
+        # Each solution is stored twice. The last ``depth`` solutions are then contiguous at every position in
+        # the ring, and the inner loops need no index modulo ``depth``.
         for row in (place, place + self.depth):
             body.append(Assign(self.values[row], solution))
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
@@ -246,7 +246,7 @@ class WarmStart:
         body += [
             Note("extrapolate: the difference of the next order is zero for the new values"),
             # The differences of order k + 1 of a polynomial of degree k are zero. This equation is solved for
-            # the value one step later, which needs no interpolation nodes and no divisions.
+            # the value one step later. The solution needs no interpolation nodes and no divisions.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
@@ -262,7 +262,7 @@ class WarmStart:
         def added(k: Term) -> Statement:
             return Assign(moved, moved + size(solution[k] - self.values[self.place][k]))
 
-        # The matrix of Newton's method is kept, because a separate test decides when it is computed again.
+        # The matrix of Newton's method is kept. A separate test decides when it is computed again.
         forgotten = (Assign(self.known, whole(0)), Assign(self.degree, whole(0)))
         return [
             Assign(moved, number(0.0)),
@@ -274,7 +274,7 @@ class WarmStart:
         ]
 
     def chosen(self, place: Term) -> list[Statement]:
-        """Return the statements that adapt the degree: it grows while the differences decrease."""
+        """Return the statements that adapt the degree. The degree grows while the differences decrease."""
         size_now = real("size")
 
         def measured(order: Term, name: str) -> Statement:
@@ -292,7 +292,7 @@ class WarmStart:
         adapt = (
             # If the motion is smooth on the scale of h, differences decrease with the order until rounding
             # errors dominate. Rounding errors double with each order. The order of the least difference is
-            # the best degree. It changes slowly, so comparing with the next lower and higher degree is
+            # the best degree. It changes slowly, so a comparison with the next lower and higher degree is
             # enough.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
@@ -304,8 +304,8 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
-        # In each step the index of the row with the latest solution decreases by one (modulo the depth), so
-        # this index is used as a counter of steps.
+        # In each step the index of the row with the latest solution decreases by one (modulo the depth). This
+        # index is therefore used as a counter of steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(

@@ -15,14 +15,15 @@ from codegen.run.language import Array, Call, Statement, terms
 from codegen.run.terms import Term, own
 
 SHORTEST = 25
-"""The least number of entries of an array that is treated as a whole: those of a 5 x 5 matrix. Each entry of
-a shorter array is a scalar variable, which compilers can keep in a register."""
+"""The least number of entries of an array that is treated as a whole. A 5 x 5 matrix has so many entries.
+
+Each entry of a shorter array is a scalar variable, which compilers can keep in a register."""
 
 
 def whole_result(outputs: Sequence[Expr]) -> Term | None:
     """Return the array that contains the results of a call, if ``outputs`` are all its entries in order.
 
-    Return None for other outputs, and for fewer than SHORTEST outputs.
+    Return None for all other outputs, and for fewer than SHORTEST outputs.
     """
     if len(outputs) < SHORTEST:
         return None
@@ -38,8 +39,9 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
 def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term) -> list[Statement]:
     """Return the statements without unnecessary copies of the array ``state``.
 
-    An array of at least SHORTEST consecutive entries of the state is such a copy. It is removed, and calls
-    get a part of ``state`` in its place. ``symbols`` are the names of the entries of the state.
+    A copy is unnecessary if it consists of at least SHORTEST consecutive entries of the state. The copy is
+    removed, and calls get a part of ``state`` in its place. ``symbols`` are the names of the entries of the
+    state.
     """
     places = {s: k for k, s in enumerate(symbols)}
     parts: dict[str, Term] = {}

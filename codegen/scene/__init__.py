@@ -1,11 +1,13 @@
-"""Scenes and problems: a scene is the differential equation that a user writes, a problem is the form of a
-scene that the compiler evaluates.
+"""Scenes and problems.
+
+A scene is the differential equation that a user writes. A problem is the form of a scene that the compiler
+evaluates.
 
 A scene file imports its names from this package:
-``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``. Scenes with
-large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and ``full``; chains
-and lattices use ``SiteScene`` or ``HamiltonianSiteScene``, with ``neighbour``, ``left`` and ``right``.
-Semilinear partial differential equations use ``SemilinearScene`` and ``Dx``.
+``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``.
+Scenes with large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and
+``full``. Chains and lattices use ``SiteScene`` or ``HamiltonianSiteScene``, with ``neighbour``, ``left`` and
+``right``. Semilinear partial differential equations use ``SemilinearScene`` and ``Dx``.
 """
 
 from __future__ import annotations

@@ -19,16 +19,15 @@ if TYPE_CHECKING:
 
 
 def check_group(name: str, group: object) -> None:
-    """Raise :class:`SceneError` if the argument is not a group, for example if it is the name of a group or
-    its class ``SO3`` in place of ``SO3()``."""
+    """Raise :class:`SceneError` if ``group`` is not a group. A class such as ``SO3`` in place of ``SO3()`` is
+    no group, and a name of a group is none either."""
     if not isinstance(group, LieGroup):
         _refuse(name, "group", group, "SO3()")
 
 
 def check_points(reader: Reader, group: LieGroup, action: object) -> None:
-    """Raise :class:`SceneError` if ``action`` is not an action, or if the group cannot act by it on points
-    with the coordinates of the scene.
-    """
+    """Raise :class:`SceneError` if ``action`` is not an action on points with the coordinates of the
+    scene."""
     if not isinstance(action, Action):
         _refuse(reader.name, "action", action, "Rotation()")
     domain = ExprDomain(reader.space)
@@ -63,8 +62,9 @@ def _refuse(name: str, what: str, value: object, example: str) -> NoReturn:
 
 
 def read_span(name: str, span: tuple[sympy.Expr, sympy.Expr]) -> tuple[Fraction, Fraction]:
-    """Return the time interval; raise :class:`SceneError` unless it consists of two rational times in
-    increasing order.
+    """Return the time interval.
+
+    :class:`SceneError` is raised if the interval does not consist of two rational times in increasing order.
     """
     try:
         times = [exact(x) for x in span]

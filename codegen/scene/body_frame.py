@@ -1,7 +1,8 @@
 """A Hamiltonian in the body frame: H as a function of q and P = Ad*_q mu, and its field.
 
-Let W = D_P H and tau_b = -d/deps H(q exp(eps e_b), P) at eps = 0 and fixed P. The field in the body frame is
-(W, N), and it determines the field (xi, n) in the space frame:
+Let W be the gradient of H with respect to P. Let tau_b = -d/deps H(q exp(eps e_b), P) at eps = 0 and fixed P,
+where e_b are the basis elements of the Lie algebra. The field in the body frame is (W, N). It determines the
+field (xi, n) in the space frame:
 
     N = tau + ad*_W P,   xi = Ad_q W,   n = Ad*_{q^-1} N.
 
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 DIGITS, AGREEING = 40, 30
 POINTS = 6
 """The formula V(q) + T(P) is compared with H at POINTS random points. The values are computed with DIGITS
-digits, and AGREEING of these digits must be equal.
+digits, and AGREEING digits must be equal.
 """
 
 
@@ -39,8 +40,8 @@ digits, and AGREEING of these digits must be equal.
 class BodyField:
     """The field in the body frame, as formulas in the coordinates of q and P. P has the same symbols as mu.
 
-    ``velocity`` is W, ``force`` is N. If W is a constant invertible matrix times P, ``inverse`` is the
-    inverse matrix (rows of numbers); otherwise it is None.
+    ``velocity`` is W, and ``force`` is N. If W is a constant invertible matrix times P, ``inverse`` is the
+    inverse matrix (rows of numbers). Otherwise it is None.
     """
 
     velocity: tuple[Expr, ...]
@@ -48,7 +49,7 @@ class BodyField:
     inverse: tuple[tuple[Number, ...], ...] | None
 
     def momentum(self, domain: Domain, W: Vector[S]) -> Vector[S]:
-        """Return P, given W; this requires that ``inverse`` is not None."""
+        """Return P, given W. The attribute ``inverse`` must not be None."""
         assert self.inverse is not None
         result: list[S] = []
         for row in self.inverse:
@@ -62,8 +63,10 @@ class BodyField:
 
 
 def body_field(group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonian: Expr) -> BodyField:
-    """Return the field of a Hamiltonian H(q, mu) in the body frame; ``q`` and ``mu`` are the names of the
-    coordinates in its formula."""
+    """Return the field of a Hamiltonian H(q, mu) in the body frame.
+
+    ``q`` and ``mu`` are the names of the coordinates in the formula of the Hamiltonian.
+    """
     space = hamiltonian.space
     domain = ExprDomain(space)
     element, P = tuple(space.sym(s) for s in q), tuple(space.sym(s) for s in mu)
@@ -85,11 +88,10 @@ def body_field(group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonia
 def field_in_body(
     group: LeftTranslation, q: Sequence[str], mu: Sequence[str], roots: Sequence[Expr]
 ) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-    """Return W = Ad_{q^-1} xi and N = Ad*_q n as formulas in q and P, for a field with or without a
-    Hamiltonian.
+    """Return W = Ad_{q^-1} xi and N = Ad*_q n as formulas in q and P.
 
-    ``roots`` are xi and n as formulas in q and mu. If a component of W or N does not depend on q, its
-    formula does not contain q.
+    ``roots`` are xi and n as formulas in q and mu. The field need not have a Hamiltonian. If a component of W
+    or N does not depend on q, its formula does not contain q.
     """
     space = roots[0].space
     domain = ExprDomain(space)
@@ -128,7 +130,7 @@ def _in_body(
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
         # The kinetic energy would be computed at the neutral element, but the potential is singular there.
-        # With zero in its place the test below fails, and H is not split.
+        # The test below fails with zero as kinetic energy, and H is not split.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
@@ -156,8 +158,7 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
         values |= dict(zip(q, g, strict=True)) | {name: draw() for name in mu}
         try:
             x, y = evaluate([a, b], domain, values)
-            # The test multiplies by a power of ten, because mpmath does not compare its numbers with
-            # fractions.
+            # The test multiplies by a power of ten. mpmath does not compare its numbers with fractions.
             if abs(x - y) * 10**AGREEING > max(1, abs(x)):
                 return False
         except (ArithmeticError, ValueError, TypeError):  # Comparing complex numbers raises TypeError.
@@ -166,8 +167,9 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
 
 
 def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None:
-    """Return the coefficients of P in the formula w; None unless w is linear in P with constant
-    coefficients.
+    """Return the coefficients of P in the formula w.
+
+    The result is None if w is not linear in P or its coefficients are not constant.
     """
     row = [Number.rational(0)] * len(P)
     place = {p.id: k for k, p in enumerate(P)}

@@ -1,12 +1,12 @@
 """Classical forms of a scene: its equations in the coordinates that are usual for a general ODE solver.
 
 A form is a problem on R^n with a map to the state of the scene. The first form contains the equations as the
-scene states them, in the coordinates of the scene. If the group has left translations, one of the forms uses
-velocities and momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu
-(:mod:`codegen.scene.body_frame`). If a factor of the group has a covering group with fewer coordinates, one
-of the forms uses an element of this cover. For example, a heavy top has twelve equations for a rotation
-matrix and the momentum, but only seven for a unit quaternion and the momentum in the body. The classes of the
-groups implement these changes of coordinates.
+scene states them, in the coordinates of the scene. If the group has left translations, a form uses velocities
+and momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu (:mod:`codegen.scene.body_frame`). If a
+factor of the group has a covering group with fewer coordinates, a form uses an element of this cover. For
+example, a heavy top has twelve equations for a rotation matrix and the momentum. It has only seven equations
+for a unit quaternion and the momentum in the body. The classes of the groups implement these changes of
+coordinates.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ class ClassicalForm:
     """A form of a scene: its key, its name, and its equations as a problem on R^n.
 
     ``to_scene`` contains formulas for the state of the scene, in the symbols of the form. ``from_scene``
-    contains formulas for the state of the form, in the symbols of the scene; they are valid near the initial
-    state. ``state`` and ``conversion`` are texts for the header of emitted code: they describe the state and
-    the map to the state of the scene.
+    contains formulas for the state of the form, in the symbols of the scene. These formulas are valid near
+    the initial state. ``state`` and ``conversion`` are texts for the header of emitted code. They describe
+    the state and the map to the state of the scene.
     """
 
     key: str
@@ -68,12 +68,11 @@ class ClassicalForm:
 
 
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
-    """Return the forms of a scene: first the equations as printed, then each form that the group of the scene
-    provides.
+    """Return the forms of a scene: the equations as printed, then each form that the group provides.
 
     The frame in which the equations need fewer operations is chosen, separately for the coordinates of the
-    scene and for the coordinates of covers. This is the body frame if the inertia is fixed in the body, and
-    the space frame if the inertia is fixed in space.
+    scene and for the coordinates of covers. The body frame needs fewer operations if the inertia is fixed in
+    the body, and the space frame if the inertia is fixed in space.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -83,9 +82,7 @@ def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
 
 
 def find_form(problem: Problem, key: str) -> ClassicalForm:
-    """Return the form of a scene that has the given key; raise :class:`SceneError` if there is no such
-    form.
-    """
+    """Return the form of a scene with the given key; raise :class:`SceneError` if there is no such form."""
     forms = classical_forms(problem)
     for form in forms:
         if form.key == key:
@@ -109,15 +106,15 @@ def operations(roots: Sequence[Expr]) -> int:
 def _changes(problem: Problem) -> Iterator[_Change]:
     """Yield the changes of coordinates that define forms.
 
-    The first change leads to the body frame. It is omitted unless the body frame needs fewer operations than
-    the space frame. The second change leads to covers of the factors, in the frame that needs fewer
+    The first change leads to the body frame. It is omitted if the body frame does not need fewer operations
+    than the space frame. The second change leads to covers of the factors, in the frame that needs fewer
     operations. It is omitted if no factor has a cover.
     """
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # A change that keeps both the frame and the coordinates of the scene is not yielded: its form would
+        # A change that keeps both the frame and the coordinates of the scene is not yielded. Its form would
         # only repeat the equations that the scene states.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
@@ -127,8 +124,9 @@ def _changes(problem: Problem) -> Iterator[_Change]:
 class _Leaf:
     """A factor of the group that is not itself a product of groups, with its coordinates.
 
-    ``symbols`` are its coordinates in the scene, ``own`` its coordinates in the form; ``at`` is the index of
-    its first component in the Lie algebra. ``cover`` is None if the form has the coordinates of the scene.
+    ``symbols`` are its coordinates in the scene, and ``own`` are its coordinates in the form. ``at`` is the
+    index of its first component in the Lie algebra. ``cover`` is None if the form has the coordinates of the
+    scene.
     """
 
     group: LieGroup
@@ -154,8 +152,10 @@ class _Leaf:
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
     def rate(self, d: Domain, x: Vector[S], own: Vector[S], body: bool) -> Vector[S]:
-        """Return the time derivative of the coordinates. ``x`` is the velocity in the body if ``body`` is
-        true, otherwise the velocity in space."""
+        """Return the time derivative of the coordinates.
+
+        ``x`` is the velocity in the body if ``body`` is True, otherwise the velocity in space.
+        """
         group, x = self.group, x[self.at : self.at + self.group.dim]
         if self.cover is not None:
             group, x = self.cover.cover, self.cover.lifted_velocity(d, x)
@@ -252,9 +252,9 @@ class _Change:
         problem, key = self.problem, self.key()
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
-        # The coordinates of a form may leave the manifold, and the invariants of the scene are functions of
-        # its state. Therefore the invariants of the form are the invariants of the scene, composed with the
-        # map from the form to the scene.
+        # The coordinates of a form may leave the manifold, but the invariants of the scene are functions of
+        # its state. Therefore the invariants of the scene are composed with the map from the form to the
+        # scene.
         invariants = {name: self.evaluated((x,), known)[0] for name, x in problem.invariants.items()}
         constants = self.evaluated([e for block in problem.state for e in block.initial], {})
         initial = self.evaluated(from_scene, dict(zip(problem.symbols, constants, strict=True)))
@@ -286,8 +286,7 @@ class _Change:
         return short if self.covered else f"body-{short}"
 
     def name(self) -> str:
-        """Return the name of the form: the frame of its velocity or momentum, and the coordinates of the
-        group."""
+        """Return the name of the form: the frame of its velocity or momentum, and the coordinates."""
         nouns = [leaf.noun for leaf in self.leaves if not leaf.group.abelian]
         frame = "body" if self.body else "space"
         what = "momentum" if self.problem.paired else "velocity"
@@ -318,7 +317,7 @@ class _Change:
         return self.body and leaf.group.offers(LeftTranslation) is not None and not leaf.group.abelian
 
     def evaluated(self, roots: Sequence[Expr], known: Bindings) -> tuple[Expr, ...]:
-        """Return ``roots`` with each symbol in ``known`` replaced by its value; other symbols stay."""
+        """Return ``roots`` with each symbol in ``known`` replaced by its value. All other symbols stay."""
         space = self.domain.space
         values: Bindings = {n.payload: space.sym(n.payload) for n in walk(roots) if n.op == "sym"}
         return tuple(evaluate(roots, self.domain, values | known))
@@ -362,8 +361,8 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of a factor in its body frame; if the factor has no left translations, return
-        the velocity in space."""
+        """Return the velocity of a factor in its body frame, or in space if there are no left
+        translations."""
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)
         if group is None:

@@ -25,21 +25,25 @@ ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1,
 """The hint for an initial state that is wrong by a rounding error."""
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
-"""Pairs of formulas that must be equal: formulas that the scene contains, and formulas computed from its
-field. The key of a pair is its name in messages. If the second entry of a pair is None, the first entry is
-compared with the velocity f.y.
+"""Pairs of formulas that must be equal: formulas that the scene contains, and formulas from its field.
+
+The key of a pair is its name in messages. If the second entry of a pair is None, the first entry is compared
+with the velocity f.y.
 """
 
 
 STEP_DIGITS, SLOPE_DIGITS = 10, 12
-"""Central differences have the step 10^-STEP_DIGITS. With 40 digits a difference has about 20 correct digits;
-SLOPE_DIGITS of them are compared.
+"""Central differences have the step 10^-STEP_DIGITS. With 40 digits a difference has about 20 correct digits,
+and SLOPE_DIGITS digits are compared.
 """
 
 
 def check_problem(problem: Problem, stated: Stated) -> None:
-    """Raise :class:`SceneError` for an initial state outside the manifold, for two formulas of a pair in
-    ``stated`` that differ, for parts that do not add up to H, and for an invariant that changes."""
+    """Raise :class:`SceneError` for a problem whose formulas are inconsistent.
+
+    The initial state must lie on the manifold, the two formulas of each pair in ``stated`` must be equal, the
+    parts must add up to H, and the invariants must be constant.
+    """
     orbit = orbit_of(problem)
     check_start(orbit)
     for what, (formulas, derived) in stated.items():
@@ -70,9 +74,7 @@ def check_parts(orbit: Orbit, problem: Problem) -> None:
 
 
 def check_start(orbit: Orbit) -> None:
-    """Raise :class:`SceneError` if the initial state does not satisfy the equations of the manifold on which
-    the group acts.
-    """
+    """Raise :class:`SceneError` if the initial state is not on the manifold on which the group acts."""
     start = tuple(orbit.points[0][s] for s in orbit.symbols)
     for law, defect in orbit.action.laws(orbit.domain, orbit.group, start):
         if not orbit.sized(defect, (1,)):
@@ -104,10 +106,11 @@ def _check_invertible(orbit: Orbit, start: Vector[mpmath.mpf]) -> None:
 
 
 def check_action(orbit: Orbit) -> None:
-    """Raise :class:`SceneError` if the identity of the group moves a point, or if the velocity of the action
-    is not the derivative of exp(eps x).y at eps = 0.
+    """Raise :class:`SceneError` if the formulas of an action are wrong.
 
-    The derivative is computed as a central difference with 40 digits, at one point y and for one element x.
+    The identity of the group must not move a point. The velocity of the action must be the derivative of
+    exp(eps x).y at eps = 0. This derivative is computed as a central difference with 40 digits, at one point
+    y and for one element x of the Lie algebra.
     """
     d, group, action = orbit.domain, orbit.group, orbit.action
     y = tuple(orbit.points[-1][s] for s in orbit.symbols)
@@ -132,10 +135,10 @@ def check_action(orbit: Orbit) -> None:
 def check_equal(
     orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequence[Expr] | None = None
 ) -> None:
-    """Raise :class:`SceneError` if formulas of the scene differ from the ``derived`` formulas. If ``derived``
-    is None, the formulas of the scene are compared with f.y.
+    """Raise :class:`SceneError` if formulas of the scene differ from the ``derived`` formulas.
 
-    ``what`` is the name of these formulas in the message.
+    If ``derived`` is None, the formulas of the scene are compared with f.y. ``what`` is the name of these
+    formulas in the message.
     """
     source = "f.y" if derived is None else "the derivatives of H"
     for point in orbit.points:
@@ -153,11 +156,10 @@ def check_equal(
 def check_flow(
     orbit: Orbit, name: str, formulas: Sequence[Expr], rates: Sequence[Expr], elapsed: str
 ) -> None:
-    """Raise :class:`SceneError` if the formulas that a scene gives for the flow of a part do not describe
-    this flow.
+    """Raise :class:`SceneError` if the formulas of a scene for the flow of a part do not describe this flow.
 
     At the time 0 the formulas must equal the state. At all times their time derivatives must equal ``rates``,
-    the field of the part; ``elapsed`` is the symbol of the time in the formulas. The derivatives are exact,
+    the field of the part. ``elapsed`` is the symbol of the time in the formulas. The derivatives are exact
     and are compared with 40 digits.
     """
     slopes = [gradient(formula, (elapsed,))[0] for formula in formulas]

@@ -13,7 +13,7 @@ MOST_DERIVATIVES = 8
 
 
 class Dx(sympy.Function):  # type: ignore[misc]
-    """The derivative of a formula with respect to x; ``Dx(formula, m)`` is the derivative of order m.
+    """The derivative of a formula with respect to x. ``Dx(formula, m)`` is the derivative of order m.
 
     >>> u = sympy.Symbol("u", real=True)
     >>> Dx(Dx(u**2)), Dx(3)
@@ -24,8 +24,10 @@ class Dx(sympy.Function):  # type: ignore[misc]
 
     @classmethod
     def eval(cls, formula: sympy.Expr, order: object = 1) -> Any:
-        """Return 0 if ``formula`` is a constant. If ``formula`` is a derivative Dx(u, m), return Dx(u, m +
-        order). Return None for all other formulas; sympy then keeps the expression ``Dx(formula, order)``."""
+        """Return 0 if ``formula`` is a constant, or Dx(u, m + order) if ``formula`` is a derivative Dx(u, m).
+
+        For all other formulas return None. SymPy then keeps the expression ``Dx(formula, order)``.
+        """
         number = next((m for m in range(1, MOST_DERIVATIVES + 1) if m == order), 0)
         if not number:
             raise SceneError(

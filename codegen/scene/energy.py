@@ -1,10 +1,11 @@
 """The operations of discrete gradients: energy, its trivialised differential, and the bivector.
 
-H. Marthinsen's thesis, section 2.6: a field that preserves H is x' = f(x).x with f = i_{dH} omega for a
-bivector omega on g*. The trivialised differential is gamma(x) = R*_x dH in g*: <gamma, e> is the derivative
-of H along e.x. On T*G, omega is the canonical bivector. For all other problems omega = (gamma wedge
-f)/|gamma|^2, where the Euclidean inner product of coordinates identifies gamma with an element of g. This
-formula requires that f vanishes wherever gamma vanishes.
+Section 2.6 of H. Marthinsen's thesis: a field that preserves H is x' = f(x).x with f = i_{dH} omega for a
+bivector omega on g*. The trivialised differential gamma(x) = R*_x dH in g* is defined by its pairing: for an
+element e of the algebra, <gamma, e> is the derivative of H along e.x. On T*G, omega is the canonical
+bivector. For all other problems omega = (gamma wedge f)/|gamma|^2, where the Euclidean inner product of
+coordinates identifies gamma with an element of g. This formula requires that f vanishes wherever gamma
+vanishes.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ def energy_of(problem: Conservative) -> Expr | None:
 def apply(problem: Conservative, d: Domain, name: str, args: Values) -> Value:
     """Return the value of the operation ``name``, one of :data:`OPERATIONS`.
 
-    KeyError is raised if the problem has no energy, but the operation reads the energy.
+    KeyError is raised if the operation reads the energy, but the problem has no energy.
     """
     match name:
         case "energy":
@@ -99,8 +100,8 @@ def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
 
 
 def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
-    """Return omega_y(alpha, .) in the algebra, for a covector alpha; the result is f(y) if alpha is
-    gamma(y)."""
+    """Return omega_y(alpha, .) in the algebra, for a covector alpha. For alpha = gamma(y) the result is
+    f(y)."""
     bundle = problem.group.offers(CotangentBundle)
     if bundle is not None and problem.hamiltonian is not None:
         return bundle.canonical(d, y, alpha)
@@ -112,8 +113,9 @@ def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -
 
 
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
-    """Return the covector nearest to g whose pairing with x is ``after - before`` (eq. 2.31 of Marthinsen's
-    thesis).
+    """Return the covector nearest to g whose pairing with x is ``after - before``.
+
+    This is eq. 2.31 of Marthinsen's thesis.
 
     The distance is in the Euclidean norm, so the result is g plus a multiple of x. The multiple is zero if x
     is zero.

@@ -119,8 +119,7 @@ class FunctionPrinter:
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of a function's head, or of its prototype in a ``header``."""
         # Private functions are static, so that the compiler may inline them. Their names also have the
-        # prefix.
-        # Otherwise names of two modules could conflict if one file includes both modules.
+        # prefix. Otherwise names of two modules could conflict if one file includes both modules.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         listed = [self.parameter(function, p, header) for p in function.parameters]
@@ -250,8 +249,7 @@ class _Body:
             case For(index, count, body, reverse):
                 yield from self.hints(statement)
                 # size_t is unsigned, so the test `i >= 0` is always true. A reversed loop therefore
-                # decrements
-                # in its test.
+                # decrements in its test.
                 i, n = self.identifiers.of(index), self.terms.line(count)
                 yield (
                     f"for (size_t {i} = {n}; {i}-- > 0;) {{"

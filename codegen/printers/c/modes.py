@@ -126,8 +126,7 @@ def _local(step: ModeStep) -> set[str]:
     """Return the names of the formulas in which the variable occurs.
 
     For the symbol of the linear part, the variable is the wave number. For the initial state and the
-    nonlinear
-    part, it is the space coordinate.
+    nonlinear part, it is the space coordinate.
     """
     kernels = {
         "symbol": (step.symbol, step.wave),

@@ -54,8 +54,7 @@ The first value is for steps without equations, the second for steps with equati
 a float has 4. The bound is the same for both precisions, because an optimiser also stores pairs of floats in
 vector registers of 16 bytes, that is 8 bytes for each float. If a step solves equations, an optimiser moves
 common subexpressions out of the loop. These values need more space. The largest measured values with
-equations
-were 8.8 bytes in double precision and 8.0 bytes in single precision.
+equations were 8.8 bytes in double precision and 8.0 bytes in single precision.
 """
 
 LARGEST_STACK = 6 * 2**20
@@ -216,9 +215,8 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
 
     At -O0 a call uses about as much stack as the bound without the margin, because each variable has its own
     place on the stack. Tests compare the bound with the numbers that ``-fstack-usage`` prints. Tests also
-    fill
-    a stack with a known value, run a call, and compare the bound with the number of bytes that have changed.
-    :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
+    fill a stack with a known value, run a call, and compare the bound with the number of bytes that have
+    changed. :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # The function ``invert`` has local variables (scalars, a row, a permutation), so the bound of a step that
@@ -262,8 +260,7 @@ def prototypes(interface: Interface) -> str:
     real = interface.format.c_type
     time = f"{real} t, " if interface.time else ""
     # Parameters are called p0, p1, ..., because names of a scene might be keywords of C. The names of
-    # parameters
-    # have no effect in a prototype.
+    # parameters have no effect in a prototype.
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
     matrices = "size_t matrices; " if interface.newton else ""

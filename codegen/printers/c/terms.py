@@ -104,8 +104,7 @@ class Terms(Infix):
             case "value":
                 assert term.value is not None
                 # Every expression of the kernel is treated like a sum. It gets parentheses wherever a sum
-                # would
-                # need them.
+                # would need them.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))
@@ -171,8 +170,7 @@ class Terms(Infix):
         if base.op == "item" and base.args[0].shape[0] == 0:
             row, width = base.args[1], base.args[0].shape[1]
             # The first dimension 0 means any number of rows. The caller passes the rows in one array, one
-            # after
-            # the other. Row and column therefore become one index.
+            # after the other. Row and column therefore become one index.
             place = (
                 self.line(width * row + term.args[1])
                 if not _is_zero(term.args[1])
@@ -210,8 +208,7 @@ class Terms(Infix):
             return Text((f"{self.prefix}largest({self.line(array)}, {array.shape[0]})",))
         name = FUNCTIONS.get(term.text, term.text)
         # In single precision ``sqrtf`` is called. ``sqrt`` would convert its argument to double and the
-        # result
-        # back.
+        # result back.
         name += "" if name == "isfinite" else self.precision.suffix
         if len(term.args) == 1:
             return Text(closed(f"{name}(", self.text(term.args[0]).segments, ")"))

@@ -263,8 +263,7 @@ class _Body:
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
         # This ``break`` ends the loop after its last statement. Loops of the run representation are never
-        # left
-        # from the middle, so no other ``break`` is printed here.
+        # left from the middle, so no other ``break`` is printed here.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:
