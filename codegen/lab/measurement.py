@@ -1,4 +1,4 @@
-"""The base class of measurements. A measurement computes a result, its JSON, and a section of the report."""
+"""The base class of measurements. A measurement provides a result, its JSON, and a section of the report."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ R = TypeVar("R")
 
 @dataclass(frozen=True)
 class Section:
-    """The body of a section of the report: the source text of a Jinja template, and the variables of the
-    template.
+    """The body of a section of the report: the source text of a Jinja template, and the template's variables.
 
     The template may import macros from ``parts.html.j2``. Text is escaped unless it is ``Markup``. The
     heading is the title of the measurement.
@@ -29,10 +28,10 @@ class Section:
 class Measurement(ABC, Generic[R]):
     """A measurement of methods on a scene, with a result of type R.
 
-    Subclasses set ``name`` (for ``report --only``, the JSON and anchors), ``title`` (heading of the section)
-    and ``about`` (one line for ``orderconds list measurements``), and define :meth:`run`, :meth:`as_json` and
-    :meth:`section`. ``json_key`` is the key in the JSON of the report, by default the name. If ``part_of`` is
-    the name of another measurement, this measurement is selected together with the other measurement.
+    Subclasses define :meth:`run`, :meth:`as_json` and :meth:`section`. They set ``name`` (for ``report
+    --only``, the JSON and anchors), ``title`` (the heading of the section) and ``about`` (one line for
+    ``orderconds list measurements``). ``json_key`` is the key in the JSON of the report, by default the name.
+    If ``part_of`` names another measurement, both measurements are selected together.
     """
 
     name: ClassVar[str]
@@ -56,12 +55,11 @@ class Measurement(ABC, Generic[R]):
         """Return the body of the section, or None if there is nothing to show."""
 
     def verdict(self, result: R, subject: Subject) -> str:
-        """Return one sentence that states the result; the section begins with this sentence. By default
-        there is no sentence ('')."""
+        """Return the sentence that states the result at the beginning of the section; '' by default."""
         return ""
 
     def holds(self, result: R) -> bool:
-        """Return True if every check passed; otherwise the exit status of ``report`` is 1."""
+        """Return True if every check passed. If the result is False, the exit status of ``report`` is 1."""
         return True
 
     def lines(self, result: R, subject: Subject) -> Iterable[str]:
@@ -69,7 +67,7 @@ class Measurement(ABC, Generic[R]):
         return ()
 
     def overview(self, result: R, subject: Subject) -> Section | None:
-        """Return a paragraph or table for the overview of all scenes; None if there is nothing to show."""
+        """Return a paragraph or table for the overview of all scenes, or None if there is nothing to show."""
         return None
 
     def files(self, result: R, subject: Subject) -> Mapping[str, str]:

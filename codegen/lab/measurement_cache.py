@@ -1,8 +1,8 @@
 """A cache of measurements on disk, so that equal measurements are made only once.
 
-The file name of an entry is a digest of all inputs of the measurement: the emitted files, the scene, the
-settings, the kind of processor. An entry also contains a digest of its content. Every entry is written under
-a temporary name and then renamed, so that an interrupted write does not create an entry. If an entry is
+The file name of an entry is a digest of all inputs of the measurement, such as the emitted files, the scene,
+the settings and the kind of processor. An entry also contains a digest of its content. Every entry is written
+under a temporary name and then renamed, so that an interrupted write does not create an entry. If an entry is
 truncated or changed, or if its result has the wrong type, the entry is ignored and the measurement is made
 again. A folder that another user owns is never read or written.
 """
@@ -28,8 +28,8 @@ FORMAT = 1
 entries of an old version."""
 
 FOLDER = ".measured"
-"""Name of the folder that contains the entries of a report. It is a subfolder of the folder into which the
-report is written, and is removed when the report is complete."""
+"""Name of the folder that contains the entries of a report. The folder is created inside the output folder of
+the report, and removed when the report is complete."""
 
 DIGEST = 32
 """The number of bytes of the SHA-256 digest at the start of an entry."""
@@ -46,7 +46,7 @@ class MeasurementCache:
         self.folder = folder
 
     def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
-        """Return the stored result of ``key``; if there is no stored result, call ``measure`` and store its
+        """Return the stored result of ``key``. If there is no stored result, call ``measure`` and store its
         result.
 
         ``kind`` is the type of the result, which may consist of dataclasses, tuples, numbers and strings.
@@ -61,7 +61,8 @@ class MeasurementCache:
         return result
 
     def find(self, key: Sequence[object], kind: type[T]) -> T | None:
-        """Return the stored result of ``key``; None if it is missing, damaged or not of type ``kind``."""
+        """Return the stored result of ``key``, or None if the result is missing, damaged or not of type
+        ``kind``."""
         import msgspec
 
         if self.folder is None or not _secured(self.folder):
@@ -91,7 +92,7 @@ class MeasurementCache:
             return
 
     def remove(self) -> None:
-        """Delete the folder with all entries, unless it belongs to another user or is a symbolic link."""
+        """Delete the folder with all entries. A folder of another user or a symbolic link is not deleted."""
         if self.folder is not None and _secured(self.folder):
             shutil.rmtree(self.folder, ignore_errors=True)
 

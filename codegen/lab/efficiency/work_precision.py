@@ -1,8 +1,8 @@
 """Work-precision diagrams: error against CPU time, over a sequence of step sizes or tolerances.
 
-A :class:`Candidate` is an emitted method or a peer. Each run produces one :class:`Row`: the error at the end
-of the span in the norm of the scene, and the CPU time, measured by :mod:`codegen.lab.timing`. If a run fails
-or a candidate cannot be prepared, the row contains the reason.
+A :class:`Candidate` is an emitted method or another integrator (a peer). Each run produces one :class:`Row`
+with the error at the end of the span, in the norm of the scene, and the CPU time. If a run fails or a
+candidate cannot be prepared, the row contains the reason.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ convergence.
 
 @dataclass(frozen=True)
 class Row:
-    """One run. ``control`` is the requested tolerance or number of steps, ``h`` the (mean) step size.
+    """One run. ``control`` is the requested tolerance or number of steps, and ``h`` is the mean step size.
 
-    ``form`` is the name of the classical form of the equations, '' if the scene has one form only.
-    ``seconds`` is the least CPU time of several batches. Three quarters of the batches take at most (1 +
-    ``spread``) times ``seconds``. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run;
-    they are None if they are not counted. ``failure`` is the reason if the run failed, else ''.
+    ``form`` is the name of the form of the equations, or '' if the scene has one form only. ``seconds`` is
+    the least CPU time of several batches. Three quarters of the batches take at most (1 + ``spread``) times
+    ``seconds``. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run, or None if they
+    are not counted. ``failure`` is the reason if the run failed, otherwise ''.
     """
 
     scene: str
@@ -66,10 +66,10 @@ class Row:
 
 
 class Candidate(Protocol):
-    """A method or peer to measure. ``label`` and ``target`` identify the candidate in tables; ``key``
-    identifies its code in the cache.
+    """A method or peer to measure. ``label`` and ``target`` identify the candidate in tables. ``key``
+    identifies the code of the candidate in the cache.
 
-    ``form`` is the name of the form of the equations; '' if the scene has one form only.
+    ``form`` is the name of the form of the equations, or '' if the scene has one form only.
     """
 
     label: str
@@ -97,7 +97,7 @@ def measure_rows(
     cache: MeasurementCache,
     done: Callable[[Row], object],
 ) -> tuple[Row, ...]:
-    """Return the rows of a candidate; ``done`` is called with each row.
+    """Return the rows of a candidate. ``done`` is called with each row.
 
     Rows in ``cache`` are not measured again. The candidate is prepared only if a row is not in the cache. If
     the preparation fails, the last row contains the reason.
@@ -133,11 +133,11 @@ def measure_rows(
 
 
 def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
-    """Return the rows. Some runs are measured again if the times do not increase with the number of steps.
+    """Return the rows, after measuring again the runs whose times do not increase with the number of steps.
 
-    If a run took longer than a run with more steps, both runs are measured again, at most :data:`AGAIN`
-    times. For each run the smallest time is used. ``fresh`` contains the controls (tolerances or numbers of
-    steps) of the runs that may be measured again.
+    If a run took longer than the next run, which has more steps, both runs are measured again, at most
+    :data:`AGAIN` times. For each run the smallest time is used. ``fresh`` contains the controls (tolerances
+    or numbers of steps) of the runs that may be measured again.
     """
     kept = list(rows)
     for _ in range(AGAIN):
@@ -171,7 +171,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield a single number: the candidate is then tried once, and the row of this trial contains the
+        """Yield a single number, so that the candidate is tried once. The row of this trial contains the
         reason."""
         yield 0.0
 

@@ -1,22 +1,23 @@
 """The drift of a conserved quantity: a slope with its confidence interval, and the growth of the deviation.
 
-Errors along one trajectory are correlated, so the confidence interval of a least-squares line would be far
-too narrow. Therefore the record is cut into blocks that are much longer than its oscillations. The means over
-the blocks are nearly independent, so the confidence interval of a line through these means follows from
-Student's distribution (method of batch means). If consecutive residuals are still correlated, the interval is
-widened.
+A record contains the deviations of the quantity along one trajectory. These deviations are correlated, so the
+confidence interval of a least-squares line would be far too narrow. Therefore the record is cut into blocks
+that are much longer than its oscillations. The means over the blocks are nearly independent. The confidence
+interval of a line through these means follows from Student's distribution (method of batch means). If
+consecutive residuals are still correlated, the interval is widened.
 
 A modulation that is slower than the blocks also has a slope, and the interval of this slope may exclude zero.
-A drift therefore also has to persist: the record is divided into five consecutive parts, and their means must
+Therefore a drift must also persist: the record is divided into five consecutive parts, and their means must
 be monotone. A sinusoid passes this test only if its period is longer than 1.2 times the record.
 
-A random walk has a slope, too, and its residuals are correlated over the whole record. A drift therefore also
-has to differ from a random walk. One of two conditions is enough: the variance of the residuals is much
-smaller than for a random walk with the same increments, or the mean increment is far larger than a random
-walk explains. The test of the variance is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
+A random walk also has a slope, and its residuals are correlated over the whole record. Therefore a drift must
+also differ from a random walk. One of two conditions is enough. First, the variance of the residuals is much
+smaller than the variance for a random walk with the same increments. Second, the mean increment is far larger
+than a random walk explains. The test of the variance is due to J. D. Sargan and A. Bhargava, Econometrica 51
+(1983) 153.
 
 The growth of a deviation may end, for example at a fixed point of the method. In this case a line through the
-whole record would have nearly the slope zero. The line is therefore fitted to the part of the record before
+whole record would have nearly the slope zero. Therefore the line is fitted to the part of the record before
 the deviation saturates.
 """
 
@@ -38,13 +39,13 @@ PARTS = 5
 """The record is divided into PARTS parts. For a drift, the means of the parts must be monotone."""
 
 LOST = 1.0
-"""A quantity counts as lost if its relative deviation is at least LOST. The deviation is then as large as the
-quantity.
+"""A conserved quantity counts as lost if its relative deviation is at least LOST. The deviation is then as
+large as the quantity.
 """
 
 BOUNDED, WALK = 0.25, 0.75
-"""A deviation may be bounded if its growth exponent is below BOUNDED. It may be a random walk if the exponent
-is between BOUNDED and WALK."""
+"""Limits of the growth exponent p of a deviation that grows like t^p. The deviation may be bounded if p is
+below BOUNDED. The deviation may be a random walk if p is between BOUNDED and WALK."""
 
 LATE, LATE_CONFINED = 1.5, 2.0
 """The largest deviation of the whole record is divided by the largest deviation of its first half. If the
@@ -52,8 +53,8 @@ deviation is bounded, this ratio is at most LATE, or at most LATE_CONFINED if a 
 """
 
 LEVEL, STAYS = 0.9, 0.5
-"""Let d be the largest deviation of the whole record. The deviation saturates if it reaches LEVEL d within
-the first half of the record, and is never smaller than STAYS d afterwards.
+"""Let d be the largest deviation of the whole record. The deviation saturates if it reaches LEVEL times d
+within the first half of the record, and is never smaller than STAYS times d afterwards.
 """
 
 WALKING = (0.5, 1.6)
@@ -68,17 +69,17 @@ means of n blocks, and D is the variance of the increments between consecutive m
 CONFINED for only 3 % of all random walks, whatever their length and size."""
 
 STRAIGHT = 0.0225
-"""The slope of a record is not that of a random walk if the ratio V/(n D) of CONFINED is less than STRAIGHT.
-Here V is the variance of the block means about a fitted line. The ratio is less than STRAIGHT for only 1 % of
-all random walks."""
+"""A random walk does not explain the slope of a record if the ratio V/(n D) is less than STRAIGHT. Here V is
+the variance of the means of n blocks about a fitted line, and D is the variance of the increments between
+consecutive means. The ratio is less than STRAIGHT for only 1 % of all random walks."""
 
 STEADY = 3.2
-"""The slope of a record is also not that of a random walk if the following ratio exceeds STEADY: the mean
-increment between the means of BLOCKS blocks, divided by the standard error of this mean increment. The ratio
-exceeds STEADY for only 1 % of all random walks."""
+"""A random walk does not explain the slope of a record if the mean increment between consecutive block means
+exceeds STEADY times its standard error. Only 1 % of all random walks have such a mean increment over BLOCKS
+blocks."""
 
 TINY = 1e-24
-"""Let d be the largest deviation. A variance below TINY d^2 is attributed to rounding errors."""
+"""A variance below TINY times the square of the largest deviation is attributed to rounding errors."""
 
 FINE, NEAR, FAR = 100, 5, 20
 """For variance ratios the record is divided into FINE blocks. One ratio is computed for increments over NEAR
@@ -88,17 +89,20 @@ blocks, and one for increments over FAR blocks.
 
 @dataclass(frozen=True)
 class Drift:
-    """The result of a fit: the slope per unit of time, the half width of its 95 % interval, the largest
-    deviation, and the growth of the deviation.
+    """The result of a fit: the slope per unit of time, the half width of its 95 % interval, and the growth of
+    the deviation.
 
-    ``exponent`` p means that the largest deviation grows like t^p: 0 if it is bounded, 1/2 for a random walk,
-    1 for a drift. ``rounding`` is the largest deviation that rounding errors can explain. If too few values
-    are finite, the slope is NaN. ``persists`` is True if the means over consecutive parts of the record are
-    monotone. ``confined`` is True if a random walk does not explain the deviation. ``unlike_walk`` is True if
-    a random walk does not explain the slope of the line. ``later`` is the largest deviation divided by the
-    largest deviation of the first half. ``ratios`` are the variance ratios of increments over NEAR and over
-    FAR blocks. ``until`` is the time at which the deviation saturates; the slope, its interval, ``exponent``
-    and ``persists`` then describe the record before this time.
+    The largest deviation up to the time t grows like t^``exponent``. The exponent is about 0 for a bounded
+    deviation, 1/2 for a random walk and 1 for a drift. ``largest`` is the largest deviation of the record,
+    and ``rounding`` the largest deviation that rounding errors can explain. If too few values are finite, the
+    slope is NaN.
+
+    ``persists`` is True if the means over consecutive parts of the record are monotone. ``confined`` is True
+    if a random walk does not explain the deviation. ``unlike_walk`` is True if a random walk does not explain
+    the slope of the line. ``later`` is the largest deviation divided by the largest deviation of the first
+    half. ``ratios`` are the variance ratios of increments over NEAR and over FAR blocks (:data:`WALKING`).
+    ``until`` is the time at which the deviation saturates, or None. After a saturation, only the record
+    before this time is fitted.
     """
 
     slope: float
@@ -143,8 +147,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # The slope of the mean is not enough: if a deviation alternates and its size grows, its mean does not
-        # grow, but the deviation is not bounded. Therefore the growth exponent is tested, too.
+        # The slope of the mean is not enough. If a deviation alternates and its size grows, its mean does not
+        # grow, but the deviation is not bounded. Therefore the growth exponent is also tested.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -158,7 +162,7 @@ class Drift:
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data; numbers that are not finite are null."""
+        """Return plain data, which can be written as JSON. Numbers that are not finite become None."""
         numbers = {
             "largest": self.largest,
             "slope": self.slope,
@@ -178,11 +182,11 @@ def fit(
 ) -> Drift:
     """Return the drift of a quantity from its relative deviations at sampled times.
 
-    ``times`` are measured from the start; they decrease in a backward run. A peak is the largest absolute
-    deviation in the interval that ends at a sample, and a low is the smallest absolute deviation. ``peaks``
-    and ``lows`` are by default the absolute values of the samples. If a value is not finite, the slope is
-    fitted to the values before it, and the largest deviation is infinite. If the deviation saturates after at
-    least :data:`FEWEST` samples, the slope is fitted to the samples before the saturation.
+    ``times`` are measured from the start, and decrease in a backward run. A peak is the largest absolute
+    deviation in the interval that ends at a sample, and a low is the smallest. ``peaks`` and ``lows`` are by
+    default the absolute values of the samples. If a value is not finite, the slope is fitted to the earlier
+    values, and the largest deviation is infinite. If the deviation saturates after at least :data:`FEWEST`
+    samples, the slope is fitted to the samples before the saturation.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
@@ -210,7 +214,8 @@ def fit(
 
 
 def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | numpy.ndarray) -> int | None:
-    """Return the index of the sample at which a deviation saturates; None if it does not saturate.
+    """Return the index of the sample at which a deviation saturates, or None if the deviation does not
+    saturate.
 
     >>> saturation([0.1 * min(k, 10) for k in range(40)], [0.1 * min(k, 10) for k in range(40)])
     9
@@ -223,8 +228,8 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 
 
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
-    """Return the drift for finite times ``t``, deviations ``y`` and largest deviations ``size``. The caller
-    replaces ``largest``, ``rounding`` and ``until`` in the result."""
+    """Return the drift for finite times ``t``, deviations ``y`` and peaks ``size``. The caller replaces
+    ``largest``, ``rounding`` and ``until`` in the result."""
     whole, scale = float(t[-1]), float(size.max()) or 1.0
     # Times and values are scaled, so that their squares do not overflow.
     t, y, size = t / whole, y / scale, size / scale
@@ -257,15 +262,15 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
 
 
 def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
-    """Return the absolute mean increment of the block means in units of its standard error; see
-    :data:`STEADY`."""
+    """Return the absolute mean increment of the block means, divided by its standard error
+    (:data:`STEADY`)."""
     increments = numpy.diff(_means(t, y, BLOCKS)[1])
     error = float(increments.std(ddof=1)) / math.sqrt(len(increments))
     return abs(float(increments.mean())) / error if error > 0.0 else math.inf
 
 
 def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Return the variance ratios of block means after removal of a line; see :data:`WALKING`."""
+    """Return the variance ratios (:data:`WALKING`) of the residuals of a line through the block means."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, 1), x)
 

@@ -1,9 +1,9 @@
 """Long runs of emitted code: conserved quantities, symplecticity, reversibility, and growth of rounding
 errors.
 
-Energy, declared invariants and the manifold equations are evaluated after every step; deviations are
-relative to the size of the quantity. Reversibility is tested by a run to the end with the step size h,
-followed by a run back with -h; a symmetric method returns to the initial state up to rounding.
+The energy, the declared invariants and the manifold equations are evaluated after every step. Deviations are
+divided by the size of the quantity. Reversibility is tested by a run to the end with the step size h,
+followed by a run back with -h. A symmetric method returns to the initial state up to rounding.
 """
 
 from __future__ import annotations
@@ -60,14 +60,16 @@ class Kept:
 class LongRun:
     """The results of a run of ``steps`` steps of size ``h``.
 
-    ``failure`` is the message of a step that failed. The results then describe the steps before the failure,
-    and ``kept`` is empty if there are too few steps. ``reversals`` are pairs: a number of steps, and the
-    distance from the initial state after that many steps forward and back. There is a pair for the whole run.
-    A second pair is for a hundredth of the run, because chaos amplifies rounding errors in long runs.
-    ``symplectic`` is the largest symplectic defect of a step from several states of the run; None if it was
-    not measured. ``unmeasured`` is the reason if the defect of a Hamiltonian scene could not be measured,
-    otherwise ''. ``rounding`` is the growth of rounding errors in the quantities that the method conserves
-    exactly.
+    ``kept`` contains the conserved quantities. ``failure`` is the message of a step that failed. The results
+    then describe the steps before the failure, and ``kept`` is empty if there are too few steps.
+    ``reversals`` are pairs: a number of steps, and the distance from the initial state after this number of
+    steps forward and back. One pair is for the whole run. The other pair is for a hundredth of the run,
+    because chaos amplifies rounding errors in long runs.
+
+    ``symplectic`` is the largest symplectic defect of a step from several states of the run, or None if the
+    defect was not measured. ``unmeasured`` is the reason if the defect of a Hamiltonian scene could not be
+    measured, otherwise ''. ``rounding`` is the growth of rounding errors in the quantities that the method
+    conserves exactly.
     """
 
     scene: str
@@ -82,7 +84,8 @@ class LongRun:
     unmeasured: str = ""
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data, without the sampled deviations; numbers that are not finite are null."""
+        """Return plain data for JSON, without the sampled deviations. Numbers that are not finite become
+        None."""
         return {
             "scene": self.scene,
             "method": self.method,
@@ -167,11 +170,11 @@ def _kept(
 ) -> tuple[Kept, ...]:
     """Return the quantities with their drifts.
 
-    The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors. For
-    any other quantity, ``changes`` contains its change in one step, computed with 60 digits. The deviations
-    of such a quantity count as rounding errors only if this change is much smaller than one rounding error.
-    If a quantity saturates within the first samples, the function calls ``early(n)``, which records the first
-    n steps with more samples.
+    The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
+    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. The deviations
+    of all other quantities count as rounding errors only if this change is much smaller than one rounding
+    error. If a quantity saturates within the first samples, the function calls ``early(n)``, which records
+    the first n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:

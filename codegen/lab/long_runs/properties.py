@@ -1,9 +1,10 @@
 """Three measured properties of a method on a scene: symplectic, symmetric, without drift of a quantity.
 
-Table 2.1 of H. Marthinsen's thesis has a column for each of these properties. A step is symplectic if its
-symplectic defect vanishes (:mod:`codegen.lab.long_runs.symplecticity`). A step is symmetric if a step with h,
-followed by a step with -h, returns to the state at which it started. Both properties are tested in more
-digits than doubles have, so rounding errors do not affect the result.
+Table 2.1 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* has a column for
+each of these properties. A step is symplectic if its symplectic defect vanishes
+(:mod:`codegen.lab.long_runs.symplecticity`). A step is symmetric if a step with h, followed by a step with
+-h, returns to the state at which it started. Both properties are tested in more digits than doubles have, so
+rounding errors do not affect the result.
 """
 
 from __future__ import annotations
@@ -19,11 +20,11 @@ from codegen.lab.stability.extreme_steps import DIGITS, solved_step
 from codegen.lower import problem_for
 
 SYMPLECTIC = 1e-12
-"""A step counts as symplectic if its defect is below this number. The errors of the difference quotients from
-which the defect is computed are about 1e-20, and thus far smaller."""
+"""A step counts as symplectic if its symplectic defect is below this number. The defect is computed from
+difference quotients, whose errors of about 1e-20 are far smaller."""
 
 SYMMETRIC = 1e-30
-"""A step counts as symmetric if its ``reversal`` is below this number."""
+"""A step counts as symmetric if the distance computed by :func:`reversal` is below this number."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Properties:
     """The measured properties of a method; None means that a property was not measured.
 
     ``reversal`` is the distance from the start after a step with h and a step with -h, divided by the change
-    of the state by a step. ``quantity`` is the first conserved quantity; ``steady`` is False if this quantity
+    of the state in a step. ``quantity`` is the first conserved quantity. ``steady`` is False if this quantity
     drifts or is lost.
     """
 
@@ -79,8 +80,8 @@ def reversal(compiled: Compiled, h: float) -> float | None:
     runner, start = Emitted(compiled), problem.initial(domain)
     t = domain.context.mpf(float(compiled.scene.span[0]))
     try:
-        # The test begins one step after the initial state of the scene. The initial state may have a
-        # symmetry, and even a method that is not symmetric may then return to it.
+        # The test begins one step after the initial state of the scene. If the initial state has a symmetry,
+        # even a method that is not symmetric may return to the initial state.
         first = solved_step(compiled, runner, start, t, h)
         after = solved_step(compiled, runner, first, t + h, h)
         back = solved_step(compiled, runner, after, t + 2 * h, -h)

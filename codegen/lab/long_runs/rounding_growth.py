@@ -1,13 +1,15 @@
 """The growth of rounding errors over many steps, with and without compensated summation.
 
-The growth is measured in the quantities that a method conserves exactly in exact arithmetic: the manifold
-equations, and invariants that one step in 60 digits does not change. Independent rounding errors make such a
-quantity a random walk, whose deviation grows like the square root of the number of steps (Brouwer 1937).
-Biased rounding errors make such a quantity drift proportionally to the number of steps. For example, a body
-that rotates by the same angle in every step makes the same rounding error in every step, and compensation
-does not remove this error. Deviations are computed in 60 digits for several starts along one trajectory. The
-exponent of growth is fitted to the root mean square of the deviations over all starts. The confidence
-interval of the exponent comes from the jackknife over the starts.
+The growth is measured in the quantities that a method conserves in exact arithmetic: the manifold equations,
+and the invariants that a step in 60 digits does not change. With independent rounding errors, a conserved
+quantity performs a random walk, whose deviation grows like the square root of the number of steps (Brouwer
+1937). With biased rounding errors, the deviation is proportional to the number of steps. For example, if a
+body rotates by the same angle in every step, the same rounding error occurs in every step. Compensation does
+not remove this error.
+
+Deviations are computed in 60 digits for several starts along one trajectory. The exponent of growth is fitted
+to the root mean square of the deviations over all starts. The confidence interval of the exponent comes from
+the jackknife over the starts.
 """
 
 from __future__ import annotations
@@ -42,8 +44,8 @@ TIMES = 9
 """The number of measurements of a deviation. The number of steps doubles from one measurement to the next."""
 
 EXACT = 1e-30
-"""A quantity counts as exactly conserved if one step, computed in 60 digits, changes the quantity by less
-than EXACT, relative to its size."""
+"""A quantity counts as exactly conserved if its relative change in one step, computed in 60 digits, is less
+than EXACT."""
 
 
 CHAIN = 3
@@ -52,8 +54,7 @@ because the quantity may be stationary at one state.
 """
 
 NEARLY = 1e-14
-"""For a state that rounding errors have moved off the manifold, NEARLY replaces the bound EXACT: a quantity
-counts as exactly conserved if its relative change in a step from this state is less than NEARLY."""
+"""The bound that replaces EXACT for a step from a state that rounding errors have moved off the manifold."""
 
 
 @dataclass(frozen=True)
@@ -74,9 +75,13 @@ class Growth:
 
     @property
     def law(self) -> str:
-        """The law of growth: ``bounded`` if the confidence interval of the exponent is below 1/4. Otherwise
-        ``random walk`` (exponent 1/2), ``systematic`` (exponent 1), or both, if the interval contains these
-        exponents; else ``neither law``. The half width of the interval is at least 0.1 in this test."""
+        """The law of growth.
+
+        ``bounded``: the confidence interval of the exponent is below 1/4. ``random walk``: the interval
+        contains the exponent 1/2. ``systematic``: the interval contains the exponent 1. The result contains
+        both words if both laws are possible. Otherwise the result is ``neither law``. For the last three
+        tests, the half width of the interval is at least 0.1.
+        """
         if self.exponent + self.half_width < 0.25:
             return "bounded"
         laws = {"random walk": 0.5, "systematic": 1.0}
@@ -133,8 +138,7 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return times and states along a trajectory, computed with the compensated step if the method has a
-    compensated step.
+    """Return times and states along a trajectory. The compensated step is used if the method has one.
 
     The starts must be accurate: rotations preserve the distance of a state from the manifold, so an initial
     distance would remain during the whole run.
@@ -153,10 +157,11 @@ def exactly_conserved(
 ) -> dict[str, Evaluate]:
     """Return the quantities that a step does not change, as functions of numbers with 60 digits.
 
-    ``starts`` are times and states. The first state is exact, and its step may change a quantity by at most
-    :data:`EXACT`. Rounding errors displace the other states from the manifold; their steps may change a
-    quantity by at most :data:`NEARLY`. One start is not enough, because a quantity may be stationary at this
-    start. The result is empty if the interpreter cannot make a step.
+    ``starts`` are times and states. The first state is exact, and a step from this state may change a
+    quantity by at most :data:`EXACT`. Rounding errors have displaced the other states from the manifold. A
+    step from one of these states may change a quantity by at most :data:`NEARLY`. One start is not enough,
+    because a quantity may be stationary at this start. The result is empty if the interpreter cannot make a
+    step.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))
@@ -264,7 +269,7 @@ def _deviations(
 
 
 def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
-    """Return the growth of the root mean square over all starts; the confidence interval is computed with the
+    """Return the growth of the root mean square over all starts, with a confidence interval from the
     jackknife.
 
     ``members`` contains, for each start, the deviation after each number of steps.
@@ -286,7 +291,7 @@ def _rms(members: Sequence[Sequence[float]]) -> list[float]:
 
 
 def _slope(counts: Sequence[int], sizes: Sequence[float]) -> float:
-    """Return the least-squares slope of log size against log count; sizes of zero are ignored."""
+    """Return the least-squares slope of log(size) against log(count). Sizes of zero are ignored."""
     pairs = [(math.log(n), math.log(x)) for n, x in zip(counts, sizes, strict=True) if x > 0]
     if len(pairs) < 2:
         return 0.0

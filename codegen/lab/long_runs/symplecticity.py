@@ -1,11 +1,11 @@
-"""The symplectic defect of a step on T*G: the amount by which the tangent map of the step changes the
-canonical symplectic form.
+"""The symplectic defect of a step on T*G: the change of the canonical symplectic form by the tangent map of
+the step.
 
-In right trivialisation a tangent vector at (q, mu) is a pair (xi, nu): xi is in the Lie algebra, nu in its
-dual. The form maps (xi_1, nu_1) and (xi_2, nu_2) to <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]> (H.
-Marthinsen, *Lie group integrators*, eq. (2.26)). The tangent map is computed by central differences of steps
-in 40 digits. The error of the difference quotients is therefore negligible compared with the defect of the
-method.
+Let q be an element of the group G, and mu its momentum. In right trivialisation a tangent vector at (q, mu)
+is a pair (xi, nu), where xi is in the Lie algebra and nu in its dual. The symplectic form maps the pairs
+(xi_1, nu_1) and (xi_2, nu_2) to <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]> (H. Marthinsen, *Lie group
+integrators*, eq. (2.26)). The tangent map is computed by central differences of steps in 40 digits. The error
+of the difference quotients is therefore negligible compared with the defect of the method.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from codegen.lab.straight_line_field import velocity
 
 DIGITS = 40
 OFFSET = 10
-"""The offset of a central difference is 10^-OFFSET; the error of the difference is about 10^(-2 OFFSET)."""
+"""The offset of a central difference is 10^-OFFSET. The error of the difference is about 10^(-2 OFFSET)."""
 
 SWEEPS = 40
 """The largest number of fixed-point iterations for each system of implicit equations in a step. If the
@@ -42,10 +42,10 @@ solution. This state and all later states of the run are not used.
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of single steps from three states of a run.
 
-    Only the part of the run is used in which no relative deviation of a conserved quantity exceeds
-    :data:`LEFT`. The three states are the initial state, the middle state of this part, and the state of this
-    part with the fastest motion, for example the pericentre of an orbit. Raises ArithmeticError if the
-    equations of a step have no solution in 40 digits.
+    The valid part of the run ends when a relative deviation of a conserved quantity exceeds :data:`LEFT`. The
+    three states are the initial state, the middle state of the valid part, and the state of the valid part
+    with the fastest motion. For example, the motion on an orbit is fastest at the pericentre. Raises
+    ArithmeticError if the equations of a step have no solution in 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -55,9 +55,7 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
 
 
 def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[float, list[float]]]:
-    """Return three states with their times: the initial state, and from the part of the run that is close to
-    the exact solution (:data:`LEFT`) the middle state and the state with the fastest motion.
-    """
+    """Return the three states that :func:`largest_defect` describes, with their times."""
     valid = 1
     for k in range(1, len(trajectory.states)):
         peaks = (s.peaks[k - 1] / trajectory.scales[name] for name, s in trajectory.series.items())

@@ -1,8 +1,8 @@
 """The record of a long run: states at evenly spaced samples, and deviations of conserved quantities.
 
-The quantities are evaluated after every step. For each interval between two samples, only the mean, the
-largest and the smallest deviation of its steps are stored. To save time, the quantities are evaluated on
-arrays that contain the states of many steps (a chunk).
+The conserved quantities are evaluated after every step. For each interval between two samples, only the mean,
+the largest and the smallest deviation are stored. To save time, the quantities are evaluated on arrays that
+contain the states of many steps (a chunk).
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from codegen.scene.problem import Problem
 
 SAMPLES = 1000
 CANCELLED = 1e-2
-"""The terms of a quantity count as cancelling if its absolute value is at most CANCELLED times its magnitude,
-the sum of the absolute values of its terms.
+"""The terms of a quantity cancel if its absolute value is at most CANCELLED times the sum of the absolute
+values of its terms.
 """
 
 CHUNK = 100_000
@@ -42,9 +42,9 @@ FUNCTIONS = of_arrays(numpy)
 class Series:
     """One quantity: its mean deviation, its peak and its low in each interval between samples.
 
-    Deviations are differences from ``start``: the initial value of an invariant, or zero for the manifold
-    equations. A mean is signed. A peak is the largest absolute deviation of an interval. A low is the
-    smallest absolute deviation of an interval; it is zero if the deviation changes its sign.
+    Deviations are differences from ``start``, which is the initial value of an invariant, or zero for the
+    manifold equations. A mean is signed. A peak is the largest absolute deviation of an interval. A low is
+    the smallest absolute deviation of an interval, or zero if the deviation changes its sign.
     """
 
     start: float
@@ -53,7 +53,8 @@ class Series:
     lows: list[float] = field(default_factory=list)
 
     def append(self, values: numpy.ndarray) -> None:
-        """Append the mean, the peak and the low of one interval; ``values`` are its signed deviations."""
+        """Append the mean, the peak and the low of one interval. ``values`` are the signed deviations after
+        each step of the interval."""
         absolute = numpy.abs(values)
         crosses = values.min() < 0.0 < values.max()
         with numpy.errstate(all="ignore"):  # The sum of large deviations may overflow to infinity.
@@ -133,9 +134,9 @@ def scale(start: float, magnitude: float) -> float:
 def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
     """Return the initial magnitudes of the quantities.
 
-    If an initial magnitude is zero, the largest magnitude in the first tenth of the record replaces it. Later
-    states are not used, because their magnitudes grow if the method does not conserve the quantity. The
-    magnitude of the manifold equations is defined as 1.
+    An initial magnitude of zero is replaced by the largest magnitude in the first tenth of the record. Later
+    states are not used, because magnitudes grow if the method does not conserve the quantity. The magnitude
+    of the manifold equations is defined as 1.
     """
     count = max(len(trajectory.states) // 10, 1)
     states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])
@@ -149,10 +150,10 @@ def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
 def array_functions(
     scene: Problem, kept: Mapping[str, tuple[Expr, ...]] | None = None
 ) -> dict[str, ArrayFunction]:
-    """Return the expressions in ``kept`` as functions of arrays, by the same names.
+    """Return the expressions in ``kept`` as functions of arrays, with the same names.
 
-    By default ``kept`` contains the conserved quantities of the scene. The functions return +infinity for
-    every value that is not finite.
+    By default ``kept`` contains the conserved quantities of the scene. The functions return infinity in place
+    of every value that is not finite.
     """
 
     def vectorised(f: Evaluate) -> ArrayFunction:
@@ -177,7 +178,7 @@ def _append(
     stride: int,
     evaluate: Mapping[str, ArrayFunction],
 ) -> None:
-    """Append the samples of a chunk; the first of ``rows`` is the last state of the previous chunk."""
+    """Append the samples of a chunk. The first of ``rows`` is the last state of the previous chunk."""
     count = len(rows) - 1
     if not count:
         return
