@@ -1,5 +1,4 @@
-"""The location of the library of tableaux. The library is in the source tree of the project, or else in the
-installed package."""
+"""Access to the library of tableau files, in the source tree of the project or in the installed package."""
 
 from __future__ import annotations
 
@@ -15,8 +14,8 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 def root() -> Path:
     """Return the folder of tableau files.
 
-    If the ``pyproject.toml`` of this project is next to the package, the folder is ``tableaux/`` of the
-    source tree. Otherwise it is the copy in the installed package.
+    If the package is in the source tree of the project, the folder is ``tableaux/`` of the source tree.
+    Otherwise the folder is the copy in the installed package.
 
     >>> root().is_dir()
     True

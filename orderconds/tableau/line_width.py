@@ -1,4 +1,4 @@
-r"""The printed width of LaTeX formulas, and lines that fit in a column of a two-column article.
+r"""Estimates of the printed width of LaTeX formulas, and line breaks for a two-column article.
 
 Widths are estimates in points for Computer Modern at 10 points.
 """
@@ -9,8 +9,8 @@ import re
 from collections.abc import Iterator, Sequence
 
 COLUMN = 210.0
-"""The available width of a line in points: the column width of the LaTeX class ``article`` (229 points),
-minus the indentation of a paragraph."""
+"""The available width of a line, in points. It is the column width of the LaTeX class ``article`` (229
+points), minus the indentation of a paragraph."""
 
 INDENT = r"\quad "
 
@@ -35,15 +35,14 @@ _WIDTHS = {
     r"\Omega": 7.3,
 }
 _OTHER = 5.2
-"""The assumed width of every other character. A digit is 5 points wide, and most letters are 4 to 6 points
+"""The assumed width of all other characters. A digit is 5 points wide, and most letters are 4 to 6 points
 wide."""
 
 _SMALLER = 0.8
-"""The ratio of the width of a digit in a fraction, an index or an exponent to its normal width."""
+"""The factor by which characters shrink in a fraction, an index or an exponent."""
 
 _SMALLEST = 0.68
-"""The least ratio of the width of a digit to its normal width. It applies to the smallest font, for example
-to a fraction inside a fraction."""
+"""The smallest factor relative to normal text, for example in a fraction inside a fraction."""
 
 
 def width(latex: str) -> float:
@@ -63,9 +62,8 @@ class _Reader:
         self.position = 0
 
     def formula(self, scale: float = 1.0) -> float:
-        """Return the width of the part of the formula that begins at the current token. This part ends at the
-        end of the current group in braces or, outside of braces, at the end of the formula. ``scale`` is the
-        size of the font relative to normal text; the font is smaller in numerators, indices and exponents."""
+        """Return the width from the current token to the end of the group in braces, or to the end of the
+        formula. ``scale`` is the size of the font relative to normal text."""
         total = 0.0
         while self.position < len(self.tokens):
             token = self._next()
@@ -111,8 +109,8 @@ def at_top(latex: str, token: str) -> bool:
 
 
 def with_small_fractions(latex: str) -> str:
-    r"""Return a formula in which fractions outside of braces are small. Without this change, LaTeX would
-    print them large in a displayed formula.
+    r"""Make the fractions outside of braces small. Otherwise LaTeX prints these fractions large in a
+    displayed formula.
 
     >>> print(with_small_fractions(r"\frac{\frac{1}{2} + x}{3}"))
     \tfrac{\frac{1}{2} + x}{3}
@@ -121,7 +119,7 @@ def with_small_fractions(latex: str) -> str:
 
 
 def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
-    """Yield the tokens of a formula, each with True if it is outside of braces."""
+    """Yield the tokens of a formula. With each token, yield True if the token is outside of braces."""
     depth = 0
     for token in _TOKEN.findall(latex):
         depth += (token == "{") - (token == "}")
@@ -129,9 +127,9 @@ def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
 
 
 def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
-    r"""Yield the lines of an equation for the environment ``aligned``. ``left`` is the left-hand side, and
-    ``parts`` are the parts of the right-hand side. A new line begins only at the start of a part. ``free`` is
-    the width that is available for a right-hand side.
+    r"""Yield the lines of an equation for the LaTeX environment ``aligned``. ``left`` is the left-hand side,
+    and ``parts`` are the parts of the right-hand side. Lines are broken only between two parts. ``free`` is
+    the width that is available for the right-hand side.
 
     >>> list(lines("x", ["a + b", " + c"], 30))
     ['x &= a + b', '&\\quad  + c']
@@ -148,8 +146,8 @@ def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
 
 
 def separated(entries: Sequence[str], opening: str = "(", closing: str = ")") -> list[str]:
-    """Return the parts of the text of a list in brackets, one part for each entry. A line may be broken
-    between two parts.
+    """Return a list in brackets as text, split into one part for each entry. A line break is allowed between
+    two parts.
 
     >>> separated(["1", "2"])
     ['(1, ', '2)']

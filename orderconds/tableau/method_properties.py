@@ -1,4 +1,4 @@
-"""Properties of methods, as identities between their coefficients.
+"""Properties of methods, such as symplecticity, as identities between coefficients.
 
 Each property is True or False. It is None if the coefficients are balls (intervals) that are too wide to
 decide.
@@ -17,8 +17,7 @@ Verdict = bool | None
 
 
 def _all(verdicts: Iterable[Verdict]) -> Verdict:
-    """Return the conjunction of verdicts: False if a verdict is False; otherwise None if a verdict is None;
-    otherwise True."""
+    """Return the logical conjunction of verdicts. False has priority over None, and None over True."""
     unknown = False
     for verdict in verdicts:
         if verdict is False:
@@ -28,7 +27,7 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
-    """Decide whether x = y. If x and y are the same object, they are equal, even if they are balls."""
+    """Decide whether x = y. The same object is equal to itself, even if it is a ball (interval)."""
     return True if x is y else ring.is_zero(x - y)
 
 
@@ -71,10 +70,9 @@ def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
-    """Return True if the pair is symplectic for separable Hamiltonians H = T(p) + V(q): b_i ahat_ij + bhat_j
-    a_ji = b_i bhat_j.
+    """Return True if a partitioned method is symplectic for separable Hamiltonians H = T(p) + V(q).
 
-    The source is HLW Theorem VI.4.6.
+    The condition is b_i ahat_ij + bhat_j a_ji = b_i bhat_j (HLW Theorem VI.4.6).
 
     >>> from orderconds.ring import QQ
     >>> half, one = QQ.rational(1, 2), QQ.one
@@ -90,10 +88,10 @@ def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
 
 
 def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is symmetric: a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3).
+    """Return True if the method with s stages is symmetric: a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3).
 
-    The stages are compared in the given order. The test does not recognise a method that is symmetric only
-    after a permutation of its stages.
+    The stages are compared in the given order. A method that is symmetric only after a permutation of its
+    stages is not recognised.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -117,8 +115,8 @@ def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def fsal(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is first-same-as-last. Such a method is stiffly accurate, has more than one
-    stage, and its first stage is the start value.
+    """Return True if the method is first-same-as-last. Such a method is stiffly accurate and has more than
+    one stage. Its first stage is the start value.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -139,11 +137,11 @@ DEFINITIONS: dict[str, Callable[[RungeKutta, Ring], Verdict]] = {
 }
 
 PROPERTIES = (*DEFINITIONS, "low_storage", "a_stable", "l_stable")
-"""Every property that a file may claim."""
+"""All properties that a tableau file may claim."""
 
 
 def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
-    """Return True if a row of numbers is equal to the reversed row.
+    """Return True if a row of numbers is a palindrome.
 
     >>> from orderconds.ring import QQ
     >>> [reads_backwards([QQ.rational(n) for n in row], QQ) for row in ((1, 2, 1), (1, 2, 2))]
@@ -156,9 +154,9 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Return True if a step of length -h undoes a step of length h (HLW V.3).
 
-    A composition of s pairs, with the steps alpha_i h of a basic method and beta_i h of its adjoint, is
-    symmetric if alpha_{s+1-i} = beta_i. A splitting is symmetric if the list of its flows is equal to the
-    reversed list. The condition for a Magnus method is in :mod:`orderconds.tableau.reversal`.
+    A composition of s pairs consists of steps alpha_i h of a basic method and beta_i h of its adjoint. It is
+    symmetric if alpha_{s+1-i} = beta_i. A splitting is symmetric if the list of its flows is a palindrome.
+    For Magnus methods, see :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

@@ -1,7 +1,7 @@
 """The coefficients of a method as immutable data over one ring, and conversions between formats.
 
-In this module the index of a stage counts from 0; in files it counts from 1. In every product of exponentials
-the first row acts first and is the rightmost factor.
+In this module, stages are counted from 0. In files, stages are counted from 1. In a product of exponentials,
+the first row is the rightmost factor, which acts first.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def _converted(row: Row, convert: Convert) -> Row:
 
 @dataclass(frozen=True)
 class RungeKutta:
-    """A Runge-Kutta tableau: ``A`` is s x s, ``b`` has length s."""
+    """A Runge-Kutta tableau. ``A`` has s rows of s entries, and ``b`` has s entries."""
 
     A: tuple[Row, ...]
     b: Row
@@ -43,12 +43,11 @@ class RungeKutta:
         return RungeKutta(tuple(_converted(row, convert) for row in self.A), _converted(self.b, convert))
 
     def as_crouch_grossman(self, ring: Ring) -> CommutatorFree:
-        """Return the Crouch-Grossman method of the tableau: one exponential for each non-zero a_ij, in the
-        order of increasing j.
+        """Return the Crouch-Grossman method of the tableau, with one exponential for each non-zero a_ij.
 
-        Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0. Here k_j is the vector field at stage j. In the
-        update, b_j replaces a_ij (HLW IV.8.3, (1.4)). A coefficient is skipped only if it is proved to be
-        zero.
+        Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0, where k_j is the vector field at stage j. In the
+        update, b_j replaces a_ij (HLW IV.8.3, (1.4)). An exponential is omitted only if its coefficient is
+        provably zero.
         """
 
         def product(row: Row) -> Stage:
@@ -63,7 +62,8 @@ class RungeKutta:
 
 @dataclass(frozen=True)
 class PartitionedRungeKutta:
-    """Two tableaux: (A, b) for y' = f(y, z), (A_hat, b_hat) for z' = g(y, z) (HLW II.2.1)."""
+    """A partitioned Runge-Kutta method: the tableau (A, b) for y' = f(y, z), and the tableau (A_hat, b_hat)
+    for z' = g(y, z) (HLW II.2.1)."""
 
     A: tuple[Row, ...]
     b: Row
@@ -85,7 +85,8 @@ class PartitionedRungeKutta:
         )
 
     def first(self) -> RungeKutta:
-        """Return the tableau of the first part, which is the method for a system without a second part."""
+        """Return the tableau (A, b) of the first part. For a system without a second part, the method is this
+        tableau."""
         return RungeKutta(self.A, self.b)
 
 
@@ -107,7 +108,7 @@ class Stage:
 
 @dataclass(frozen=True)
 class CommutatorFree:
-    """A commutator-free method: s stages and the update, each a product of exponentials."""
+    """A commutator-free method. Each of the s stages and the update is a product of exponentials."""
 
     stages: tuple[Stage, ...]
     update: Stage
@@ -122,18 +123,17 @@ class CommutatorFree:
         return CommutatorFree(tuple(stage.map(convert) for stage in self.stages), self.update.map(convert))
 
     def from_start(self, stage: Stage) -> tuple[Row, ...]:
-        """Return all exponentials between y0 and ``stage``, beginning with the exponentials of the earlier
-        stages.
+        """Return all exponentials between y0 and ``stage``. Exponentials of the stages on which ``stage``
+        acts come first.
         """
         before = () if stage.start is None else self.from_start(self.stages[stage.start])
         return before + stage.exponentials
 
     def same_update(self, other: Stage, ring: Ring) -> bool:
-        """Return True if the product ``other`` and the update are proved to be equal for all vector fields.
+        """Return True if the product ``other`` provably equals the update for all vector fields.
 
-        Both products are reduced: zero exponents are removed, and neighbouring exponentials with proportional
-        exponents, which commute, are combined. Two reduced products are equal for all vector fields only if
-        their exponents are equal (Chen 1958, on piecewise linear paths).
+        Both products are first reduced (:func:`_reduced`). Two reduced products are equal for all vector
+        fields only if their exponents are equal (Chen 1958, on piecewise linear paths).
         """
         one, two = (_reduced(self.from_start(stage), ring) for stage in (self.update, other))
         return len(one) == len(two) and all(
@@ -143,8 +143,8 @@ class CommutatorFree:
         )
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the tableau of the same method on an abelian group. There a product of exponentials is the
-        exponential of the sum of the exponents."""
+        """Return the tableau of the same method on an abelian group, where the exponents of a product are
+        added."""
 
         def total(stage: Stage) -> Row:
             zero = (ring.zero,) * self.s
@@ -155,8 +155,8 @@ class CommutatorFree:
 
 
 def _reduced(rows: tuple[Row, ...], ring: Ring) -> list[Row]:
-    """Return the reduced product of exponentials: zero exponents are removed, and neighbouring exponentials
-    with proportional exponents are combined. Two such exponentials commute."""
+    """Simplify a product of exponentials. Remove zero exponents, and combine neighbouring exponentials with
+    proportional exponents, because these exponentials commute."""
     kept: list[Row] = []
     for row in rows:
         if kept and _proportional(kept[-1], row, ring):
@@ -173,11 +173,11 @@ def _proportional(x: Row, y: Row, ring: Ring) -> bool:
 
 @dataclass(frozen=True)
 class Composition:
-    """A composition of one basic method with steps gamma_1 h, ..., gamma_s h. The step gamma_1 h is applied
+    """A composition of steps gamma_1 h, ..., gamma_s h of one basic method. The step gamma_1 h is applied
     first.
 
-    ``base`` is ``"symmetric-2"``: the basic method is any symmetric method of order 2. If the composition is
-    converted to a Runge-Kutta method, the basic method is the implicit midpoint rule.
+    The value of ``base`` is ``"symmetric-2"``. It means that the basic method may be any symmetric method of
+    order 2. For the conversion to a Runge-Kutta method, the basic method is the implicit midpoint rule.
     """
 
     base: str
@@ -195,7 +195,8 @@ class Composition:
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
         """Return the diagonally implicit tableau of the composition of implicit midpoint steps.
 
-        b_i = gamma_i, a_ii = gamma_i/2, a_ij = gamma_j for j < i (Lemma 3.5.4 of Bogfjellmo and Marthinsen).
+        The coefficients are b_i = gamma_i, a_ii = gamma_i/2, and a_ij = gamma_j for j < i (Lemma 3.5.4 of
+        Bogfjellmo and Marthinsen).
         """
         half = ring.rational(1, 2)
         A = tuple(
@@ -207,7 +208,7 @@ class Composition:
 
 @dataclass(frozen=True)
 class Embedded:
-    """A second row of weights, of lower ``order``, for an estimate of the local error."""
+    """A second row of weights, of order ``order``, for an estimate of the local error."""
 
     b: Row
     order: int
@@ -219,7 +220,7 @@ class Embedded:
 
 @dataclass(frozen=True)
 class EmbeddedUpdate:
-    """A second update of a commutator-free method. It has lower ``order`` and uses the same stages."""
+    """A second update of a commutator-free method, with the same stages and of order ``order``."""
 
     update: Stage
     order: int

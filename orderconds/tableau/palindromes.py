@@ -1,14 +1,12 @@
-"""Symmetry of commutator-free methods: a symmetric method is unchanged if its exponentials are read
-backwards.
+"""Symmetry of commutator-free methods: their exponentials form a palindrome.
 
-Let a method of s stages map y0 to y1 in a step of length h. A step of length -h from y1 leads back to y0
-under two conditions. Each condition compares two sequences of exponentials. Before the comparison, the
-coefficients of stages j and s + 1 - j are exchanged in one of the two sequences.
+A method with s stages maps y0 to y1 in a step of length h. The method is symmetric if a step of length -h
+maps y1 back to y0. Two conditions are sufficient. Each condition compares two sequences of exponentials.
+Before the comparison, the coefficients of stages j and s + 1 - j are exchanged in one of the two sequences.
 
-The first condition is that the exponentials of the update, read backwards, form the same sequence. The second
-condition is that, for each i, the exponentials from y1 to stage s + 1 - i are the exponentials from y0 to
-stage i with opposite signs. Neighbouring exponentials whose exponents are multiples of each other count as
-one exponential.
+First, the exponentials of the update, read backwards, form the same sequence. Second, for each i, the
+exponentials from y1 to stage s + 1 - i are the exponentials from y0 to stage i with opposite signs.
+Neighbouring exponentials with proportional exponents count as one exponential.
 """
 
 from __future__ import annotations
@@ -20,8 +18,8 @@ from orderconds.tableau.methods import CommutatorFree, Row
 
 
 def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
-    """Return True if a method is symmetric. Return None if the coefficients are balls that are too wide to
-    decide. A symmetry that needs a permutation of the stages is not recognised.
+    """Return True if a method is symmetric. Return None if the coefficients are balls (intervals) that are
+    too wide to decide. A symmetry that needs a permutation of the stages is not recognised.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]
@@ -56,9 +54,8 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
-    """Return the reduced form of a product of exponentials, which is an equal product. Neighbouring
-    exponentials with proportional exponents are replaced by one exponential, whose exponent is the sum of the
-    exponents. Zero exponents are removed."""
+    """Simplify a product of exponentials without changing its value. Replace neighbouring exponentials with
+    proportional exponents by one exponential, and remove zero exponents."""
     reduced: list[Row] = []
     for row in rows:
         total = row
@@ -70,8 +67,8 @@ def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
 
 
 def _parallel(x: Row, y: Row, ring: Ring) -> bool:
-    # A faster test comes first, because the test of all 2 x 2 minors is slow: two rows are not parallel if
-    # each of them has a non-zero entry where the other row has a zero.
+    # The test of all 2 x 2 minors is slow, so a faster test comes first. Two rows are not parallel if each
+    # row has a non-zero entry where the other row has a zero.
     zeros = [(ring.is_zero(u), ring.is_zero(v)) for u, v in zip(x, y, strict=True)]
     if (False, True) in zeros and (True, False) in zeros:
         return False

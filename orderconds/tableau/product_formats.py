@@ -1,4 +1,4 @@
-"""The formats of products of flows and exponentials: compositions, splittings, Magnus methods."""
+"""The file formats of compositions, splitting methods and Magnus methods."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ from orderconds.tableau.products import AdjointComposition, Magnus, Method, Spli
 
 
 class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "composition"``: a composition of basic steps. The file contains either the steps gamma of a
-    symmetric basic method of order 2, or the steps alpha of any basic method and the steps beta of its
-    adjoint."""
+    """The format ``family = "composition"``: a composition of basic steps. The file contains either gamma, or
+    alpha and beta. The numbers gamma are steps of a symmetric basic method of order 2. The numbers alpha are
+    steps of any basic method, and beta are steps of its adjoint."""
 
     base: Literal["symmetric-2", "adjoint-pair"]
     gamma: list[Coefficient] | None = None
@@ -48,8 +48,8 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
         return {"base": "symmetric-2" if "gamma" in names else "adjoint-pair"}
 
     def verify(self, where: str) -> None:
-        """Check that the file contains gamma for the base ``symmetric-2``, or alpha and beta of the same
-        length for the base ``adjoint-pair``."""
+        """Check the keys: gamma for the base ``symmetric-2``, or alpha and beta of equal length for
+        ``adjoint-pair``."""
         pair = self.base == "adjoint-pair"
         for key, row in (("gamma", self.gamma), ("alpha", self.alpha), ("beta", self.beta)):
             if (row is None) is (pair is (key != "gamma")):
@@ -87,8 +87,9 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "splitting"``: a product of flows of the named parts of a vector field. The optional key
-    ``rkn`` names one of two parts, V. It states that [V,[V,[V,T]]] = 0, where T is the other part."""
+    """The format ``family = "splitting"``: a product of flows of parts of a vector field. ``parts`` contains
+    the names of the parts. The optional key ``rkn`` is the name of one of two parts. If this part is V and
+    the other part is T, the key states that [V,[V,[V,T]]] = 0."""
 
     parts: list[str]
     step: list[tuple[str, Coefficient]]
@@ -134,11 +135,12 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "magnus"``: nodes c, and one table for each exponent. The keys of a table are terms, such as
-    nodes or brackets of nodes, and the values are their coefficients. Nodes are counted from 1.
+    """The format ``family = "magnus"``: nodes c, and one table for each exponent. The keys of a table are
+    terms, such as nodes or brackets of nodes, and the values are the coefficients of the terms. Nodes are
+    counted from 1.
 
-    ``elements`` defines Lie elements with names. Later elements and the exponents may contain these names.
-    ``map`` is the map to the group: ``exp`` (exponential) or ``cay`` (Cayley transform).
+    ``elements`` defines named Lie elements. Later elements and the exponents may contain these names. ``map``
+    is the map to the group: ``exp`` (exponential) or ``cay`` (Cayley transform).
     """
 
     c: list[Coefficient]
@@ -208,8 +210,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method. Raises TableauError if an exponent with products is not in the Lie algebra of
-        every quadratic group."""
+        """Return the method. Raises TableauError if an exponent contains products and is not in the Lie
+        algebra of every quadratic group."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -220,8 +222,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # A bracket of two elements of a Lie algebra is again in the Lie algebra. A product of two elements
-        # need not be in the Lie algebra, so combinations of products are verified.
+        # A bracket of two elements of a Lie algebra is always in the Lie algebra, but a product need not be.
+        # Verify combinations of products.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():

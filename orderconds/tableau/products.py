@@ -1,4 +1,4 @@
-"""Methods that are products of flows or of exponentials of Lie elements: splittings, compositions, Magnus.
+"""Splittings, compositions and Magnus methods: products of flows or of exponentials of Lie elements.
 
 Each product is stored as a sequence in which the first factor acts first.
 """
@@ -21,11 +21,11 @@ from orderconds.tableau.methods import (
 
 @dataclass(frozen=True)
 class Splitting:
-    """A splitting method, which is a product of flows of the parts of a vector field. The step (k, x) is the
-    flow of part k over the time x h.
+    """A splitting method: a product of flows of the parts of a vector field. An entry (k, x) of ``steps`` is
+    the flow of part k over the time x h, where h is the step size.
 
     ``parts`` contains the names of the parts. For two parts T and V with [V,[V,[V,T]]] = 0
-    (Runge-Kutta-Nystroem), ``rkn`` is the index of V in ``parts``; otherwise it is None.
+    (Runge-Kutta-Nystroem), ``rkn`` is the index of V in ``parts``. Otherwise ``rkn`` is None.
 
     >>> Splitting(("T", "V"), ((0, 1), (1, 1)), rkn=1).s
     2
@@ -47,11 +47,10 @@ class Splitting:
 
 @dataclass(frozen=True)
 class AdjointComposition:
-    """A composition of any basic method Phi and its adjoint Phi*, with steps beta_1 h, alpha_1 h, ...,
-    alpha_s h.
+    """A composition of a basic method Phi and its adjoint Phi*. Phi may be any method.
 
-    One step is Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}, where Phi*_{beta_1 h}
-    acts first (HLW, Section II.4).
+    One step of size h is Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}. The rightmost
+    factor acts first (HLW, Section II.4).
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -66,7 +65,7 @@ class AdjointComposition:
 
     @property
     def s(self) -> int:
-        """The number of pairs."""
+        """The number of pairs (alpha_i, beta_i)."""
         return len(self.alpha)
 
     def map(self, convert: Convert) -> AdjointComposition:
@@ -75,22 +74,22 @@ class AdjointComposition:
         return AdjointComposition(alpha, beta)
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the composition as a Runge-Kutta tableau, where Phi is the explicit Euler method and Phi* is
-        the implicit Euler method.
+        """Return the Runge-Kutta tableau for the explicit Euler method Phi and the implicit Euler method
+        Phi*.
 
-        Phi_{alpha h} Phi*_{beta h} evaluates f at only one argument, which is the stage of this pair. Hence
-        b_i = beta_i + alpha_i, a_ii = beta_i, a_ij = b_j for j < i (HLW, Section II.4).
+        Each pair Phi_{alpha_i h} Phi*_{beta_i h} evaluates the vector field at only one point, which is stage
+        i. Hence b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section II.4).
         """
         b = tuple(y + x for x, y in zip(self.alpha, self.beta, strict=True))
         A = tuple((*b[:i], y, *((ring.zero,) * (self.s - i - 1))) for i, y in enumerate(self.beta))
         return RungeKutta(A, b)
 
     def as_splitting(self) -> Splitting:
-        """Return the composition as a splitting into two parts. Phi is the flow of part 0 followed by the
-        flow of part 1, and Phi* is the flow of part 1 followed by the flow of part 0.
+        """Return the composition as a splitting into two parts 0 and 1. Phi is the flow of part 0, followed
+        by the flow of part 1. Phi* is the flow of part 1, followed by the flow of part 0.
 
-        Neighbouring flows of the same part are combined into one flow. The splitting has the same order as
-        the composition (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
+        Neighbouring flows of the same part are combined. The splitting has the same order as the composition
+        (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
         """
         steps: list[tuple[int, Element]] = []
         for x, y in zip(self.alpha, self.beta, strict=True):
@@ -102,17 +101,18 @@ class AdjointComposition:
 
 
 MOST_WORDS = 10_000
-"""The brackets in the exponents of a Magnus method are expanded only if the expansion contains at most this
-number of products of nodes."""
+"""The exponents of a Magnus method are expanded only if the expansion has at most this number of products of
+nodes."""
 
 
 @dataclass(frozen=True)
 class Magnus:
-    """A method for Y' = A(t) Y: a product of exponentials of combinations of brackets of A_i = h A(c_i h).
+    """A Magnus method for Y' = A(t) Y: a product of exponentials. The exponents are combinations of brackets
+    of A_i = h A(c_i h), where h is the step size and c_i are the nodes.
 
-    ``exponents`` are combinations of brackets; the exponential of the first combination acts first.
-    ``elements`` are pairs of a name and a Lie element; later elements and the exponents may contain the name.
-    ``transform`` is ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1 (1 + x/2).
+    The exponential of the first entry of ``exponents`` acts first. ``elements`` contains pairs of a name and
+    a Lie element. Later elements and the exponents may contain the name. ``transform`` is ``"exp"``, or
+    ``"cay"`` for the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     >>> from orderconds.ring import QQ
     >>> Magnus((QQ.rational(1, 2),), (((0, QQ.one),),)).is_commutator_free(QQ)
@@ -143,28 +143,28 @@ class Magnus:
         )
 
     def words(self, ring: Ring) -> tuple[NodeSeries, ...]:
-        """Return each exponent as a combination of words of nodes. The nodes are counted from 0, and the
-        first node of a word acts first: (i, j) denotes the product A_j A_i."""
+        """Return each exponent as a combination of words of nodes. Nodes are counted from 0. The first node
+        of a word acts first. For example, (i, j) denotes the product A_j A_i."""
         named: dict[str, NodeSeries] = {}
         for name, combination in self.elements:
             named[name] = expand(combination, named, ring)
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
     def extents(self) -> tuple[tuple[int, int], ...]:
-        """Return two numbers for each exponent: the least and the greatest number of factors in the products
-        of nodes to which the exponent expands."""
+        """Return the least and the greatest number of factors in the expansion of each exponent into products
+        of nodes."""
         extent = extents(dict(self.elements))
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Return True if the exponents expand to at most :data:`MOST_WORDS` products of nodes, so that
-        :meth:`words` is fast enough."""
+        """Return True if :meth:`words` is fast enough: the expansions have at most :data:`MOST_WORDS`
+        products of nodes."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Return True if every exponent is a linear combination of the A_i, without brackets. Return False
-        also if the exponents contain too many products to expand."""
+        """Return True if every exponent is a linear combination of the A_i, without brackets. Return False if
+        there is a bracket, or if the exponents have too many products to expand."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)
@@ -179,4 +179,4 @@ Method = (
     | Splitting
     | Magnus
 )
-"""The kinds of methods in a tableau."""
+"""The types of methods that a tableau may contain."""

@@ -1,7 +1,7 @@
 """Properties of a tableau, computed from its coefficients.
 
-Each property is True or False. It is None if it cannot be decided, for example because the coefficients are
-balls (intervals) that are too wide.
+Each property is True, False, or None if undecided. For example, a property is undecided if the coefficients
+are balls (intervals) that are too wide.
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
     """Return the properties that are defined for this tableau, in the order of
     :data:`orderconds.tableau.method_properties.PROPERTIES`.
 
-    For a commutator-free method these are ``explicit``, ``symmetric``, ``fsal`` and ``low_storage``.
+    For example, a commutator-free method has the properties ``explicit``, ``symmetric``, ``fsal`` and
+    ``low_storage``.
 
     >>> from orderconds.tableau import Tableau
     >>> midpoint = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]')
@@ -57,11 +58,12 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
 
 
 def low_storage(tableau: Tableau) -> Rewriting | None:
-    """Return the scheme with two registers (2N) that is equal to the method, or the reason why there is none.
-    Return None for a method that is neither a tableau (A, b) nor a commutator-free method.
+    """Return the equivalent scheme with two registers (2N), or the reason why there is none. Return None for
+    a method that is neither a Runge-Kutta nor a commutator-free method.
 
-    If balls are too wide to decide and the file has a ``[proof]``, random numbers replace the rounded
-    decimals. If the method with random numbers is a 2N scheme, ``holds`` of the result is True.
+    Rounded decimals may be too wide intervals to decide. If the file has a table ``[proof]``, random numbers
+    then replace the decimals. If the method with random numbers is a 2N scheme, ``holds`` of the result is
+    True.
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
@@ -90,7 +92,7 @@ def _low_storage(tableau: Tableau) -> dict[str, Verdict]:
 
 
 def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, str]:
-    """Return the names of the undecided properties, each with the reason why it is undecided.
+    """Return a map from each undecided property to the reason why it is undecided.
 
     >>> from orderconds.tableau import Tableau
     >>> rounded = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]')
@@ -106,7 +108,8 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
     """Return True if the method is symmetric for all values of its rounded decimals. The test replaces the
-    decimals by random numbers. If the test fails, or if the file has no ``[proof]``, the result is None."""
+    decimals by random numbers. The result is None if the test fails, or if the file has no table
+    ``[proof]``."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember
@@ -129,8 +132,8 @@ def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     """Return the properties of a composition of midpoint rules.
 
-    A composition of midpoint rules is symplectic and diagonally implicit. It is symmetric if the list of its
-    steps is equal to the reversed list.
+    A composition of midpoint rules is always symplectic and diagonally implicit. It is symmetric if its steps
+    form a palindrome.
     """
     gamma = method.gamma
     verdicts = {
@@ -143,8 +146,8 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
 
 
 def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:
-    """Return True if a method is first-same-as-last: the first stage is the start value, and the last stage
-    is equal to the update."""
+    """Return True if a method is first-same-as-last. The first stage is then the start value, and the last
+    stage equals the update."""
     first = [x for row in method.from_start(method.stages[0]) for x in row]
     starts = all(ring.is_zero(x) is True for x in first)
     return method.s > 1 and starts and method.same_update(method.stages[-1], ring)

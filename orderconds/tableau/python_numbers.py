@@ -1,5 +1,5 @@
-"""Conversion of Python numbers to coefficients of a tableau file. The numbers are integers, fractions, texts,
-floats, SymPy numbers, and rows of them.
+"""Conversion of Python numbers to coefficients of a tableau file. Integers, fractions, texts, floats, SymPy
+numbers, and rows of such numbers are accepted.
 
 A float is converted to the text of a double (:mod:`orderconds.tableau.doubles`). A text must satisfy the
 grammar of tableau files. Error messages name the wrong entry, such as ``A[2][1]``, with indices that count
@@ -40,10 +40,11 @@ class _Narrow(Protocol):
 
 
 def coefficient(x: object, where: str) -> Coefficient:
-    """Return a number as the coefficient of a tableau file.
+    """Convert a number to a coefficient of a tableau file.
 
-    A NumPy float of less than 64 bits becomes a rounded decimal (``~``), unless its denominator is small.
-    Raises TableauError for complex numbers, infinities, NaN, truth values and objects that are not numbers.
+    A NumPy float of less than 64 bits becomes an exact number if its denominator is small, and a rounded
+    decimal (``~``) otherwise. Raises TableauError for complex numbers, infinities, NaN, truth values and
+    objects that are not numbers.
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]
@@ -70,7 +71,7 @@ def coefficient(x: object, where: str) -> Coefficient:
 
 
 def _of_a_package(x: object, where: str) -> Coefficient:
-    """Return a number of NumPy, SymPy or python-flint as a coefficient."""
+    """Convert a number of NumPy, SymPy or python-flint to a coefficient."""
     package = type(x).__module__.partition(".")[0]
     if isinstance(x, numbers.Complex) and not isinstance(x, numbers.Real):
         raise TableauError(f"the complex number {x}", where=where, expected="a real number")
@@ -87,8 +88,8 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
-    """Return a floating-point number of less than 64 bits as a coefficient. The coefficient is exact if its
-    denominator is small; otherwise it is a decimal rounded to ``digits`` significant digits."""
+    """Convert a floating-point number of less than 64 bits to a coefficient. The coefficient is exact if its
+    denominator is small. Otherwise it is a decimal with ``digits`` significant digits."""
     text = double_text(x, where)
     if Fraction(x).denominator <= SMALL:
         return text
@@ -96,7 +97,7 @@ def _rounded(x: float, digits: int, where: str) -> Coefficient:
 
 
 def _of_sympy(x: object, where: str) -> Coefficient:
-    """Return a real number of SymPy as a coefficient; floats of SymPy become doubles."""
+    """Convert a real number of SymPy to a coefficient. Floats of SymPy become doubles."""
     import sympy
 
     if not isinstance(x, sympy.Expr) or x.free_symbols:
@@ -114,7 +115,7 @@ def _of_sympy(x: object, where: str) -> Coefficient:
 
 
 def row(values: object, where: str) -> list[Coefficient]:
-    """Return the coefficients of a sequence of numbers. Error messages call the sequence ``where``.
+    """Convert a sequence of numbers to coefficients. Error messages name the sequence ``where``.
 
     >>> row((0, 0.5, "1/2"), "b")
     [0, '0.5', '1/2']
@@ -123,8 +124,7 @@ def row(values: object, where: str) -> list[Coefficient]:
 
 
 def matrix(values: object, where: str) -> list[list[Coefficient]]:
-    """Return the coefficients of a matrix, given by rows of numbers. Error messages call the matrix
-    ``where``.
+    """Convert the rows of a matrix to coefficients. Error messages name the matrix ``where``.
 
     >>> matrix([[], [0.5]], "A")
     [[], ['0.5']]

@@ -1,13 +1,13 @@
-"""A random method over Q: the method of a tableau file, in which random numbers replace the rounded decimals
-and the radicals.
+"""Random methods over Q: random numbers replace the rounded decimals and the radicals of a tableau file.
 
 If an identity holds for the random numbers, it holds for all values of the decimals, except with negligible
-probability. The reason is a theorem. Let each coordinate of a point be drawn at random from 2^128 numbers.
-Two different rational functions of degree at most D then have the same value at this point with probability
-at most D / 2^128 (Schwartz 1980; Zippel 1979). The random numbers are computed from a digest of all
-coefficients in the file. A change of a coefficient changes all random numbers. Hence nobody can construct a
-file for which the test gives a wrong result. All computations are exact computations with rational numbers,
-not computations modulo primes.
+probability. This follows from a theorem of Schwartz (1980) and Zippel (1979). Let each coordinate of a point
+be drawn at random from 2^128 numbers. Two different rational functions of degree at most D then have the same
+value at this point with probability at most D / 2^128.
+
+The random numbers are computed from a digest of all coefficients in the file. A change of one coefficient
+changes all random numbers. Hence nobody can construct a file for which the test gives a wrong result. The
+arithmetic is exact, with rational numbers.
 """
 
 from __future__ import annotations
@@ -27,17 +27,16 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""The number of bits of a random number. A test of an identity of degree D gives a wrong result with
-probability at most D / 2^128. The degree D is far below 2^40, because the size of all intermediate values is
-limited."""
+"""Bits of a random number. A test of an identity of degree D fails with probability at most D / 2^128. D is
+far below 2^40, because the size of all intermediate values is limited."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
-"""The errors that are raised if a random method cannot be evaluated, because numbers grow too large or a
-divisor is zero."""
+"""Errors that are raised if a random method cannot be evaluated: numbers grow too large, or a divisor is
+zero."""
 
 
 class RandomMember(Rationals):
-    """The field Q, with a random number for each decimal and each radical of a file."""
+    """The field Q, with a random number in place of each rounded decimal and each radical of a file."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws | None = None) -> None:
         self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))
@@ -47,7 +46,7 @@ class RandomMember(Rationals):
         return self._drawn(f"decimal {constant.value} {constant.unit}")
 
     def root(self, x: fmpq, index: int) -> fmpq:
-        """Return the random number that replaces the root of x with this index."""
+        """Return the random number that replaces the root of x of degree ``index``."""
         return self._drawn(f"root {index} {x}")
 
     def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> fmpq:
@@ -79,8 +78,8 @@ class RandomMember(Rationals):
 
 
 def description(symbolic: SymbolicCoefficients) -> str:
-    """Return a text that contains all coefficients and named numbers of a file, as parsed expressions. The
-    random numbers are computed from a digest of this text.
+    """Return a text with all coefficients and named numbers of a file, from which the random numbers are
+    computed.
 
     >>> from orderconds.tableau import Tableau
     >>> file = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]').file
@@ -91,7 +90,7 @@ def description(symbolic: SymbolicCoefficients) -> str:
 
 
 def radicals(symbolic: SymbolicCoefficients) -> tuple[Power, ...]:
-    """Return the different radicals in a file. A radical is a power with an exponent that is not an integer.
+    """Return the different radicals in a file. A radical is a power with a non-integer exponent.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["sqrt(3)"]\\nnumbers.a = "0.5~*sqrt(3)"\\n'

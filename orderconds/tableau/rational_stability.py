@@ -1,7 +1,7 @@
-"""A- and L-stability for rational coefficients, with flint's polynomials and certified roots.
+"""A- and L-stability for rational coefficients, with polynomials and certified roots of the Flint library.
 
-The criteria are the same as in :mod:`orderconds.tableau.stability`. The computation with rational numbers is
-fast enough for methods with a hundred stages.
+The criteria are the same as in :mod:`orderconds.tableau.stability`. This version is fast enough for methods
+with a hundred stages.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ Rows = Sequence[Sequence[fmpq]]
 
 
 def determinant(A: Rows) -> fmpq_poly:
-    """Return det(I - zA), the characteristic polynomial of A with its coefficients in reverse order.
+    """Return det(I - zA) as a polynomial in z.
 
     >>> determinant([[fmpq(1), fmpq(2)], [fmpq(0), fmpq(3)]])
     3*x^2 + (-4)*x + 1
@@ -23,9 +23,8 @@ def determinant(A: Rows) -> fmpq_poly:
 
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
-    """Return two truth values: whether P/Q is A-stable, and whether P/Q is L-stable. P and Q are the
-    numerator and the denominator of the stability function. Return None if a pole is on the imaginary axis,
-    or too near the axis to decide.
+    """Decide whether the stability function P/Q is A-stable, and whether it is L-stable. Return None if a
+    pole is on the imaginary axis, or too near the axis to decide.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))
     ((True, True), (True, False))
@@ -46,15 +45,15 @@ def _poles_right(Q: fmpq_poly) -> bool | None:
 
 
 def _modulus(p: fmpq_poly) -> fmpq_poly:
-    """Return |p(iy)|^2 as a polynomial in y^2."""
+    """Return |p(iy)|^2 as a polynomial in y^2, for real y."""
     signed = [x if k % 4 < 2 else -x for k, x in enumerate(p.coeffs())]
     real, imaginary = fmpq_poly(signed[0::2]), fmpq_poly(signed[1::2])
     return real * real + fmpq_poly([0, 1]) * imaginary * imaginary
 
 
 def _nowhere_negative(E: fmpq_poly) -> bool:
-    """Return True if E(x) >= 0 for all x >= 0. The test uses that the Flint library returns each real root
-    with an imaginary part of exactly zero."""
+    """Return True if E(x) >= 0 for all x >= 0. The Flint library returns real roots with an imaginary part of
+    exactly zero."""
     if E == 0:
         return True
     if E.leading_coefficient() < 0:

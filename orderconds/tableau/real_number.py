@@ -1,4 +1,4 @@
-"""Coefficients as a user of Python sees them: fractions, floats, and real numbers with an exact text."""
+"""Coefficients in the Python interface: fractions, floats, and real numbers with an exact text."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RealNumber:
-    """A real number that is not given as a fraction. ``text`` is the number in the grammar of tableau files,
-    and ``nearest`` is the nearest double.
+    """A real coefficient that is not a rational number. ``text`` is the number in the grammar of tableau
+    files, and ``nearest`` is the nearest double.
 
-    ``float(x)`` returns the nearest double. Therefore NumPy can convert arrays of such numbers:
+    ``float(x)`` returns the nearest double. NumPy can therefore convert a matrix of coefficients by
     ``numpy.array(tableau.A, dtype=float)``.
 
     >>> root = RealNumber("sqrt(3)/6", 0.28867513459481287)
@@ -45,7 +45,7 @@ class RealNumber:
         return f"${to_latex(self.text)}$"
 
     def _sympy_(self) -> sympy.Expr:
-        """Return the number for ``sympy.sympify``; a rounded decimal becomes a Float."""
+        """Convert the number for ``sympy.sympify``. A rounded decimal becomes a SymPy Float."""
         import sympy
 
         if "~" in self.text:
@@ -54,13 +54,13 @@ class RealNumber:
 
 
 Value = Fraction | float | RealNumber
-"""A coefficient: a Fraction if it is an exact rational number in its ring; otherwise a float if the tableau
-contains doubles, else a RealNumber."""
+"""A coefficient in the Python interface. An exact rational number is a Fraction. All other numbers are floats
+if the tableau contains doubles, and RealNumbers otherwise."""
 
 
 def value_of(x: Element, ring: Ring, doubles: bool = False) -> Value:
-    """Return an element of a ring as a value for a Python user. An exact rational number in the ring becomes
-    a Fraction. Every other element becomes a float if ``doubles`` is true, otherwise a :class:`RealNumber`.
+    """Convert an element of a ring to a value for Python users. An exact rational number becomes a Fraction.
+    All other elements become floats if ``doubles`` is true, and :class:`RealNumber` objects otherwise.
 
     >>> from orderconds.ring import QQ
     >>> value_of(QQ.one / 2, QQ)

@@ -1,4 +1,4 @@
-"""Recognise compositions of implicit midpoint steps in plain arrays A, b."""
+"""Recognition of Butcher tableaux that are compositions of implicit midpoint steps."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from orderconds.tableau.record import Tableau
 
 
 def as_composition(tableau: Tableau) -> Tableau | None:
-    """Return a tableau (A, b) as a composition of implicit midpoint rules with steps b_i, or None if the
+    """Return a tableau (A, b) as a composition of implicit midpoint steps of sizes b_i h. Return None if the
     tableau is not such a composition.
 
-    A tableau is such a composition if a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo
-    and Marthinsen, Lemma 3.5.4). Rounded decimals need to satisfy these equations only up to their last
-    digits; the composition then agrees with the tableau to these digits.
+    The conditions are a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo and Marthinsen,
+    Lemma 3.5.4). Rounded decimals need to satisfy these equations only up to their last digits. The
+    composition then agrees with the tableau to these digits.
 
     >>> from orderconds.tableau import find
     >>> jump = Tableau.load(find("triple_jump"))

@@ -1,4 +1,4 @@
-"""The tableau: the coefficients of a method over one ring, with their source and the claims of the file."""
+"""The class Tableau: the coefficients of a method, with their source and the claims of the file."""
 
 from __future__ import annotations
 
@@ -39,10 +39,11 @@ from orderconds.tableau.write import as_data
 
 @dataclass(frozen=True, repr=False)
 class Tableau:
-    """A named method with coefficients in ``ring``; ``family`` is the format of its file: ``rk``, ``prk``,
-    ``cf``, ...
+    """A named method with coefficients in ``ring``. ``family`` is the format of the file, such as ``rk`` or
+    ``cf``.
 
-    :meth:`rk` and :meth:`cf` build a tableau from numbers, :meth:`load` reads a file or the library.
+    :meth:`rk` and :meth:`cf` build a tableau from numbers. :meth:`load` reads a tableau from a file or the
+    library.
 
     >>> heun = Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"], name="heun")
     >>> heun, heun.c, heun.orders["rk"]
@@ -59,10 +60,10 @@ class Tableau:
     embedded: LowerOrder | None = None
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
-    """The equations that the true values of the rounded decimals solve; None if there is no ``[proof]``."""
+    """The equations that the exact values of the rounded decimals solve, or None without a table
+    ``[proof]``."""
     file: File | None = field(default=None, compare=False, repr=False)
-    """The file from which the tableau was read; None if the coefficients differ from the coefficients of the
-    file."""
+    """The file from which the tableau was read, or None if the coefficients were changed after reading."""
     doubles: bool = False
     """True if coefficients were given as binary floats (:mod:`orderconds.tableau.doubles`)."""
 
@@ -79,10 +80,10 @@ class Tableau:
     ) -> Tableau:
         """Return the Runge-Kutta method with the matrix A, which has s rows, and the s weights b.
 
-        Numbers are integers, fractions, texts such as ``"1/4 - sqrt(3)/6"``, numbers of SymPy, or floats; A
-        and b are lists, arrays of NumPy or matrices of SymPy. A float with a small denominator, such as 0.5,
-        is exact; every other float has the uncertainty of a double. ``bhat`` contains s embedded weights; the
-        order of the embedded method is computed. ``c`` must equal the row sums of A. ``claims`` is the
+        A and b are lists, NumPy arrays or SymPy matrices. Their entries are integers, fractions, texts such
+        as ``"1/4 - sqrt(3)/6"``, SymPy numbers, or floats. A float with few significant bits, such as 0.5, is
+        exact. All other floats have the uncertainty of a double. ``bhat`` contains s embedded weights, and
+        the order of the embedded method is computed. ``c`` must equal the row sums of A. ``claims`` is the
         claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``.
 
         Raises :class:`~orderconds.errors.TableauError`, whose message names the wrong entry.
@@ -110,11 +111,11 @@ defined under numbers (none)
     ) -> Tableau:
         """Return the commutator-free method with these stages and this update.
 
-        ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials;
-        the first exponential of a list acts first. An exponential is a row of coefficients, one for each
-        stage; zeros at the end of a row may be left out. ``starts`` maps a stage to the earlier stage from
-        which its product starts, both counted from 1; all other stages start from y0. ``embedded`` is a
-        second update. Numbers are as in :meth:`rk`.
+        ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials.
+        The first exponential of a list acts first. An exponential is a row of coefficients, one for each
+        stage. Zeros at the end of a row may be omitted. By default, the exponentials of a stage act on y0.
+        ``starts`` maps a stage to an earlier stage on which they act instead. Stages are counted from 1.
+        ``embedded`` is a second update. Numbers are given as in :meth:`rk`.
 
         >>> euler_midpoint = Tableau.cf([[], [["1/2"]]], [[0, 1]])
         >>> euler_midpoint.orders["cf"]
@@ -127,7 +128,7 @@ defined under numbers (none)
     def load(path: str | PathLike[str]) -> Tableau:
         """Read a tableau of the library by its name, or a file of any format.
 
-        Raises :class:`orderconds.errors.TableauError`, whose message names the file and the key, and
+        Raises :class:`orderconds.errors.TableauError`, whose message names the file and the key. Raises
         :class:`orderconds.errors.UnknownName` for a name that is not in the library.
 
         >>> Tableau.load("gauss2").A[0]
@@ -160,10 +161,9 @@ defined under numbers (none)
 
     @property
     def A(self) -> tuple[tuple[Value, ...], ...]:
-        """The rows of A. An entry that is an exact rational number in the ring of the tableau is a Fraction.
-        If the tableau contains doubles, every other entry is a float; otherwise it is a
-        :class:`~orderconds.tableau.real_number.RealNumber`. For a commutator-free method, A contains the sums
-        of the coefficients over all exponentials of a stage."""
+        """The rows of A. Exact rational entries are Fractions. All other entries are floats if the tableau
+        contains doubles, and :class:`~orderconds.tableau.real_number.RealNumber` objects otherwise. For a
+        commutator-free method, A contains the sums of the coefficients over all exponentials of a stage."""
         return tuple(self._values(x) for x in self.abelian().A)
 
     @property
@@ -178,15 +178,15 @@ defined under numbers (none)
 
     @property
     def bhat(self) -> tuple[Value, ...] | None:
-        """The embedded weights, of the same types as the entries of :attr:`A`; None if the tableau has no
-        embedded method."""
+        """The embedded weights, of the same types as the entries of :attr:`A`, or None without an embedded
+        method."""
         lower = self.lower()
         return None if lower is None else lower.b
 
     @property
     def extension(self) -> Extension | None:
-        """The continuous extension of the file; None if there is none, or if the coefficients differ from the
-        coefficients of the file."""
+        """The continuous extension of the file. It is None if the file has none, or if the coefficients were
+        changed after reading."""
         return None if self.file is None else self.file.extension
 
     def _values(self, row: Row) -> tuple[Value, ...]:
@@ -194,8 +194,8 @@ defined under numbers (none)
 
     @cached_property
     def orders(self) -> dict[str, int]:
-        """The computed order of the method in each family to which the method belongs. The keys are the
-        labels of the families: ``{"rk": 4, ...}``.
+        """The computed order of the method in each family to which the method belongs, such as ``{"rk": 4,
+        ...}``.
 
         :func:`orderconds.check` also returns certificates and failing conditions.
         """
@@ -211,8 +211,7 @@ defined under numbers (none)
         return f", {self.s} stage" + "s" * (self.s != 1)
 
     def __hash__(self) -> int:
-        # Balls and algebraic numbers have no hash, so the coefficients are not used. Equal tableaux have
-        # equal names and sources, and therefore equal hashes.
+        # Balls and algebraic numbers have no hash, so the hash does not depend on the coefficients.
         return hash((self.name, self.family, self.source, self.bibtex, self.path, self.doubles))
 
     def _repr_latex_(self) -> str:
@@ -222,16 +221,15 @@ defined under numbers (none)
         return tableau_html(self)
 
     def __reduce__(self) -> tuple[Callable[..., Tableau], tuple[object, ...]]:
-        # Objects of python-flint cannot be pickled, so a pickle contains the texts of the coefficients.
+        # Objects of python-flint cannot be pickled. Store the texts of the coefficients instead.
         where = self.path or self.name
         return from_data, (as_data(self), where, self.path)
 
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
         """Return the same method with coefficients in another ring.
 
-        The function ``convert`` converts one coefficient to ``ring``. By default it is the embedding of the
-        tableau's ring in ``ring``. Raises TypeError if there is no embedding
-        (:func:`orderconds.ring.embed.embedding`).
+        ``convert`` converts one coefficient to ``ring``. The default is the embedding of the tableau's ring
+        in ``ring``. Raises TypeError if there is no embedding (:func:`orderconds.ring.embed.embedding`).
         """
         if convert is None:
             from orderconds.ring.embed import embedding
@@ -243,8 +241,8 @@ defined under numbers (none)
         )
 
     def lower(self) -> Tableau | None:
-        """Return the method with the same stages and with the embedded method as its update. Return None if
-        there is no embedded method.
+        """Return the embedded method as a tableau with the same stages, or None if there is no embedded
+        method.
 
         >>> from orderconds.tableau import find
         >>> [str(x) for x in Tableau.load(find("cg3")).lower().method.b]
@@ -260,8 +258,8 @@ defined under numbers (none)
         return replace(self, method=lower, embedded=None, proof=None, file=None)
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
-        """Return the method in the first of these formats in which the method is given or to which it can be
-        converted. Return None if there is no such format.
+        """Convert the method to the first of ``formats`` for which this is possible. Return None if there is
+        no such format.
 
         A composition of a symmetric method can be converted to ``rk`` as a composition of midpoint rules. A
         composition of an adjoint pair can be converted to ``rk`` as a composition of Euler methods, and to
@@ -276,8 +274,8 @@ defined under numbers (none)
         return None
 
     def abelian(self) -> RungeKutta:
-        """Return the Runge-Kutta tableau of this method on an abelian group; for a partitioned pair, the
-        tableau of its first part.
+        """Return the Runge-Kutta tableau of this method on an abelian group. For a partitioned method, return
+        the tableau of the first part.
 
         Raises :class:`TableauError` for a splitting or a Magnus method.
         """
@@ -297,7 +295,7 @@ defined under numbers (none)
 def load(path: str | Path) -> Tableau:
     """Read the tableau file at ``path``.
 
-    Raises :class:`TableauError` with the file, the key, its value and the expected value.
+    Raises :class:`TableauError`. The message contains the file, the key, the value and the expected value.
 
     >>> from orderconds.tableau import find
     >>> load(find("kutta3")).name
@@ -316,7 +314,7 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
 
 
 def from_data(data: Mapping[str, object], where: str = "<data>", path: str | None = None) -> Tableau:
-    """Return the tableau, given the keys and values of a file as parsed from TOML or JSON.
+    """Return the tableau with these keys and values, parsed from TOML or JSON.
 
     >>> from_data({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}).method
     RungeKutta(A=((0,),), b=(1,))
@@ -339,7 +337,7 @@ def from_data(data: Mapping[str, object], where: str = "<data>", path: str | Non
 
 
 def _exists(path: Path) -> bool:
-    """Return True if a file or folder has this name. For a name that is too long, the result is False."""
+    """Return True if a file or folder with this path exists. Return False for a path that is too long."""
     try:
         return path.exists()
     except OSError:
@@ -347,8 +345,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that the keys in ``data`` define. If it has an embedded method, the order of this
-    method on vector spaces is computed and stored as its claimed order."""
+    """Return the tableau that the keys in ``data`` define. For an embedded method, compute the order on
+    vector spaces and store it as the claimed order."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:
@@ -362,9 +360,8 @@ def _with_embedded_order(data: Data, name: str) -> Tableau:
 
 
 def _above(module: str) -> ModuleType:
-    """Return a module of a layer above this one. Python users call most functions of the package through
-    :class:`Tableau`. Therefore a few methods of this class need functions of higher layers, which this module
-    cannot import at its start."""
+    """Import a module of a higher layer. A few methods of :class:`Tableau` need such modules, and an import
+    at the top of this file would be circular."""
     return import_module(f"orderconds.{module}")
 
 
@@ -377,5 +374,4 @@ def _flows(method: Method, ring: Ring) -> Method | None:
 
 
 READINGS: dict[str, Callable[[Method, Ring], Method | None]] = {"rk": _composed, "splitting": _flows}
-"""For each file format, a function that converts a method to this format. It returns None if there is no such
-conversion."""
+"""Functions that convert a method to a file format. They return None if there is no conversion."""

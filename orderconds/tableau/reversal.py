@@ -1,15 +1,13 @@
-"""Symmetry of Magnus methods: a method is symmetric if a step of length -h undoes a step of length h.
+"""Symmetry of Magnus methods: a step of length -h undoes a step of length h.
 
-Let A_i = h A(c_i h) be the value at node i of s nodes c_i that are symmetric about 1/2. In the step of length
--h from the end point, the value at node i is -A_{s+1-i}. This reverse step undoes the step of length h under
-one condition: for each k, the substitution of -A_{s+1-i} for A_i changes the k-th exponent to the negative of
-the k-th exponent from the end.
+The method for Y' = A(t) Y has s nodes c_i that are symmetric about 1/2. Let A_i = h A(c_i h). In the reverse
+step of length -h, the value at node i is -A_{s+1-i} instead of A_i. The method is symmetric if this
+substitution changes the k-th exponent to the negative of the k-th exponent from the end, for each k.
 
-A combination of the A_i is called odd if this substitution changes its sign, and even if it does not change
-the combination. The parity of a bracket or product follows from the parities of its factors. If a method has
-only one exponent and this exponent is odd, the condition is satisfied, and the method is recognised as
-symmetric without expansion of nested brackets. In all other cases exponents are compared as combinations of
-products of nodes.
+A combination of the A_i is called odd if the substitution changes its sign, and even if the combination does
+not change. The parity of a bracket or product follows from the parities of its factors. A method with only
+one exponent is symmetric if this exponent is odd. This test needs no expansion of brackets. In all other
+cases, the exponents are expanded into products of nodes and compared.
 """
 
 from __future__ import annotations
@@ -22,8 +20,8 @@ from orderconds.tableau.products import Magnus
 
 
 def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
-    """Return True if a method is symmetric. Return None if balls are too wide to decide, or if there are too
-    many brackets to expand.
+    """Return True if a method is symmetric. Return None if intervals are too wide to decide, or if there are
+    too many brackets to expand.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -48,8 +46,8 @@ def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
 
 
 def sign(method: Magnus, ring: Ring) -> int | None:
-    """Return the parity of the first exponent under the substitution A_i -> -A_{s+1-i}: -1 if the exponent is
-    odd, 1 if it is even, None if it is neither or if this is undecided.
+    """Return the parity of the first exponent under the substitution A_i -> -A_{s+1-i}: -1 for odd, and 1 for
+    even. Return None if the parity is neither or undecided.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

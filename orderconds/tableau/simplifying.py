@@ -12,8 +12,7 @@ from orderconds.tableau.methods import RungeKutta
 
 
 def simplifying_order(B: int, C: int, D: int) -> int:
-    """Return the order that the assumptions B(p), C(q), D(r) imply. The arguments B, C, D are the numbers p,
-    q, r.
+    """Return the order that B(p), C(q) and D(r) imply. The arguments B, C and D are the numbers p, q and r.
 
     >>> simplifying_order(6, 3, 2), simplifying_order(10, 5, 5)
     (6, 10)
@@ -22,12 +21,13 @@ def simplifying_order(B: int, C: int, D: int) -> int:
 
 
 def simplifying(method: RungeKutta, ring: Ring, assumptions: Mapping[str, int]) -> Iterator[Element]:
-    """Yield the left-hand side minus the right-hand side of each equation of B(p), C(q) and D(r). The mapping
-    ``assumptions`` contains p, q, r under the keys B, C, D. The number k runs from 1 to p in B, from 1 to q
-    in C, and from 1 to r in D.
+    """Yield the residuals of the equations of B(p), C(q) and D(r), which are listed below. The mapping
+    ``assumptions`` contains p, q and r under the keys B, C and D. The exponent k runs from 1 to p in B, from
+    1 to q in C, and from 1 to r in D.
 
-    B: sum_i b_i c_i^(k-1) = 1/k; C: sum_j a_ij c_j^(k-1) = c_i^k/k (k = 1 is omitted, because this equation
-    defines c); D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k.
+    - B: sum_i b_i c_i^(k-1) = 1/k.
+    - C: sum_j a_ij c_j^(k-1) = c_i^k/k. The equation for k = 1 defines c and is omitted.
+    - D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -56,7 +56,7 @@ def _dot(x: Sequence[Element], y: Sequence[Element], ring: Ring) -> Element:
 
 
 def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
-    """Return the highest m with 2m <= ``order`` for which C(m) and D(m) hold.
+    """Return the largest m with 2m <= ``order`` for which C(m) and D(m) hold.
 
     >>> from orderconds.tableau.collocation import construct
     >>> radau = construct("radau2a", 3)
@@ -77,8 +77,8 @@ def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
 
 
 def _simplifies(algebra: NodalAlgebra, m: int) -> bool:
-    """Return True if C(m) and D(m) hold. In ``algebra``, vectors over the stages are polynomials in the nodes
-    with rational coefficients, so the test needs no other numbers."""
+    """Return True if C(m) and D(m) hold. ``algebra`` represents a vector over the stages as a polynomial in
+    the nodes. The coefficients are rational, so the test is exact."""
     stages = range(int(algebra.modulus.degree()))
     powers = [fmpq_poly([0] * k + [1]) % algebra.modulus for k in range(max(m + 1, len(stages)))]
     for k in range(1, m + 1):

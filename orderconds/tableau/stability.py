@@ -1,11 +1,12 @@
-"""A- and L-stability of a Runge-Kutta tableau, decided from its stability function in exact arithmetic.
+"""A- and L-stability of a Runge-Kutta method, decided in exact arithmetic from the stability function.
 
-R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), where common factors of P and Q are
-removed. The method is A-stable iff every zero of Q has positive real part (Routh) and E(y) = |Q(iy)|^2 -
-|P(iy)|^2, a polynomial in y^2, is nowhere negative (Sturm). It is L-stable iff in addition deg P < deg Q
-(Hairer and Wanner, *Solving Ordinary Differential Equations II*, Sections IV.3 and IV.5). Signs are decided
-in the field of the coefficients. The result is undecided for balls, and for fields in which the computation
-would take too long (:data:`LARGEST`).
+The stability function is R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), where 1 is the
+vector of ones. Common factors of P and Q are removed. The method is A-stable if and only if two conditions
+hold. First, every zero of Q has positive real part (Routh's test). Second, E(y) = |Q(iy)|^2 - |P(iy)|^2, a
+polynomial in y^2, is nowhere negative (Sturm's test). The method is L-stable if and only if, in addition, deg
+P < deg Q (Hairer and Wanner, *Solving Ordinary Differential Equations II*, Sections IV.3 and IV.5). Signs are
+decided in the field of the coefficients. The result is undecided for balls (intervals), and if the
+computation would take too long (:data:`LARGEST`, :data:`EFFORT`).
 """
 
 from __future__ import annotations
@@ -22,18 +23,18 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import RungeKutta
 
 Polynomial = list[Element]
-"""The ascending coefficients of a polynomial. The last coefficient is not zero; the zero polynomial has no
+"""The ascending coefficients of a polynomial. The last coefficient is not zero. The zero polynomial has no
 coefficients."""
 
 
 LARGEST = 100
-"""Stability is decided only if no diagonal block of the block triangular matrix A has more rows than this.
-For a rational block of this size, the computation with flint takes a second."""
+"""Stability is decided only if no diagonal block of the block triangular matrix A has more rows than this
+number. For a rational block of this size, the computation takes a second."""
 
 EFFORT = 10**11
-"""The limit on the work of polynomial operations in the field of the coefficients. The unit of work is the
-multiplication of one bit by one bit; work up to the limit takes about a second. The limit is necessary
-because the coefficients of the remainders in Euclid's algorithm grow fast."""
+"""The limit on the work of polynomial operations, in multiplications of one bit by one bit. Work up to the
+limit takes about a second. The limit is necessary because the coefficients in Euclid's algorithm grow
+fast."""
 
 
 class SignedRing(Ring, Protocol):
@@ -45,15 +46,15 @@ class SignedRing(Ring, Protocol):
 
 class StabilityFunction(Struct, frozen=True):
     """The stability function R = numerator/denominator in lowest terms. Both polynomials are given by their
-    ascending coefficients in an exact field with signs."""
+    ascending coefficients."""
 
     numerator: tuple[Element, ...]
     denominator: tuple[Element, ...]
 
 
 def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
-    """Return ``a_stable`` and ``l_stable``. Both are None if a sign cannot be decided, for example in a
-    tableau of balls, or if the exact computation would take too long.
+    """Return ``a_stable`` and ``l_stable``. Both are None if a sign cannot be decided, for example for balls
+    (intervals), or if the exact computation would take too long.
 
     >>> half, one = QQ.rational(1, 2), QQ.one
     >>> stability(RungeKutta(((half,),), (one,)), QQ)
@@ -62,7 +63,7 @@ def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
     {'a_stable': True, 'l_stable': True}
     """
     if all(ring.is_zero(x) is True for i, row in enumerate(method.A) for x in row[i:]):
-        return {"a_stable": False, "l_stable": False}  # R is a polynomial and therefore unbounded
+        return {"a_stable": False, "l_stable": False}  # R is a polynomial and hence unbounded.
     if any(ring.is_zero(x) is None for row in (*method.A, method.b) for x in row):
         return {"a_stable": None, "l_stable": None}
     try:
@@ -97,8 +98,8 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
     The stability function of the composition is R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
     |R| = 1 on the imaginary axis and at infinity. Hence the composition is never L-stable. A negative gamma_i
-    gives a pole in the left half plane, unless gamma_j = -gamma_i for some j: then the factors of gamma_i and
-    gamma_j cancel.
+    gives a pole in the left half plane. There is one exception: the factors of gamma_i and gamma_j cancel if
+    gamma_j = -gamma_i.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}
@@ -122,13 +123,12 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
 
 
 class _Undecided(Exception):
-    """The error that is raised if a sign cannot be decided, because a ball contains zero or the computation
-    would take too long."""
+    """A sign cannot be decided, because a ball (interval) contains zero or the computation would take too
+    long."""
 
 
 class _Limited:
-    """A number field that counts the work of its operations, and raises an error when the work exceeds a
-    limit."""
+    """A number field that counts the work of its operations, and raises :class:`_Undecided` above a limit."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring, self.left = ring, EFFORT
@@ -137,23 +137,23 @@ class _Limited:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Subtract the cost of an operation from the remaining work. The unit is the multiplication of one
-        bit by one bit."""
+        """Subtract the cost of an operation from the remaining work. The unit is the product of one bit by
+        one bit."""
         self.left -= work
         if self.left < 0:
             raise _Undecided
 
 
 def _bits(x: Element) -> int:
-    """Return the largest number of bits of a rational coefficient of x, an element of Q or of a number field.
-    The bits of the numerator and of the denominator are added."""
+    """Return the number of bits of the largest rational coefficient of x, an element of Q or of a number
+    field. The bits of the numerator and of the denominator are added."""
     coefficients = x.polynomial.coeffs() if hasattr(x, "polynomial") else [x]
     return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
     """Subtract the work of ``count`` products of these numbers from the remaining work. The work of one
-    product is quadratic in the length of the numbers if ``quadratic`` is true, else linear."""
+    product is quadratic or linear in the length of the numbers."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -178,7 +178,8 @@ def _sign(x: Element, ring: SignedRing) -> int:
 
 
 def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
-    """Return R in lowest terms, over an exact field (HW (IV.3.2), (IV.3.3)).
+    """Return the stability function R in lowest terms, over an exact field (Hairer and Wanner II, (IV.3.2),
+    (IV.3.3)).
 
     >>> R = stability_function(RungeKutta(((QQ.rational(1, 2),),), (QQ.one,)), QQ)
     >>> [str(x) for x in R.numerator], [str(x) for x in R.denominator]
@@ -192,8 +193,8 @@ def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
 
 
 def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
-    """Return det(I - zA) by the method of Faddeev and LeVerrier, separately for each diagonal block if A is
-    block triangular."""
+    """Return det(I - zA) as a polynomial in z, by the method of Faddeev and LeVerrier. If A is block
+    triangular, multiply the determinants of the diagonal blocks."""
     result = [ring.one]
     start = 0
     for end in range(1, len(A) + 1):
@@ -224,8 +225,8 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
-    """Return True if every zero of Q has positive real part. This is the case if and only if the first column
-    of Routh's scheme of Q(-z) has no zero and no change of sign.
+    """Return True if every zero of Q has positive real part. Equivalently, the first column of Routh's scheme
+    of Q(-z) has no zero and no change of sign.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
     [True, False]
@@ -244,8 +245,8 @@ def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
 
 def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
     """Return True if |R(iy)| <= 1 for all real y. For R = P/Q, let E be |Q(iy)|^2 - |P(iy)|^2 as a polynomial
-    in x = y^2. The result is True if E is zero, or if its leading coefficient is positive and no zero x > 0
-    has odd multiplicity.
+    in x = y^2. The result is True if E is zero. It is also True if E has a positive leading coefficient and
+    no positive zero of odd multiplicity.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))
@@ -265,7 +266,7 @@ def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
 
 
 def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
-    """Return |p(iy)|^2 = (Re p)^2 + y^2 (Im p / y)^2 as a polynomial in y^2."""
+    """Return |p(iy)|^2 = (Re p(iy))^2 + y^2 (Im p(iy) / y)^2 as a polynomial in y^2."""
     real = [x if k % 2 == 0 else -x for k, x in enumerate(p[0::2])]
     imaginary = [x if k % 2 == 0 else -x for k, x in enumerate(p[1::2])]
     square, rest = _product(real, real, ring), [ring.zero, *_product(imaginary, imaginary, ring)]
@@ -273,7 +274,7 @@ def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
 
 
 def positive_roots(p: Sequence[Element], ring: SignedRing) -> int:
-    """Return the number of distinct positive zeros of p, by Sturm's chain.
+    """Return the number of distinct positive zeros of p, by a Sturm chain.
 
     >>> positive_roots([QQ.rational(x) for x in (2, -3, 1)], QQ)
     2

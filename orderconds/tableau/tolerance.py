@@ -13,8 +13,8 @@ from orderconds.tableau.record import Tableau
 
 
 def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
-    """Return the tableau in which every double x denotes the ball of radius ``units`` 2^-53 max(1, |x|)
-    around x. Other coefficients do not change. If ``units`` is None, the tableau does not change.
+    """Replace every double x by the ball (interval) around x with radius ``units`` 2^-53 max(1, |x|). Other
+    coefficients do not change. If ``units`` is None, nothing changes.
 
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.1d"]]\\nb = ["1"]'
     >>> wide = with_tolerance(Tableau.loads(text), 2**43)
@@ -37,8 +37,8 @@ def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
 
 
 def _scaled(x: Expression, units: Fraction) -> Expression:
-    """Return the expression in which every double x denotes the ball of radius ``units`` 2^-53 max(1, |x|)
-    around x."""
+    """Replace every double x in an expression by the ball around x with radius ``units`` 2^-53 max(1,
+    |x|)."""
     if isinstance(x, Constant):
         return Constant(x.value, radius(x.value, units)) if x.is_double else x
     if isinstance(x, Chain):

@@ -1,5 +1,5 @@
-"""A TOML reader that rejects long dotted keys. For a key with thousands of parts, Python's TOML reader would
-need gigabytes of memory."""
+"""A TOML reader that rejects long dotted keys. Python's TOML reader would need gigabytes of memory for a key
+with thousands of parts."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import tomllib
 from orderconds.tableau.file_format import Data
 
 MAX_PARTS = 24
-"""The maximal number of parts of a dotted key; keys of tableau files have at most two."""
+"""The maximal number of parts of a dotted key. Keys of tableau files have at most two parts."""
 
 _PART = r"(?:[A-Za-z0-9_-]{1,99}+|\"[^\"\n]{0,99}+\"|'[^'\n]{0,99}+')"
 _LONG_KEY = re.compile(rf"(?<![\w.'\"-])(?>{_PART}[ \t]{{0,9}}+\.[ \t]{{0,9}}+){{{MAX_PARTS}}}")
 
 
 def parse_toml(text: str) -> Data:
-    """Return the keys and values. Raises ValueError for invalid TOML, and for a key with too many parts.
+    """Parse TOML text. Raises ValueError for invalid TOML, and for a key with too many parts.
 
     >>> parse_toml('a.b = "1"')
     {'a': {'b': '1'}}

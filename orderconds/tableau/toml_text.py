@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeGuard
 
 WIDTH = 110
-"""The maximal length of a line with a list of lists; a longer list is written with one line for each row."""
+"""The maximal length of a line with a matrix. A longer matrix is written with one line for each row."""
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+", re.ASCII)
 
@@ -31,7 +31,7 @@ def toml_text(data: Mapping[str, object]) -> str:
 
 
 def _entries(table: Mapping[str, object]) -> Iterator[str]:
-    """Yield the lines of those values that have no heading of their own."""
+    """Yield the lines of the values that are written without a heading."""
     for key, value in table.items():
         if not _headed(key, value):
             yield _line(key, value)

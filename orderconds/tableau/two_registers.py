@@ -1,17 +1,18 @@
-"""Schemes with two registers (2N): K <- A_i K + F(Y), Y <- exp(h B_i K) Y, and their recognition in tableaux.
+"""Schemes with two registers (2N), and their recognition in tableaux.
 
-Here F is the vector field and h is the step size. A step stores only the state Y and one element K of the Lie
-algebra (Williamson, J. Comput. Phys. 35 (1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225).
-As a commutator-free method a 2N scheme has one exponential for each stage, and each stage begins where the
-previous stage ended. On a vector space, a 2N scheme is a Runge-Kutta method. Let F_1, ..., F_s be the vector
-field at its stages, and let row s + 1 of its matrix be b. Then row i + 1 minus row i contains the
-coefficients of F_1, ..., F_s in B_i K_i.
+Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y. Here F is the vector field and h is the step
+size. A step stores only the state Y and one element K of the Lie algebra (Williamson, J. Comput. Phys. 35
+(1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). As a commutator-free method, a 2N scheme
+has one exponential for each stage, and each stage begins where the previous stage ended. On a vector space, a
+2N scheme is a Runge-Kutta method. Let F_1, ..., F_s be the vector field at the stages, and K_i the register K
+at stage i. Append b to the matrix as row s + 1. Then row i + 1 minus row i contains the coefficients of F_1,
+..., F_s in B_i K_i.
 
-The recognition compares the increment from each stage to the next, or to the update, with B_i K_i, where K_i
-= F_i + sum_{j < i} A_{j+1} ... A_i F_j. In the increment that begins at stage i, the coefficient of F_i is
-B_i, and A_i is the quotient of the coefficients of F_{i-1} and F_i. If B_i is zero, a later increment gives
-A_i. These quotients use only some of the coefficients. Therefore all increments of the scheme are then
-compared with those of the tableau.
+In a 2N scheme, the increment from stage i to the next stage, or to the update, is B_i K_i with K_i = F_i +
+sum_{j < i} A_{j+1} ... A_i F_j. The recognition computes B_i and A_i from the increments of a tableau. B_i is
+the coefficient of F_i, and A_i is the quotient of the coefficients of F_{i-1} and F_i. If B_i is zero, a
+later increment gives A_i. Finally, all increments of the scheme are compared with the increments of the
+tableau.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from orderconds.tableau.methods import CommutatorFree, Row, RungeKutta, Stage
 
 @dataclass(frozen=True)
 class TwoRegisters:
-    """A 2N scheme: ``A`` and ``B`` have one entry for each stage, and A_1 is zero."""
+    """A 2N scheme. ``A`` and ``B`` have one entry for each stage, and A_1 is zero."""
 
     A: Row
     B: Row
@@ -38,8 +39,8 @@ class TwoRegisters:
         return len(self.B)
 
     def increments(self, ring: Ring) -> tuple[Row, ...]:
-        """Return, for each stage i, the coefficients of B_i K_i as a combination of F_1, ..., F_s. F_j is the
-        vector field at stage j, and K_i is the content of the register K at stage i.
+        """Return the coefficients of F_1, ..., F_s in B_i K_i, for each stage i. F_j is the vector field at
+        stage j, and K_i is the register K at stage i.
 
         >>> from orderconds.ring import QQ
         >>> half, two = QQ.rational(1, 2), QQ.rational(2)
@@ -55,16 +56,17 @@ class TwoRegisters:
         return tuple(rows)
 
     def as_commutator_free(self, ring: Ring) -> CommutatorFree:
-        """Return the scheme as a commutator-free method: stage i + 1 is exp(h B_i K_i) applied to stage i."""
+        """Return the scheme as a commutator-free method, in which stage i + 1 is exp(h B_i K_i) applied to
+        stage i."""
         steps = [Stage(i, (row,)) for i, row in enumerate(self.increments(ring))]
         return CommutatorFree((Stage(None, ()), *steps[:-1]), steps[-1])
 
 
 @dataclass(frozen=True)
 class Rewriting:
-    """The answer to the question whether a method is a 2N scheme. ``holds`` is None if balls are too wide to
-    decide. ``scheme`` is the 2N scheme. If the method is not a 2N scheme, or if a rounded denominator may be
-    zero, ``scheme`` is None and ``reason`` contains the reason."""
+    """Whether a method is a 2N scheme (``holds``), with the 2N scheme (``scheme``). ``holds`` is None if
+    balls (intervals) are too wide to decide. If the method is not a 2N scheme, or if a rounded denominator
+    may be zero, ``scheme`` is None and ``reason`` is the reason."""
 
     holds: Verdict
     scheme: TwoRegisters | None = None
@@ -72,10 +74,10 @@ class Rewriting:
 
 
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
-    """Return the 2N scheme that is equal to ``method``, or the reason why there is none.
+    """Rewrite a method as a 2N scheme, or return the reason why this is impossible.
 
-    A tableau (A, b) needs to be equal to the scheme on vector spaces only, a commutator-free method on every
-    group.
+    A commutator-free method must equal the scheme on every group. A tableau (A, b) must equal the scheme only
+    on vector spaces.
 
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
@@ -103,11 +105,11 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
 
 
 def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | None:
-    """Return the last exponent of the second update if the second update is the update followed by one
-    exponential. Otherwise, return None.
+    """Return the last exponent of ``second`` if ``second`` is the update followed by one exponential.
+    Otherwise, return None.
 
-    Let this exponent be sum_i D_i F_i, where F_i is the vector field at stage i. The second update then needs
-    only one additional register E, to which stage i adds D_i F_i.
+    Let this exponent be sum_i D_i F_i, where F_i is the vector field at stage i. ``second`` then needs only
+    one additional register, to which stage i adds D_i F_i.
 
     >>> from orderconds.tableau import Tableau, find
     >>> pair = Tableau.load(find("cf43"))
@@ -120,8 +122,8 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
 
 
 def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
-    """Return A_i (i counts from 0). In two cases the result is a :class:`Rewriting` with a reason: a
-    denominator is zero and there is no A_i, or a rounded denominator may be zero."""
+    """Return the coefficient A_i of the 2N scheme, where i is counted from 0. Return a :class:`Rewriting`
+    with a reason if there is no A_i, or if a rounded denominator may be zero."""
     above = ""
     for m in range(i, len(rows)):
         denominator = rows[m][i]
@@ -137,14 +139,14 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"the denominator of A_{i + 1} is zero: in the increment of stage {m + 1}, the coefficient "
                 f"of k_{i + 1} is 0, but the coefficient of k_{i} is {ring.text(rows[m][i - 1])}"
             )
-    # At this point, all denominators of A_i are zero. If ``above`` is empty, no increment from number i on is
-    # known to contain F_{i-1}. Then A_i is arbitrary, and zero is returned.
+    # All denominators of A_i are zero. If ``above`` is empty, the increments from stage i on do not contain
+    # F_{i-1}. Then A_i is arbitrary; choose zero.
     return Rewriting(False, reason=above) if above else ring.zero
 
 
 def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
     """Compare the increments of the scheme with ``rows``, the increments of the method. Return the scheme, or
-    the reason why the method is not equal to it."""
+    the reason why method and scheme differ."""
     holds: Verdict = True
     for i, (row, expected) in enumerate(zip(rows, scheme.increments(ring), strict=True)):
         for j, (x, y) in enumerate(zip(row, expected, strict=True)):
@@ -160,8 +162,8 @@ def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
 
 
 def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
-    """Return the differences of successive rows, where the rows are those of A, followed by b. If the first
-    stage is not the start value, return a text that says so."""
+    """Return the differences of successive rows of A, where b is appended as the last row. Return an error
+    text if the first stage is not the start value."""
     if any(ring.is_zero(x) is False for x in method.A[0]):
         return "the first stage is not the start value"
     rows = (*method.A, method.b)
@@ -169,9 +171,9 @@ def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
 
 
 def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
-    """Return the exponent of the single exponential that leads from each stage to the next, and from the last
-    stage to the update. If a stage or the update needs more exponentials, or the first stage is not the start
-    value, return a text that says so."""
+    """Return the exponents that lead from each stage to the next, and from the last stage to the update.
+    Return an error text if more than one exponential is needed, or if the first stage is not the start
+    value."""
     *paths, update = (
         [row for row in method.from_start(stage) if any(ring.is_zero(x) is not True for x in row)]
         for stage in (*method.stages, method.update)

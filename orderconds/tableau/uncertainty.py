@@ -12,15 +12,16 @@ from orderconds.tableau.doubles import radius
 from orderconds.tableau.record import Tableau
 
 WIDER = fmpq(17, 8)
-"""The largest width of the ball of a double, in units of the radius. The width may exceed two radii, because
-the end points of a ball are rounded."""
+"""The largest width of the ball (interval) of a double, in units of the radius. The width may exceed two
+radii, because the end points are rounded."""
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:
-    """Return the largest radius of those coefficients that are less accurate than a format of ``bits`` bits.
+    """Return the largest radius of the coefficients that are less accurate than floating-point numbers of
+    ``bits`` bits.
 
-    A coefficient counts as less accurate if the radius of its ball is larger than the error of one rounding
-    to ``bits`` bits. The result is a decimal of two digits. It is empty if all coefficients are exact or
+    A coefficient counts as less accurate if the radius of its ball (interval) exceeds the error of one
+    rounding to ``bits`` bits. The result is a decimal with two digits, or empty if all coefficients are
     accurate enough. A double is always accurate enough, because generated code contains the double without
     further rounding.
 

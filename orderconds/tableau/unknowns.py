@@ -1,8 +1,8 @@
-"""The rounded decimals of a file as unknowns of equations, and the ``[proof]`` table of the file.
+"""Rounded decimals of a tableau file as unknowns of equations, and the table ``[proof]``.
 
-A decimal with ``~`` approximates a number without a known closed form. In a file with a ``[proof]`` table,
-such a decimal is an unknown of the order conditions that the table names. The exact coefficients solve these
-conditions and are near the decimals.
+A decimal with ``~`` approximates a number without a known closed form. The table ``[proof]`` names order
+conditions in which these decimals are the unknowns. The exact coefficients solve these conditions and are
+near the decimals.
 
 ::
 
@@ -13,7 +13,7 @@ conditions and are near the decimals.
     reduction = "symmetric"    # optional: a reason why fewer equations suffice
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
-The name of an unknown is its name under ``numbers``, or its position in the file (``A[2][1]``). Equal
+The name of an unknown is its name under ``numbers``, or its position in the file, such as ``A[2][1]``. Equal
 decimals are the same unknown.
 """
 
@@ -40,12 +40,12 @@ class RootedRing(Ring, Protocol):
     """A ring in which real roots of polynomials can be computed, such as balls or jets."""
 
     def root(self, x: Element, index: int) -> Element:
-        """Return the real root of x with this index (2 for the square root)."""
+        """Return the real root of x of degree ``index`` (2 for the square root)."""
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal of a file. ``constant`` is the decimal without its sign, because a minus sign counts
-    as an operation on the decimal."""
+    """A rounded decimal of a file. ``constant`` is the decimal without its sign. A minus sign is a separate
+    operation."""
 
     name: str
     constant: Constant
@@ -53,11 +53,11 @@ class Unknown(Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Proof:
-    """The table ``[proof]`` of a file: equations of which the rounded decimals in the file are an approximate
-    solution.
+    """The table ``[proof]`` of a file: equations that the rounded decimals of the file solve approximately.
 
-    The equations are solved for ``unknowns``. The decimals in ``pinned`` count as exact numbers. ``printed``
-    contains the decimals as they are printed in the source.
+    The equations are the conditions of the family ``conditions`` up to order ``order``. They are solved for
+    ``unknowns``. The decimals in ``pinned`` count as exact numbers. ``printed`` contains decimals as printed
+    in the source of the method.
     """
 
     conditions: str
@@ -70,13 +70,12 @@ class Proof:
     symbolic: SymbolicCoefficients = field(repr=False)
 
     def over(self, ring: RootedRing, values: Mapping[str, Element]) -> Built:
-        """Return the method in which the unknowns have the given ``values`` and the pinned decimals are exact
-        numbers."""
+        """Return the method with the given ``values`` of the unknowns."""
         return self.symbolic.method(ring, self._known(ring, values))
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
-        """Return the number with this name, or at this position in the file, if the unknowns have the given
-        ``values``."""
+        """Return one number for the given ``values`` of the unknowns. ``name`` is the name of the number or
+        its position in the file."""
         return self.symbolic.number(name, ring, self._known(ring, values))
 
     def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:
@@ -87,7 +86,8 @@ class Proof:
 
 
 class SymbolicCoefficients(Struct, frozen=True):
-    """The parsed coefficients of a file, to be evaluated in another ring or with other decimals."""
+    """The parsed coefficients of a file. They can be evaluated in other rings, or with other values of the
+    decimals."""
 
     expressions: Mapping[str, Expression]
     numbers: Mapping[str, Definition]
@@ -105,8 +105,8 @@ class SymbolicCoefficients(Struct, frozen=True):
         return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 
     def decimals(self) -> tuple[Unknown, ...]:
-        """Return every different rounded decimal, named numbers first, in the order of the file. If one
-        number or coefficient contains several decimals, their values become part of their names."""
+        """Return the different rounded decimals in the order of the file, named numbers first. If a number or
+        coefficient contains several decimals, the names of these decimals contain their values."""
         names_of: dict[Constant, str] = {}
         for name, definition in (*self.numbers.items(), *self.expressions.items()):
             for constant in rounded_and_exact(definition):
@@ -138,6 +138,6 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # Some rings (jets, residues) do not define the size of an element. In these rings the size is not
-        # limited, and 0 is returned.
+        # Some rings (jets, residues) do not define the size of an element. Their elements are not limited in
+        # size.
         return 0 if size is None else int(size(x))

@@ -1,12 +1,13 @@
-"""The cost of a step in each family: field evaluations, exponentials and brackets.
+"""The cost of a step: field evaluations, exponentials and brackets.
 
-A field evaluation is counted for each stage on which the update depends. Stages that only the error estimate
-uses are not counted. An explicit first-same-as-last method evaluates its last stage for the next step, in
-place of the first stage of that step. For an implicit method, the counts are for one iteration, which
-evaluates each stage once. Equal exponents count as one exponential. The brackets of dexpinv are counted at
-each stage, without simplification. At a stage that is equal to the start value, the argument of dexpinv is
-zero, and no bracket is needed. For a Magnus method the brackets are the different commutators in its
-exponents, and a Cayley transform counts as an exponential.
+Field evaluations are counted for the stages on which the update depends, not for stages that only the error
+estimate uses. An explicit first-same-as-last method evaluates its last stage in place of the first stage of
+the next step. For an implicit method, the counts are for one iteration, which evaluates each stage once.
+
+Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage, without
+simplification. A stage that equals the start value needs no bracket, because the argument of dexpinv is zero.
+For a Magnus method, the brackets are the different commutators in the exponents, and a Cayley transform
+counts as an exponential.
 """
 
 from __future__ import annotations
@@ -23,21 +24,21 @@ from orderconds.tableau.record import Tableau
 
 @dataclass(frozen=True)
 class Work:
-    """Field evaluations, exponentials and brackets of one step. Exponentials and brackets are None if they
-    are not counted, for example for classical Runge-Kutta methods."""
+    """Numbers of field evaluations, exponentials and brackets in one step. A number is None if it is not
+    counted. For example, a classical Runge-Kutta method has no exponentials."""
 
     evaluations: int
     exponentials: int | None = None
     brackets: int | None = None
 
     def as_json(self) -> dict[str, int | None]:
-        """Return the JSON object of the counts."""
+        """Return the counts as a JSON object."""
         return asdict(self)
 
 
 def evaluations(tableau: Tableau) -> Work | None:
-    """Return the number of field evaluations of a step, or None for a method whose cost is not counted in
-    field evaluations, such as a splitting.
+    """Return the number of field evaluations of a step. Return None for methods without field evaluations,
+    such as splitting methods.
 
     >>> from orderconds.tableau import find
     >>> evaluations(Tableau.load(find("rk4")))
@@ -53,8 +54,7 @@ def evaluations(tableau: Tableau) -> Work | None:
 
 def commutator_free_work(tableau: Tableau) -> Work | None:
     """Return the cost of a step of a commutator-free method. A Butcher tableau is interpreted as a
-    Crouch-Grossman method. For a method that cannot be interpreted in this way, return the result of
-    :func:`evaluations`.
+    Crouch-Grossman method. For all other formats, return the result of :func:`evaluations`.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> commutator_free_work(heun)
@@ -85,8 +85,8 @@ def crouch_grossman_work(tableau: Tableau) -> Work | None:
 
 
 def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
-    """Return the cost of a step of the RKMK method in which dexpinv is truncated after the power ``cutoff``.
-    For a method without a Butcher tableau, return the result of :func:`evaluations`.
+    """Return the cost of a step of an RKMK method, with dexpinv truncated after the power ``cutoff``. For a
+    method without a Butcher tableau, return the result of :func:`evaluations`.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> munthe_kaas_work(heun, 1)
@@ -102,8 +102,8 @@ def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
 
 
 def magnus_work(tableau: Tableau) -> Work | None:
-    """Return the numbers of nodes, different exponents and commutators of a Magnus method. For any other
-    method, return None.
+    """Return the numbers of nodes, different exponents and commutators of a Magnus method. Return None for
+    all other methods.
 
     >>> from orderconds.tableau import find
     >>> magnus_work(Tableau.load(find("magnus4")))
@@ -115,8 +115,8 @@ def magnus_work(tableau: Tableau) -> Work | None:
 
 
 def _stages_evaluated(method: RungeKutta, ring: Ring) -> int:
-    # In an explicit first-same-as-last method, the last stage is the first stage of the next step. The weight
-    # of the last stage is zero, so the stage is not among those on which the update depends.
+    # In an explicit first-same-as-last method, the last stage is the first stage of the next step. The last
+    # stage has weight zero, so it is not counted.
     return len(_needed(method, ring))
 
 
@@ -139,7 +139,7 @@ def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
     while waiting:
         stage = waiting.pop()
         rows += stage.exponentials
-        # The product of a stage may start from an earlier stage. This earlier stage is then needed, too.
+        # The product of a stage may act on an earlier stage, which is then needed, too.
         further = _used(stage.exponentials, ring) | ({stage.start} if stage.start is not None else set())
         waiting += [method.stages[j] for j in sorted(further - reached)]
         reached |= further
@@ -180,8 +180,8 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of nested brackets in dexpinv. It is the highest power k <= ``cutoff`` with a
-    Bernoulli number B_k != 0."""
+    """Return the number of nested brackets in dexpinv, truncated after the power ``cutoff``. This number is
+    the highest power k <= ``cutoff`` with a non-zero Bernoulli number B_k. For None, return 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

@@ -1,4 +1,4 @@
-"""Conversion of a tableau to a tableau file. Reading this file gives the same tableau again."""
+"""Conversion of a tableau to a tableau file. Reading the file gives the same tableau."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ Spell = Callable[[Element], str]
 def dumps(tableau: Tableau) -> str:
     """Return the tableau as TOML text.
 
-    If the coefficients are those of a file, the texts, named numbers and proof of the file are kept.
-    Otherwise, the coefficients are written in full (:func:`without_names`); a ball is written with the digits
-    that are correct to one unit in the last place (``~``).
+    If the tableau was read from a file, the texts, named numbers and proof of the file are copied. Otherwise,
+    the coefficients are written in full (:func:`without_names`). A ball is written as a decimal with ``~``
+    that is correct to one unit in the last place.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\n[numbers]\\na = "0.50~"\\n'
@@ -45,7 +45,7 @@ def dumps(tableau: Tableau) -> str:
 
 
 def as_data(tableau: Tableau) -> Data:
-    """Return the keys and values of a file for the tableau, including source, claims and proof.
+    """Return the keys and values of a tableau file, including source, claims and proof.
 
     >>> from orderconds.tableau import Tableau, find
     >>> as_data(Tableau.load(find("cg4")))["b"]
@@ -66,10 +66,10 @@ def as_data(tableau: Tableau) -> Data:
 
 
 def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
-    """Return the keys and values of a file in which the coefficients are written in full.
+    """Return the keys and values of a tableau file, with the coefficients written in full.
 
-    Named numbers remain only for real roots that the file defines by a polynomial (``minpoly``). If
-    ``name_radicals`` is true, square roots inside other roots also get names.
+    Only real roots that are defined by a polynomial (``minpoly``) have names. If ``name_radicals`` is true,
+    square roots inside other roots also have names.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'
@@ -137,7 +137,7 @@ def _product(method: AdjointComposition | Splitting | Magnus, text: Spell) -> Da
 
 
 class _Radicals:
-    """The names r1, r2, ... of the square roots that occur inside other roots."""
+    """Names r1, r2, ... for the generators of a field of nested square roots."""
 
     def __init__(self, ring: Any) -> None:
         self.text: Spell = ring.text
@@ -156,12 +156,12 @@ class _Radicals:
         return text
 
     def spell(self, x: Element) -> str:
-        """Return the text of an element. Roots are written as names."""
+        """Return the text of an element, in which roots are replaced by their names."""
         return self._named(self.text(x), list(self.names))
 
 
 def _named_roots(tableau: Tableau) -> Data:
-    """Return the named numbers whose names occur in the texts of field elements."""
+    """Return the definitions of the named roots that generate the field of the tableau."""
     return {
         name: {"minpoly": list(minpoly), "near": near}
         for name, minpoly, near in getattr(tableau.ring, "named_roots", ())

@@ -1,10 +1,12 @@
 """Rooted trees with vertices of two colours: the trees of P-series (HLW III.2.1).
 
 Colour 0 (black) denotes the first part y of a partitioned system, and colour 1 (white) denotes the second
-part z. Encoding: one byte ``2 level + colour`` for each vertex, in preorder; branches are in descending
-order. In :mod:`orderconds.trees.directed`, each edge has a kind, 0 or 1. Here the kind of an edge is the
-colour of its child: an edge to a white child has kind 1, because its coefficient ahat_ij belongs to the
-second tableau. Apart from the colour of the root, the two encodings are therefore equal.
+part z. A tree is encoded by one byte ``2 level + colour`` for each vertex, in preorder. Branches are in
+descending order.
+
+The encoding of :mod:`orderconds.trees.directed` is the same, except for the colour of the root. There each
+edge has a kind, 0 or 1, in place of the colour of its child. An edge to a white child has kind 1, because its
+coefficient ahat_ij belongs to the second tableau.
 """
 
 from __future__ import annotations
@@ -20,8 +22,8 @@ BicolouredTree = bytes
 
 
 def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
-    """Yield every rooted tree with vertices of two colours exactly once; trees with a black root come first
-    (HLW III.2.1, TP).
+    """Yield every rooted tree with vertices of two colours exactly once (the set TP of HLW III.2.1). Trees
+    with a black root come first.
 
     >>> [text(tree) for tree in bicoloured_rooted_trees(2)]
     ['[.]', '[o]', '(.)', '(o)']
@@ -32,12 +34,13 @@ def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
 
 
 def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
-    """Return every free tree with alternating colours exactly once. The root is a vertex for which the height
-    of the tree is least.
+    """Return every free tree with alternating colours exactly once. The root is chosen such that the height
+    is least.
 
-    In such a tree any two neighbours differ in colour. These are the trees of symplectic partitioned methods
-    for separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). If a symmetry of the uncoloured tree
-    exchanges the two colourings, both colourings give the same tree.
+    In a tree with alternating colours, neighbours differ in colour. These trees belong to symplectic
+    partitioned methods for separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). Each uncoloured
+    tree has two alternating colourings. Both give the same tree if a symmetry of the uncoloured tree
+    exchanges them.
 
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']
@@ -51,8 +54,7 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
 
 
 def alternating(colour: int, tree: Tree) -> BicolouredTree:
-    r"""Return a rooted tree with alternating colours: neighbours differ in colour, and the root has the given
-    colour.
+    r"""Colour a rooted tree such that neighbours differ in colour and the root has the given colour.
 
     >>> text(alternating(1, b"\0\1\2\1"))
     '([o].)'
@@ -62,7 +64,7 @@ def alternating(colour: int, tree: Tree) -> BicolouredTree:
 
 
 def canonical(tree: BicolouredTree) -> BicolouredTree:
-    """Return the encoding in which the branches are in descending order at every vertex.
+    """Sort the branches at every vertex in descending order.
 
     >>> canonical(bytes((0, 2, 3))) == canonical(bytes((0, 3, 2)))
     True
@@ -72,7 +74,7 @@ def canonical(tree: BicolouredTree) -> BicolouredTree:
 
 
 def coloured(colour: int, tree: bytes) -> BicolouredTree:
-    """Return the tree with the given colour of the root.
+    """Return the tree with the colour of its root replaced.
 
     >>> text(coloured(1, bytes((0, 2))))
     '(.)'
@@ -81,7 +83,7 @@ def coloured(colour: int, tree: bytes) -> BicolouredTree:
 
 
 def children(tree: BicolouredTree) -> tuple[BicolouredTree, ...]:
-    """Return the subtrees at the root.
+    """Return the subtrees below the root.
 
     >>> [text(child) for child in children(bytes((0, 3, 2)))]
     ['o', '.']
@@ -99,7 +101,7 @@ def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
 
 
 def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
-    """Yield, for each vertex of a tree, the tree with this vertex as its root. The colours do not change.
+    """Yield a tree rooted at each of its vertices in turn. The colours do not change.
 
     >>> [text(tree) for tree in bicoloured_rootings(bytes((0, 3)))]
     ['[o]', '(.)']
@@ -108,8 +110,8 @@ def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
 
 
 def moves(tree: BicolouredTree) -> Iterator[tuple[BicolouredTree, BicolouredTree, BicolouredTree]]:
-    r"""Yield three trees for each edge at the root. The first two are the parts that the edge separates: u,
-    which contains the root, and v. The third is the whole tree with the root moved across the edge to v.
+    r"""Yield three trees for each edge at the root. The edge separates the tree into u, which contains the
+    root, and v. The third tree is the whole tree with the root moved across the edge to v.
 
     >>> list(moves(b"\0\3"))
     [(b'\x00', b'\x01', b'\x01\x02')]

@@ -1,5 +1,4 @@
-"""Numbers of trees, computed from generating functions. The computation does not use the functions that
-enumerate trees.
+"""Numbers of trees from generating functions, independent of the enumeration of trees.
 
 The sequences are A000055, A000081, A000108, A000151 and A000238 of the OEIS.
 """
@@ -11,8 +10,8 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of multisets of total weight 1, 2, ..., n. The argument ``counts`` contains the
-    numbers of different elements of weight 1, 2, ..., n.
+    """Return the numbers of multisets of total weight 1, 2, ..., n. Entry k - 1 of ``counts`` is the number
+    of different elements of weight k, and n is the length of ``counts``.
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
@@ -27,8 +26,8 @@ def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
 
 
 def rooted_tree_count(vertices: int, kinds: int = 1) -> int:
-    """Return the number of rooted trees whose edges have one of ``kinds`` kinds (A000081; A000151 for two
-    kinds).
+    """Return the number of rooted trees, in which each edge has one of ``kinds`` kinds (A000081 for one kind,
+    A000151 for two).
 
     >>> [rooted_tree_count(n) for n in range(1, 9)], [rooted_tree_count(n, kinds=2) for n in range(1, 7)]
     ([1, 1, 2, 4, 9, 20, 48, 115], [1, 2, 7, 26, 107, 458])
@@ -40,7 +39,7 @@ def rooted_tree_count(vertices: int, kinds: int = 1) -> int:
 
 
 def ordered_tree_count(vertices: int) -> int:
-    """Return the number of ordered trees (the Catalan numbers, A000108).
+    """Return the number of ordered trees, a Catalan number (A000108).
 
     >>> [ordered_tree_count(n) for n in range(1, 9)]
     [1, 1, 2, 5, 14, 42, 132, 429]
@@ -49,8 +48,8 @@ def ordered_tree_count(vertices: int) -> int:
 
 
 def ordered_forest_count(vertices: int) -> int:
-    """Return the number of ordered forests. It equals the number of ordered trees with one vertex more,
-    because a new root joins the trees of a forest.
+    """Return the number of ordered forests. A new root joins the trees of a forest to one tree, so this is
+    the number of ordered trees with one more vertex.
 
     >>> [ordered_forest_count(n) for n in range(6)]
     [1, 1, 2, 5, 14, 42]
@@ -60,7 +59,7 @@ def ordered_forest_count(vertices: int) -> int:
 
 def free_tree_count(vertices: int) -> int:
     """Return the number of free trees (A000055) by Otter's formula r(n) - 1/2 (sum_k r(k) r(n - k) - r(n/2)).
-    Here r(n) is the number of rooted trees, and r(n/2) is zero for odd n.
+    Here r(n) is the number of rooted trees with n vertices, and r(n/2) is zero for odd n.
 
     >>> [free_tree_count(n) for n in range(1, 11)]
     [1, 1, 1, 2, 3, 6, 11, 23, 47, 106]
@@ -80,10 +79,10 @@ def essential_free_tree_count(vertices: int) -> int:
 
 
 def alternating_free_tree_count(vertices: int) -> int:
-    """Return the number of free trees of two colours in which neighbours differ in colour.
+    """Return the number of free trees with two colours in which neighbours differ in colour.
 
-    A free tree without colours can be coloured in two ways. The two colourings are equal if a symmetry of the
-    tree exchanges the colours.
+    Each uncoloured free tree has two such colourings. They are equal if a symmetry of the tree exchanges the
+    colours.
 
     >>> [alternating_free_tree_count(n) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]
@@ -97,8 +96,8 @@ def _in_equal_halves(vertices: int) -> int:
 
 
 def directed_free_tree_count(vertices: int) -> int:
-    """Return the number of free trees with directed edges (A000238). By Otter's theorem it is the number of
-    rooted trees minus the number of trees rooted at an edge.
+    """Return the number of free trees with directed edges (A000238). By Otter's theorem, this is the number
+    of rooted trees minus the number of trees rooted at an edge.
 
     >>> [directed_free_tree_count(n) for n in range(1, 9)]
     [1, 1, 3, 8, 27, 91, 350, 1376]
@@ -108,11 +107,11 @@ def directed_free_tree_count(vertices: int) -> int:
 
 
 def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
-    """Return the number of Lyndon words of a weight. The function ``letters`` returns the number of letters
-    of weight k.
+    """Return the number of Lyndon words of a given weight. ``letters(k)`` is the number of letters of weight
+    k.
 
-    Every word is a unique product of non-increasing Lyndon words. Hence the numbers L(n) of Lyndon words
-    satisfy prod (1 - x^n)^-L(n) = 1/(1 - sum letters(k) x^k).
+    Every word is a unique product of non-increasing Lyndon words. Hence the numbers L(n) of Lyndon words of
+    weight n satisfy prod_n (1 - x^n)^-L(n) = 1/(1 - sum_k letters(k) x^k).
 
     >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
     [1, 1, 3, 8, 25, 75, 245, 800, 2700]

@@ -1,14 +1,14 @@
 """Rooted and free trees with directed edges: the trees of symplectic partitioned methods.
 
-An edge from parent i to child j has kind 0 if it points away from the root; its coefficient is then a_ij. It
-has kind 1 if it points to the root; its coefficient is then ahat_ij. If the root is moved from one end of an
-edge to the other end, the kind of the edge changes, but its direction does not. Consider the rooted trees
-before and after this move. By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the sum of their elementary
-weights is a product of elementary weights of smaller trees. Hence the conditions are indexed by free trees
-with directed edges.
+An edge from parent i to child j has kind 0 and the coefficient a_ij if it points away from the root. It has
+kind 1 and the coefficient ahat_ij if it points to the root. If the root is moved from one end of an edge to
+the other end, the direction of the edge does not change, but the kind changes. Symplectic methods satisfy b_i
+ahat_ij = b_i b_j - b_j a_ji. Hence the elementary weights of the rooted trees before and after the move add
+up to a product of elementary weights of smaller trees. The order conditions are therefore indexed by free
+trees with directed edges.
 
-Encoding: one byte ``2 level + kind`` for each vertex, in preorder, where ``kind`` is the kind of the edge to
-the parent. Branches are in descending order.
+A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder, where ``kind`` is the kind of
+the edge to the parent. Branches are in descending order.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def joined(below: tuple[Branch, ...] | list[Branch]) -> DirectedTree:
 
 
 def density(tree: DirectedTree) -> int:
-    r"""Return gamma, the product of the sizes of all subtrees.
+    r"""Return the density gamma, the product of the sizes of all subtrees.
 
     >>> density(b"\0\2\3")
     3
@@ -77,7 +77,7 @@ def symmetry(tree: DirectedTree) -> int:
 
 @lru_cache(maxsize=1 << 16)
 def text(tree: DirectedTree) -> str:
-    r"""Return a tree as text in brackets; ``^`` precedes each subtree below an edge of kind 1.
+    r"""Return a tree as text in brackets. The sign ``^`` precedes each subtree below an edge of kind 1.
 
     >>> text(b"\0\3\2")
     '[^..]'
@@ -89,7 +89,7 @@ def text(tree: DirectedTree) -> str:
 
 @lru_cache(maxsize=32)
 def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
-    """Return every rooted tree with directed edges exactly once. These are the trees of partitioned
+    """Return every rooted tree with directed edges exactly once. These trees belong to partitioned
     Runge-Kutta methods with b = bhat.
 
     >>> [text(tree) for tree in directed_rooted_trees(3)]
@@ -117,8 +117,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
     """
     if vertices < 1:
         return ()
-    # A free tree has one or two centroids. If there is one centroid, each of its branches has less than half
-    # of the vertices. If there are two centroids, an edge connects them and divides the tree into halves.
+    # A free tree has one or two centroids. Each branch of a single centroid has less than half of the
+    # vertices. Two centroids are joined by an edge, which divides the tree into halves.
     central = [joined(below) for below in _multisets_in_turn(vertices - 1, (vertices - 1) // 2)]
     if vertices % 2 == 0:
         halves = directed_rooted_trees(vertices // 2)
@@ -128,10 +128,9 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def representative(tree: DirectedTree) -> DirectedTree:
-    """Return the tree with its root moved to the vertex for which the order condition of the tree is simplest
-    to read.
+    """Move the root to the vertex for which the order condition is simplest to read.
 
-    The criteria, in this order, are: fewest edges of the rarer kind, least height, fewest edges of kind 1.
+    The criteria are, in this order, fewest edges of the rarer kind, least height, and fewest edges of kind 1.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'
@@ -140,8 +139,7 @@ def representative(tree: DirectedTree) -> DirectedTree:
 
 
 def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
-    """Yield, for each vertex of a tree, the tree with this vertex as its root. The edges keep their
-    directions.
+    """Yield a tree rooted at each of its vertices in turn. The edges keep their directions.
 
     >>> [text(tree) for tree in rootings(bytes((0, 2)))]
     ['[.]', '[^.]']
@@ -154,8 +152,8 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
-    r"""Yield three trees for each edge at the root. The first two are the parts that the edge separates: u,
-    which contains the root, and v. The third is the whole tree with the root moved across the edge.
+    r"""Yield three trees for each edge at the root. The edge separates the tree into u, which contains the
+    root, and v. The third tree is the whole tree with the root moved across the edge to v.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -167,8 +165,7 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the indices, in preorder, of those vertices that give the simplest rooted trees if they are
-    chosen as root."""
+    """Return the preorder indices of the vertices that, as root, give the simplest rooted trees."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])

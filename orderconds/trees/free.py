@@ -1,10 +1,10 @@
 """Free (unrooted) trees, and the effect of moving the root of a tree.
 
-The conditions of symplectic Runge-Kutta methods are indexed by free trees. The reason is that b_i a_ij + b_j
-a_ji = b_i b_j implies phi(u o v) + phi(v o u) = phi(u) phi(v) for all rooted trees u and v. Here phi is the
-elementary weight and o is Butcher's product (Sanz-Serna and Abia 1991; HLW VI.7.1). If a tree can be rooted
-as u o u, then phi(u o u) = phi(u)^2/2. The condition of this tree therefore follows from the condition of u.
-Such a tree is called superfluous.
+The order conditions of symplectic Runge-Kutta methods are indexed by free trees. Let phi be the elementary
+weight and o Butcher's product of rooted trees. The relation b_i a_ij + b_j a_ji = b_i b_j implies phi(u o v)
++ phi(v o u) = phi(u) phi(v) for all rooted trees u and v (Sanz-Serna and Abia 1991; HLW VI.7.1). In
+particular, phi(u o u) = phi(u)^2/2. If a tree can be rooted as u o u, its condition follows from the
+condition of u. Such a tree is called superfluous.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A move of the root along one edge, which changes the tree u o v to v o u. It is represented by the pair of
-trees (u, v)."""
+"""A pair (u, v) of trees. It denotes a move of the root along one edge, which changes the tree u o v to v o
+u."""
 
 
 @lru_cache(maxsize=32)
 def free_trees(vertices: int) -> tuple[Tree, ...]:
-    """Return every free tree exactly once. The root is a vertex for which the height of the tree is least.
+    """Return every free tree exactly once. The root is chosen such that the height is least.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in free_trees(5)]
@@ -32,8 +32,7 @@ def free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
-    """Return the free trees that no edge divides into two equal halves. (Their numbers are 1, 0, 1, 1, 3, 4,
-    11, ..., HLW VI.7.1.)
+    """Return the free trees that no edge divides into two equal halves (HLW VI.7.1).
 
     >>> [len(essential_free_trees(n)) for n in range(1, 8)]
     [1, 0, 1, 1, 3, 4, 11]
@@ -42,7 +41,7 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Return True if some edge divides a tree into two equal rooted trees; the condition of the tree is then
+    r"""Return True if some edge divides a tree into two equal rooted trees. The condition of the tree is then
     superfluous.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
@@ -52,8 +51,8 @@ def superfluous(tree: Tree) -> bool:
 
 
 def representative(tree: Tree) -> Tree:
-    r"""Return the tree, rooted at a vertex for which the height of the tree is least. If there are several
-    such vertices, the root with the greatest level sequence is chosen.
+    r"""Return the tree, rooted at a vertex for which the height is least. If there are several such vertices,
+    choose the greatest level sequence.
 
     >>> representative(b"\0\1\2")
     b'\x00\x01\x01'
@@ -62,7 +61,7 @@ def representative(tree: Tree) -> Tree:
 
 
 def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
-    r"""Yield three trees u, v and v o u for each edge at the root of a canonical tree. The edge divides the
+    r"""Yield three trees u, v and v o u for each edge at the root of a canonical tree. The edge separates the
     tree u o v into u, which contains the root, and v.
 
     >>> list(moves(b"\0\1\1"))[0]
@@ -75,8 +74,8 @@ def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
 
 
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
-    r"""Yield, for each vertex of a canonical tree, the tree with this vertex as root, together with the moves
-    that bring the root to this vertex.
+    r"""Yield a canonical tree rooted at each of its vertices in turn. With each tree, yield the moves of the
+    root from its old to its new vertex.
 
     >>> list(rootings(b"\0\1"))
     [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]

@@ -1,12 +1,13 @@
-"""Products of trees: Butcher's product, and grafting. Grafting corresponds to the derivative of one
-elementary differential along another.
+"""Products of trees: Butcher's product, and grafting.
 
-Let F(t) be the elementary differential of a tree t, and let u > v denote the graft of u onto v. Then F(u > v)
-is the derivative of F(v) in the direction F(u). Unordered trees with this product form the free pre-Lie
-algebra (Chapoton and Livernet 2001). For an ordered tree, F([t_1 ... t_k]) = X_1 ... X_k f, where X_l
-differentiates along the fixed element F(t_l) of the Lie algebra. In a further derivative of F, the new
-operator is written to the left of X_1. Hence ordered trees are grafted to the left of the existing branches
-(Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+Let F(t) be the elementary differential of a tree t. Grafting u onto v corresponds to the derivative of F(v)
+in the direction F(u). Unordered trees with this product form the free pre-Lie algebra (Chapoton and Livernet
+2001).
+
+For ordered trees, F([t_1 ... t_k]) = X_1 ... X_k f, where f is the vector field, and X_l differentiates along
+the fixed element F(t_l) of the Lie algebra. A further derivative is an operator to the left of X_1. Hence
+ordered trees are grafted to the left of the existing branches (Munthe-Kaas and Wright, Found. Comput. Math. 8
+(2008) 227).
 """
 
 from __future__ import annotations
@@ -37,8 +38,8 @@ def butcher_product(u: Tree, v: Tree) -> Tree:
 
 
 def graft(u: Tree, v: Tree) -> Counter[Tree]:
-    r"""Return the trees that result if u is attached as a new branch to one vertex of v. The value of a tree
-    is the number of vertices of v that give this tree. Both trees are unordered.
+    r"""Attach u as a new branch to each vertex of v in turn, and count the resulting trees. Both trees are
+    unordered.
 
     >>> sorted(graft(b"\0", b"\0\1\1").items())
     [(b'\x00\x01\x01\x01', 1), (b'\x00\x01\x02\x01', 2)]
@@ -54,10 +55,11 @@ def graft(u: Tree, v: Tree) -> Counter[Tree]:
 
 @lru_cache(maxsize=1 << 14)
 def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
-    r"""Return, with repetitions, all forests in which each tree of ``word`` is attached to some vertex of
-    ``onto``.
+    r"""Attach each tree of ``word`` to a vertex of ``onto`` in all possible ways. Return all resulting
+    forests, with repetitions.
 
-    Trees attached to the same vertex remain in order and are placed left of the vertex's own branches.
+    Trees that are attached to the same vertex keep their order. They are placed to the left of the existing
+    branches of the vertex.
 
     >>> left_graft(b"\0", b"\0\1")
     (b'\x00\x01\x02', b'\x00\x01\x01')
@@ -75,8 +77,8 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Return the trees that result from all divisions of ``word`` into two subwords. The trees of one subword
-    are attached to the root, left of its branches; the other trees are attached to vertices of these
+    """Attach ``word`` to ``tree`` in all possible ways. Each way divides ``word`` into two subwords. One
+    subword is attached to the root, left of the branches. The other subword is attached to vertices of the
     branches."""
     grafted = []
     for root, above in deshuffles(word):
@@ -85,8 +87,8 @@ def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
 
 
 def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:
-    r"""Return the 2^k divisions of a word of k trees into two subwords. Each tree belongs to one of the two
-    subwords, and the trees of a subword keep their order.
+    r"""Return the 2^k divisions of a word of k trees into two subwords. The trees of a subword keep their
+    order.
 
     >>> deshuffles(b"\0")
     ((b'', b'\x00'), (b'\x00', b''))

@@ -1,9 +1,8 @@
-"""Level sequences: a forest is represented by the levels of its vertices in preorder, one byte for each
-vertex. Roots have level 0.
+"""Level sequences of trees and forests: the levels of the vertices in preorder, one byte for each vertex.
 
-A tree is a forest with one root. The type ``bytes`` is used because its values are fast to hash and to
-compare, and because a subtree is a slice of the sequence. Trees are printed in brackets: ``.`` is one vertex,
-``[..]`` a root with two leaves; the trees of a forest are separated by spaces.
+Roots have level 0, and a tree is a forest with one root. The type ``bytes`` is fast to hash and to compare,
+and a subtree is a slice of the sequence. Trees are printed in brackets. For example, ``.`` is one vertex, and
+``[..]`` is a root with two leaves. The trees of a forest are separated by spaces.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ def trees_of(forest: Forest) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=1 << 16)
 def children(tree: Tree) -> tuple[Tree, ...]:
-    r"""Return the subtrees at the root, from left to right.
+    r"""Return the subtrees below the root, from left to right.
 
     >>> children(b"\0\1\2\1")
     (b'\x00\x01', b'\x00')
@@ -62,7 +61,7 @@ def rooted_at_new_vertex(forest: Forest) -> Tree:
 
 
 def density(forest: Forest) -> int:
-    r"""Return gamma, the product of the sizes of all subtrees (HLW III.1, Definition 1.10).
+    r"""Return the density gamma, the product of the sizes of all subtrees (HLW III.1, Definition 1.10).
 
     >>> density(b"\0\1\2\1")
     8
@@ -84,8 +83,8 @@ def symmetry(tree: Tree) -> int:
 
 
 def canonical(tree: Tree) -> Tree:
-    r"""Return the canonical form of a tree: the greatest level sequence among all orderings of the branches
-    at the vertices.
+    r"""Return the canonical form of a tree, which is the greatest level sequence among all orders of
+    branches.
 
     >>> canonical(b"\0\1\1\2")
     b'\x00\x01\x02\x01'
@@ -104,13 +103,12 @@ def text(forest: Forest) -> str:
 
 
 def parse(written: str) -> Forest:
-    r"""Return the tree or forest that a text in brackets denotes. Spaces and commas between trees are
-    optional.
+    r"""Parse a tree or forest in brackets. Spaces and commas between trees are optional.
 
     >>> parse("[[.],.]") == b"\0\1\2\1"
     True
 
-    Raises :class:`~orderconds.errors.InputError` unless the text consists of dots and balanced, non-empty
+    Raises :class:`~orderconds.errors.InputError` if the text does not consist of dots and balanced, non-empty
     brackets.
     """
     levels, depth = bytearray(), 0

@@ -1,9 +1,8 @@
-"""Ordered (planar) rooted trees and ordered forests. Each level sequence is computed from the preceding one,
-in place.
+"""Enumeration of ordered (planar) rooted trees and ordered forests.
 
-An ordered forest with n vertices is a sequence of n levels that starts with 0 and in which no level exceeds
-the preceding one by more than one. The forest is a tree if level 0 occurs only at the start. Forests and
-trees are listed in descending lexicographic order.
+An ordered forest with n vertices is a sequence of n levels that starts with 0. No level exceeds the preceding
+level by more than one. The forest is a tree if level 0 occurs only at the start. Sequences are listed in
+descending lexicographic order. Each sequence is computed in place from the preceding sequence.
 """
 
 from __future__ import annotations
@@ -40,8 +39,7 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # The last level that can decrease is decreased. From this level on, all later levels increase as fast
-        # as possible.
+        # Decrease the last level that can decrease. All later levels then increase by one at each vertex.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

@@ -1,7 +1,7 @@
-"""Unordered rooted trees as canonical level sequences. Each sequence is computed from the preceding one, in
-place.
+"""Enumeration of unordered rooted trees as canonical level sequences.
 
-T. Beyer and S. M. Hedetniemi, "Constant time generation of rooted trees", SIAM J. Comput. 9 (1980) 706-712.
+Each sequence is computed in place from the preceding sequence (T. Beyer and S. M. Hedetniemi, "Constant time
+generation of rooted trees", SIAM J. Comput. 9 (1980) 706-712).
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     levels = bytearray(range(vertices))
     while True:
         yield bytes(levels)
-        # Let p be the last vertex that is neither the root nor a child of the root, and let q be the parent
-        # of p. The levels from p on are replaced by copies of the levels from q to p - 1.
+        # Let p be the last vertex that is neither the root nor a child of the root. Let q be the parent of p.
+        # Replace the levels from p on by copies of the levels from q to p - 1.
         last = len(levels.rstrip(b"\1")) - 1
         if last < 1:
             return

@@ -15,7 +15,7 @@ from orderconds.typeset.legend import legend
 
 
 def article(family: str, by_order: Sequence[Sequence[OrderCondition]], *, explain: bool = False) -> str:
-    r"""Return the conditions of a family in LaTeX. If ``explain`` is true, LaTeX comments state the
+    r"""Return the conditions of a family in LaTeX. If ``explain`` is true, LaTeX comments contain the
     elementary differential of each condition.
 
     The first line is a comment that names the required LaTeX packages. The label of condition k of order n is
@@ -62,8 +62,8 @@ def _comment(condition: OrderCondition, *, explain: bool) -> str:
 
 
 def _signs(diagram: Diagram) -> list[str]:
-    """Return the signs of all vertices and edges in the drawing of a tree. The sign of an edge is its
-    direction."""
+    """Return the signs of all vertices and edges in the drawing of a tree. A sign names the look of a vertex
+    or the direction of an edge."""
     signs = list[str]()
     for vertex in diagram:
         signs.append(vertex.sign)
@@ -79,12 +79,12 @@ MEANINGS = {
     "transport": "a diamond is a coadjoint action on the momentum",
     "bracket": "two branches at a point are a commutator",
 }
-"""The meanings of the signs in the drawings of trees. Signs that need no explanation are omitted."""
+"""Explanations of the signs in the drawings of trees. Signs that need no explanation are omitted."""
 
 
 def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:
-    """Return a sentence that explains the column of trees and the ``signs`` in it. The sentence is empty for
-    a family without drawings of trees."""
+    """Return a sentence that explains the column of trees and the ``signs`` in this column. The sentence is
+    empty for a family without drawings of trees."""
     if kind is None:
         return ""
     words = signs & {"letter", "bracket"}

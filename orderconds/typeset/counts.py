@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 
 def sum_of_counts(counts: Sequence[int]) -> str:
-    """Return the numbers of conditions of the orders 1, 2, ... and their sum, as text.
+    """Return the numbers of conditions of orders 1, 2, ... and their sum, as text.
 
     >>> sum_of_counts([1, 1, 6])
     '1 + 1 + 6 = 8 conditions of orders 1 to 3'

@@ -1,4 +1,4 @@
-"""The legend of printed conditions, which defines every symbol that occurs in the conditions."""
+"""The legend of printed conditions, which defines the symbols in the conditions."""
 
 from __future__ import annotations
 
@@ -11,11 +11,10 @@ from orderconds.formula.notation import LATEX
 
 
 def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
-    r"""Return a LaTeX text that defines the coefficients in the conditions of a family and states the range
-    of the sums. The text is empty if the conditions contain no coefficients.
+    r"""Return LaTeX text that defines the coefficients in the conditions and states the range of the sums.
+    The text is empty if the conditions contain no coefficients.
 
-    Abscissae are defined as row sums of other coefficients. Therefore the text also defines the coefficients
-    in these row sums.
+    Abscissae are defined as sums of other coefficients. The text therefore also defines these coefficients.
 
     >>> from orderconds.derivation import derive
     >>> print(legend("rk", derive("rk", order=2)).replace("; ", ";\n"))
@@ -37,7 +36,7 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
 
 
 def _range(indices: set[str]) -> str:
-    """Return a sentence that states the range of the sums, or an empty text if there are no sums. ``indices``
+    """Return a sentence about the range of the sums, or an empty text if there are no sums. ``indices``
     contains the first character of each index in the conditions."""
     if any(index.isupper() for index in indices):
         return " Lower-case indices run over all stages, upper-case indices over all exponentials."
@@ -45,5 +44,6 @@ def _range(indices: set[str]) -> str:
 
 
 def _occurs(name: str, definition: str) -> bool:
-    """Return True if a coefficient occurs in the definition of another coefficient."""
+    """Return True if the coefficient ``name`` occurs in ``definition``, the definition of another
+    coefficient."""
     return f"{LATEX.names.get(name, name)}_" in definition.replace(r"\bar", "")

@@ -1,6 +1,6 @@
-r"""Conditions for a notebook: a table of trees and equations in HTML, or a displayed formula in LaTeX.
+r"""Order conditions for a notebook, as an HTML table of trees and equations, or as a LaTeX formula.
 
-Equations are LaTeX between dollar signs, which notebooks typeset with MathJax.
+Equations are printed as LaTeX between dollar signs, for MathJax.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ def _lines(condition: OrderCondition) -> str:
 
 
 def table(family: str, by_order: Sequence[Sequence[OrderCondition]]) -> str:
-    """Return a table with the order, the tree and the equation of each condition. The legend is below the
-    table.
+    """Return an HTML table with the order, the tree and the equation of each condition, followed by the
+    legend.
 
     >>> from orderconds.derivation import derive
     >>> table("rk", derive("rk", order=2).by_order).count("<svg")

@@ -1,10 +1,9 @@
-"""The Baker-Campbell-Hausdorff series log(exp A exp B), computed from Goldberg's formula for the coefficients
-of words.
+"""The Baker-Campbell-Hausdorff series log(exp A exp B), from Goldberg's formula for the coefficients.
 
-A Lie element is determined by its coefficients at Lyndon words. A bracketed Lyndon word is equal to the word
-itself plus greater words. Hence, for each multidegree (numbers of letters A and B), the coordinates are
-computed by forward substitution (Reutenauer, Free Lie Algebras, Thm 5.1). The coefficients have a closed form
-(Goldberg, Duke Math. J. 23 (1956) 13), so no exponentials or logarithms are expanded.
+The coefficients of words in the series have a closed form (Goldberg, Duke Math. J. 23 (1956) 13), so no
+exponentials or logarithms are expanded. A Lie element is determined by its coefficients at Lyndon words. A
+bracketed Lyndon word is equal to the word itself plus greater words. Hence the coordinates in the basis of
+bracketed Lyndon words follow by forward substitution (Reutenauer, Free Lie Algebras, Thm 5.1).
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ Expansion = dict[str, int]
 def bch(length: int) -> dict[Word, Fraction]:
     """Return log(exp A exp B) in the basis of bracketed Lyndon words, up to brackets of ``length`` letters.
 
-    The word xy denotes the product xy. Zero coefficients are omitted; shorter words come first.
+    The word xy denotes the product xy. Zero coefficients are omitted. Shorter words come first.
 
     >>> {"".join(word): str(value) for word, value in bch(3).items()}
     {'A': '1', 'B': '1', 'AB': '1/2', 'AAB': '1/12', 'ABB': '1/12'}
@@ -50,10 +49,11 @@ def bch(length: int) -> dict[Word, Fraction]:
 def goldberg(word: str) -> Fraction:
     """Return the coefficient of a non-empty word over A and B in log(exp A exp B).
 
-    Let a word begin with A and have the run lengths s_1, ..., s_m. Its coefficient is the integral over [0,
-    1] of t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t), where [x] is the integer part of x. The
-    polynomials G_s are defined by G_1 = 1 and s G_s = (t (t - 1) G_{s-1})'. If A and B are exchanged in a
-    word of n letters, the coefficient is multiplied by (-1)^(n-1) (Goldberg 1956, Thm 1 and Cor. 2).
+    Let a word begin with A and consist of m runs of equal letters, of lengths s_1, ..., s_m. The coefficient
+    of the word is the integral from 0 to 1 of t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t), where [x]
+    is the integer part of x. The polynomials G_s are defined by G_1 = 1 and s G_s = (t (t - 1) G_{s-1})'. If
+    A and B are exchanged in a word of n letters, the coefficient is multiplied by (-1)^(n-1) (Goldberg 1956,
+    Thm 1 and Cor. 2).
 
     >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0
     ('1/2', '1/12', True)
@@ -80,8 +80,9 @@ def _run_polynomial(s: int) -> UnivariatePolynomial:
 
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
-    """Return the coordinates of log(exp A exp B) at ``words``, the Lyndon words of one length in ascending
-    order. The coordinate of a word depends only on smaller words with the same numbers of letters A and B."""
+    """Return the coordinates of log(exp A exp B) for the bracketed Lyndon words ``words``. These are all
+    Lyndon words of one length, in ascending order. The coordinate of a word depends only on smaller words
+    with the same numbers of letters A and B."""
     coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}
     for word in words:
@@ -96,8 +97,8 @@ def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str
 
 
 def _coefficient(bracketed: str, word: str, expansions: dict[str, Expansion]) -> int:
-    """Return the coefficient of ``word`` in the expansion of the bracketed Lyndon word ``bracketed``. It is
-    computed from the expansions of the two standard factors of ``bracketed``."""
+    """Return the coefficient of ``word`` in the bracketed Lyndon word ``bracketed``. The coefficient follows
+    from the expansions of the two standard factors of ``bracketed``."""
     left, right = standard_factors(bracketed)
     x, y, i, j = expansions[left], expansions[right], len(left), len(right)
     return x.get(word[:i], 0) * y.get(word[i:], 0) - y.get(word[:j], 0) * x.get(word[j:], 0)

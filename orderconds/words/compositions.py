@@ -1,5 +1,4 @@
-"""Compositions of an integer n: sequences of positive integers with the sum n. Such a sequence contains, for
-example, the lengths of the parts into which a word of n letters is divided."""
+"""Compositions of an integer n: sequences of positive integers with the sum n."""
 
 from __future__ import annotations
 

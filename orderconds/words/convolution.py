@@ -1,11 +1,10 @@
-"""Convolution of functions on words, and power series of such functions, in which powers are computed by
-convolution. Each call computes the value on one word.
+"""Convolution of functions on words, and power series of such functions. Each call computes the value on one
+word.
 
-A function on words represents the series in which each word has the value of the function as its coefficient.
-The convolution of two functions is a sum over all divisions of the word into two parts. The first function is
-evaluated on the first part, and the second function on the second part. The first part acts first. Values are
-elements of any ring. If a function is zero on the empty word, each of its power series is a finite sum on
-every word. Hence nothing is truncated.
+A function on words represents a series. The value on a word is the coefficient of this word. The convolution
+of f and g on a word w is the sum of f(u) g(v) over all divisions w = uv. The part u acts first. Values are
+elements of any ring. If a function is zero on the empty word, all its power series are finite sums on every
+word.
 """
 
 from __future__ import annotations
@@ -21,8 +20,7 @@ Function = Callable[[Word], Element]
 
 
 def convolution(f: Function, g: Function, word: Word, zero: Element = Fraction(0)) -> Element:
-    """Return (f * g)(word), the sum of f(u) g(v) over all divisions word = uv. ``zero`` is the zero of the
-    ring of values.
+    """Return the sum of f(u) g(v) over all divisions word = uv. ``zero`` is the zero of the ring of values.
 
     >>> convolution(len, len, ("A", "B", "C"), 0)
     4
@@ -34,7 +32,7 @@ def convolution(f: Function, g: Function, word: Word, zero: Element = Fraction(0
 
 
 def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Element = Fraction(0)) -> Element:
-    """Return the value on a non-empty ``word`` of sum_{m>=1} scales[m - 1] f^m.
+    """Return the value of sum_{m>=1} scales[m - 1] f^m on a non-empty word.
 
     Here f^m is the m-fold convolution of f. The value of f on the empty word is assumed to be zero and is not
     computed. Only the first n entries of ``scales`` are used for a word of n letters.
@@ -44,12 +42,11 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     Fraction(3, 1)
     """
     n = len(word)
-    # In step m of the loop below, powers[end] is the value of f^m on the first ``end`` letters. At the start,
-    # m = 1.
+    # powers[end] is the value of f^m on the first ``end`` letters, starting with m = 1.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
-    # The list tails[end] contains the non-zero values of f on the words word[start:end] with start >= 1.
-    # Zeros are omitted, because most values of most series are zero.
+    # tails[end] contains the non-zero values of f on the words word[start:end] with start >= 1. Most values
+    # are zero.
     tails = [
         [(start, x) for start in range(1, end) if (x := f(word[start:end])) is not zero]
         for end in range(n + 1)

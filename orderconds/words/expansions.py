@@ -1,10 +1,10 @@
 """Magnus, Fer and Cayley expansions in words, for Y' = A(t) Y with A(t) = X_1 + t X_2 + t^2 X_3 + ....
 
-Letter k denotes X_k and has weight k. At time t the coefficient of a word of weight n is t^n times its
-coefficient at t = 1. All functions return the coefficient at t = 1. Words are written in the order of action:
-the word k_1 ... k_n is the product X_{k_n} ... X_{k_1} (:func:`orderconds.words.lie.backwards` converts
-between words and products). Sources: Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215,
-Sections 4 to 6; Blanes, Casas, Oteo and Ros, Physics Reports 470 (2009) 151.
+Letter k denotes X_k and has weight k. At time t, the coefficient of a word of weight n is t^n times the
+coefficient at t = 1. All functions return the coefficient at t = 1. The first letter of a word acts first, so
+the word k_1 ... k_n denotes the product X_{k_n} ... X_{k_1}. The function
+:func:`orderconds.words.lie.backwards` reverses all words. Sources: Iserles, Munthe-Kaas, Noersett and Zanna,
+Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas, Oteo and Ros, Physics Reports 470 (2009) 151.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from orderconds.words.shuffle import Series, Word
 
 
 def iterated_integral(word: Word) -> Fraction:
-    """Return the coefficient of the word k_1 ... k_n in the solution Y(1) with Y(0) = I: the integral of
-    s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1.
+    """Return the coefficient of the word k_1 ... k_n in the solution Y(1) with Y(0) = I.
 
-    It is the product of 1/(k_1 + ... + k_j) over j = 1, ..., n.
+    The coefficient is the integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. It equals the
+    product of 1/(k_1 + ... + k_j) over j = 1, ..., n.
 
     >>> str(iterated_integral((1, 2)))
     '1/3'
@@ -41,8 +41,8 @@ def iterated_integral(word: Word) -> Fraction:
 def magnus(word: Word) -> Fraction:
     """Return the coefficient of a word in the Magnus expansion, the Lie element Omega with Y = exp(Omega).
 
-    For example, at weight three Omega contains -[X_1, X_2]/12. In the order of action, [X_1, X_2] is the word
-    2 1 minus the word 1 2.
+    For example, the term of weight three contains -[X_1, X_2]/12. The first letter of a word acts first, so
+    [X_1, X_2] is the word 2 1 minus the word 1 2.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
     ('1/12', '-1/12')
@@ -52,7 +52,7 @@ def magnus(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def cayley(word: Word) -> Fraction:
-    """Return the coefficient of a word in Omega with Y = cay(Omega), cay(x) = (1 - x/2)^-1 (1 + x/2).
+    """Return the coefficient of a word in Omega, where Y = cay(Omega) and cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     Omega satisfies Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
 
@@ -89,7 +89,7 @@ def fer_remainder(word: Word) -> Fraction:
 
 
 def dexp(length: int) -> Series:
-    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! as a series of words over U and X of at most ``length``
+    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! as a series of words over U and X, with at most ``length``
     letters. The word xy denotes the product xy.
 
     >>> {"".join(word): str(value) for word, value in dexp(2).items()}
@@ -99,16 +99,16 @@ def dexp(length: int) -> Series:
 
 
 def dexp_inverse(length: int) -> Series:
-    """Return dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X, with B_1 = -1/2, as a series of words over U and X. The
-    word xy denotes the product xy.
+    """Return dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X as a series of words over U and X. B_k are the Bernoulli
+    numbers with B_1 = -1/2. Words have at most ``length`` letters, and the word xy denotes the product xy.
 
     >>> {"".join(word): str(value) for word, value in dexp_inverse(2).items()}
     {'X': '1', 'UX': '-1/2', 'XU': '1/2'}
     """
     numbers = [Fraction(1)]
     for n in range(1, length):
-        # The product of x/(e^x - 1) and (e^x - 1)/x is one. Hence sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0. This
-        # equation determines B_n/n!.
+        # Solve sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0 for B_n/n!. The equation holds because the product of
+        # x/(e^x - 1) and (e^x - 1)/x is one.
         numbers.append(-sum((q / factorial(n + 1 - k) for k, q in enumerate(numbers)), Fraction(0)))
     return _adjoint_series(length, numbers.__getitem__)
 
@@ -125,7 +125,7 @@ def dcay_inverse() -> Series:
 
 
 def words_of_weight(weight: int) -> Iterator[Word]:
-    """Yield all words of this weight over the letters 1, 2, ..., where letter k has weight k. Short words
+    """Yield all words of a given weight over the letters 1, 2, ..., where letter k has weight k. Short words
     come first.
 
     >>> list(words_of_weight(3))
@@ -135,8 +135,8 @@ def words_of_weight(weight: int) -> Iterator[Word]:
 
 
 def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
-    """Return the non-zero terms of a series up to this weight. ``coefficient`` is a function of words, such
-    as :func:`magnus`.
+    """Return the non-zero terms of a series up to a given weight. ``coefficient`` is a function of words,
+    such as :func:`magnus`.
 
     >>> {word: str(value) for word, value in expansion(magnus, 3).items()}
     {(1,): '1', (2,): '1/2', (3,): '1/3', (1, 2): '1/12', (2, 1): '-1/12'}
@@ -147,8 +147,7 @@ def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
 
 @lru_cache(maxsize=1 << 14)
 def _fer_field(n: int, word: Word) -> Fraction:
-    """Return the number c for which the coefficient of a word in A_n(t) is c t^(w - 1), where w is the weight
-    of the word. The series A_n is defined in :func:`fer`."""
+    """Return the coefficient of a word in A_n(t) at t = 1. The series A_n is defined in :func:`fer`."""
     if n == 1:
         return Fraction(len(word) == 1)
     result = Fraction(0)
@@ -166,15 +165,14 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # The first part of a word acts first. In the product F x, the head of the word therefore belongs to
-        # x.
+        # The head of a word acts first. In the product F x, the head therefore belongs to x.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result
 
 
 def _after_first(word: Word) -> Fraction:
-    """Return the coefficient of a word in exp(-F_1) Y, where Y acts first."""
+    """Return the coefficient of a word in exp(-F_1) Y. The factor Y acts first."""
     result = iterated_integral(word)
     for cut in range(len(word)):
         scale = exponential_scales(len(word) - cut)[-1]

@@ -1,9 +1,9 @@
-"""Hall bases of free Lie algebras, and the rewriting of brackets as combinations of basis elements. Each
-letter may have any positive integer as its weight.
+"""Hall bases of free Lie algebras, and the rewriting of brackets in these bases. The weight of a letter is a
+positive integer.
 
-Brackets are sorted by weight; brackets of equal weight are sorted by the order of their construction. A
-bracket [x, y] of basis elements belongs to the basis iff x < y, and y is a letter or y = [y', y''] with y' <=
-x (M. Hall, Proc. AMS 1 (1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). Other brackets are
+Brackets are sorted by weight, and brackets of equal weight by the order of construction. A bracket [x, y] of
+basis elements belongs to the basis under two conditions: x < y, and y is a letter or y = [y', y''] with y' <=
+x (M. Hall, Proc. AMS 1 (1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). All other brackets are
 rewritten by antisymmetry and Jacobi's identity.
 """
 
@@ -19,10 +19,9 @@ Coordinates = dict[Bracket, Fraction]
 
 
 class HallBasis:
-    """The Hall basis of the free Lie algebra on ``letters``, up to a weight.
+    """The Hall basis of the free Lie algebra on ``letters``, up to the weight ``weight``.
 
-    ``letters`` are in ascending order. The function ``weigh`` returns the weight of a letter, a positive
-    integer.
+    ``letters`` are in ascending order. ``weigh`` returns the weight of a letter, a positive integer.
 
     >>> HallBasis("AB", 4).of_weight(4)
     (('A', ('A', ('A', 'B'))), ('B', ('A', ('A', 'B'))), ('B', ('B', ('A', 'B'))))
@@ -49,14 +48,14 @@ class HallBasis:
         self._known: dict[tuple[Bracket, Bracket], Coordinates] = {}
 
     def of_weight(self, n: int) -> tuple[Bracket, ...]:
-        """Return the basis elements of exactly this weight, in ascending order. A bracket [x, y] is the pair
-        (x, y)."""
+        """Return the basis elements of weight n, in ascending order. The pair (x, y) denotes the bracket [x,
+        y]."""
         return self._of_weight[n]
 
     def rewrite(self, bracket: Bracket) -> Coordinates:
         """Return the coordinates of any bracket of letters in the Hall basis.
 
-        Raises :class:`ValueError` if the weight of the bracket is above the largest weight of the basis.
+        Raises :class:`ValueError` if the weight of the bracket exceeds the largest weight of the basis.
 
         >>> HallBasis("AB", 3).rewrite((("A", "B"), "A"))
         {('A', ('A', 'B')): Fraction(-1, 1)}
@@ -68,8 +67,8 @@ class HallBasis:
         return self._bracket(self.rewrite(bracket[0]), self.rewrite(bracket[1]))
 
     def coordinates(self, element: Mapping[Word, Fraction]) -> Coordinates:
-        """Return the coordinates of a Lie element, given as a series in which the word xy denotes the product
-        xy.
+        """Return the coordinates of a Lie element, which is given as a series of words. The word xy denotes
+        the product xy.
 
         Raises :class:`ValueError` if the series is not a Lie element.
 
@@ -80,8 +79,7 @@ class HallBasis:
         return self.from_lyndon(lyndon_coordinates(element, order.__getitem__))
 
     def from_lyndon(self, coordinates: Mapping[Word, Fraction]) -> Coordinates:
-        """Return the Hall coordinates of a Lie element that is given by its coordinates in the Lyndon basis,
-        such as a result of the function ``bch``.
+        """Convert coordinates of a Lie element from the Lyndon basis to the Hall basis.
 
         >>> from orderconds.words.bch import bch
         >>> {str(x): str(value) for x, value in HallBasis("AB", 2).from_lyndon(bch(2)).items()}
@@ -110,7 +108,7 @@ class HallBasis:
         return {z: value for z, value in result.items() if value}
 
     def _pair(self, x: Bracket, y: Bracket) -> Coordinates:
-        """Return [x, y] for two basis elements."""
+        """Return the coordinates of [x, y] for two basis elements x and y."""
         if x == y:
             return {}
         if self._place[x] > self._place[y]:

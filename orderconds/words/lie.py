@@ -1,9 +1,9 @@
 """Free Lie elements and their coordinates in the Lyndon basis.
 
 The standard bracketing of a Lyndon word w is equal to w plus greater words of the same letters. Hence the
-coordinates are computed from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie
-Algebras, Thm 5.1). In this module the word xy denotes the product xy. A word in the order of action is the
-product with the letters in reverse order (:func:`backwards`).
+coordinates follow from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie
+Algebras, Thm 5.1). In this module, the word xy denotes the product xy. In other modules, the first letter of
+a word acts first. The function :func:`backwards` converts between these conventions.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ S = TypeVar("S", str, Word)
 
 
 def standard_factors(word: S, key: Key | None = None) -> tuple[S, S]:
-    """Return the standard factors of a Lyndon word of two or more letters. The second factor is the longest
+    """Split a Lyndon word of two or more letters into its standard factors. The second factor is the longest
     proper suffix that is a Lyndon word.
 
     >>> standard_factors("AABB")
@@ -63,8 +63,8 @@ def expand(bracket: Bracket) -> Series:
 
 
 def backwards(series: Mapping[Word, Fraction]) -> Series:
-    """Return the series with every word reversed. Reversal converts a word in the order of action to the word
-    of the product, and conversely.
+    """Reverse every word of a series. This converts between words whose first letter acts first and words
+    that denote products.
 
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}
@@ -75,12 +75,11 @@ def backwards(series: Mapping[Word, Fraction]) -> Series:
 def coordinates_from_values(
     value: Callable[[Word], Element], words: Iterable[Word], key: Key | None = None
 ) -> dict[Word, Element]:
-    """Return the coordinates of a Lie element over any ring, computed only from the values of the element on
-    Lyndon words.
+    """Return the coordinates of a Lie element over any ring, from its coefficients at Lyndon words.
 
     ``words`` contains all Lyndon words of one weight, or all Lyndon words with the same letters, in ascending
-    order. The function ``value`` returns the coefficient of a word, where the word xy denotes the product xy.
-    It is not tested whether the series is a Lie element.
+    order. ``value`` returns the coefficient of a word. The word xy denotes the product xy. The function does
+    not check that the series is a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
     >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])

@@ -1,7 +1,7 @@
-"""Named Lie series as sums of brackets: BCH, symmetric BCH, Magnus, dexp and its inverse.
+"""Named Lie series as sums of brackets: BCH, symmetric BCH, Magnus, dexp and inverse dexp.
 
-The terms are elements of a basis of the free Lie algebra: bracketed Lyndon words, or a Hall basis. The
-bracket is [x, y] = x y - y x.
+The terms are multiples of basis elements of the free Lie algebra. The basis consists of bracketed Lyndon
+words, or is a Hall basis. The bracket is [x, y] = x y - y x.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ Coordinates = dict[Word, Fraction]
 
 @dataclass(frozen=True)
 class LieSeries:
-    """A Lie series: a one-line description, its letters in ascending order, the weights of the letters, and a
-    function that computes its coordinates.
+    """A Lie series. ``coordinates`` maps a weight to the coordinates of the series up to this weight.
 
-    The function ``letters`` returns all letters up to a given weight.
+    ``letters`` returns all letters up to a given weight, in ascending order. ``weigh`` returns the weight of
+    a letter. ``summary`` is a one-line description.
 
     >>> SERIES["bch"].letters(5), SERIES["magnus"].letters(3)
     (('A', 'B'), ('X1', 'X2', 'X3'))
@@ -44,7 +44,7 @@ class LieSeries:
 
 @dataclass(frozen=True)
 class LieTerm:
-    """One term of a Lie series: its weight, its bracket as nested pairs of letters, and its coefficient."""
+    """One term of a Lie series. ``bracket`` is a letter or a nested pair of letters."""
 
     weight: int
     bracket: Bracket
@@ -54,7 +54,7 @@ class LieTerm:
 def lie_terms(name: str, weight: int, basis: str = "lyndon") -> tuple[LieTerm, ...]:
     """Return the non-zero terms of a series up to a weight, in the basis ``lyndon`` or ``hall``.
 
-    Raises :class:`~orderconds.errors.UnknownName` if there is no series or basis of this name.
+    Raises :class:`~orderconds.errors.UnknownName` if the series or the basis is unknown.
 
     >>> [(term.bracket, str(term.coefficient)) for term in lie_terms("bch", 2)]
     [('A', '1'), ('B', '1'), (('A', 'B'), '1/2')]
@@ -111,8 +111,8 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return a function that computes the coordinates of a Lie element up to any weight. The argument
-    ``value`` returns the coefficient of a product of letters in the Lie element."""
+    """Return a function that maps a weight to the coordinates of a Lie element up to this weight. ``value``
+    returns the coefficient of a product of letters in the Lie element."""
 
     def coordinates(weight: int) -> Coordinates:
         place = {letter: number for number, letter in enumerate(letters(weight))}.__getitem__
@@ -159,8 +159,8 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return a function that computes the coordinates of a series of brackets ad_U^k X. The only Lyndon words
-    in this series are U ... U X."""
+    """Return a function that computes the coordinates of a series of the brackets ad_U^k X. The only Lyndon
+    words in such a series have the form U ... U X."""
 
     def coordinates(weight: int) -> Coordinates:
         series = expand(weight)
@@ -184,4 +184,4 @@ SERIES = {
     "dexp": LieSeries("dexp_U(X) = sum_k ad_U^k X/(k+1)!", _ux, _one, _linear_in_x(dexp)),
     "dexpinv": LieSeries("dexp_U^-1(X) = sum_k B_k/k! ad_U^k X", _ux, _one, _linear_in_x(dexp_inverse)),
 }
-"""The named series."""
+"""All Lie series that are available by name."""

@@ -18,10 +18,10 @@ Letter = TypeVar("Letter")
 def lyndon_words(
     letters: Sequence[Letter], weight: int, weigh: Callable[[Letter], int] = lambda letter: 1
 ) -> Iterator[tuple[Letter, ...]]:
-    """Yield the Lyndon words of exactly this weight, in lexicographic order.
+    """Yield the Lyndon words of a given weight, in lexicographic order.
 
-    ``letters`` are in ascending order. The function ``weigh`` returns the weight of a letter, a positive
-    integer; the weights need not be in ascending order.
+    ``letters`` are in ascending order. ``weigh`` returns the weight of a letter, a positive integer. The
+    weights need not be in ascending order.
 
     >>> ["".join(word) for word in lyndon_words("AB", 4)]
     ['AAAB', 'AABB', 'ABBB']
@@ -32,9 +32,9 @@ def lyndon_words(
     if any(w < 1 for w in weights):
         raise ValueError("every letter must have a positive weight")
     # The algorithm of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of lengths. A
-    # prefix of a Lyndon word is extended by one letter; the prefix has the period p. If the new letter is
-    # equal to the letter p positions before it, the period does not change. If the new letter is greater, the
-    # new period is the length of the extended word.
+    # prefix of period p is extended by one letter. If the new letter equals the letter p positions earlier,
+    # the period does not change. If the new letter is greater, the new period is the length of the extended
+    # word.
     places: list[int] = []
 
     def extend(period: int, left: int) -> Iterator[tuple[Letter, ...]]:
@@ -57,8 +57,7 @@ def lyndon_words(
 def lyndon_factors(
     word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None
 ) -> list[tuple[Letter, ...]]:
-    """Return the non-increasing sequence of Lyndon words whose concatenation is ``word`` (J.-P. Duval, J.
-    Algorithms 4 (1983) 363).
+    """Factor a word into a non-increasing sequence of Lyndon words (J.-P. Duval, J. Algorithms 4 (1983) 363).
 
     >>> ["".join(factor) for factor in lyndon_factors("BANANA")]
     ['B', 'AN', 'AN', 'A']

@@ -1,8 +1,8 @@
-"""The linear functionals on words that vanish on a two-sided ideal of the free algebra.
+"""Linear functionals on words that vanish on a two-sided ideal of the free algebra.
 
-The values of these functionals determine an element of the quotient of the free algebra by the ideal. They
-are therefore coordinates on the group of group-like elements of the quotient. Modulo products of functionals
-of lower weight, the functionals form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie
+The values of these functionals determine an element of the quotient of the free algebra by the ideal. The
+functionals are therefore coordinates on the group-like elements of the quotient. Modulo products of
+functionals of lower weight, they form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie
 Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
 """
 
@@ -24,11 +24,11 @@ word is the name of the functional."""
 
 
 def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int) -> tuple[Functional, ...]:
-    """Return a basis of the functionals on words of this length that vanish on the two-sided ideal generated
-    by ``generators``.
+    """Return a basis of the functionals on words of length ``length`` that vanish on an ideal. ``generators``
+    generate this two-sided ideal.
 
-    Each functional is named by one of its words. The names are different, and are Lyndon words if possible.
-    No functional contains the name of another functional.
+    The first word of each functional is its name. The names are different, and Lyndon words if possible. No
+    functional contains the name of another functional.
 
     >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
     >>> orthogonal([commuting], (0, 1), 2)
@@ -36,9 +36,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Each column of the matrix belongs to a word. The words of the columns without pivot become the names
-        # of the functionals. Pivot columns are chosen from the left, so the columns of Lyndon words are
-        # placed at the right. Lyndon words then become names if possible.
+        # Each column of the matrix belongs to a word. The words of columns without a pivot become names of
+        # functionals. Pivots are chosen from the left. Lyndon words are placed at the right, so that they
+        # become names if possible.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
@@ -85,8 +85,8 @@ def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
 def _ideal(
     generators: Sequence[Series], letters: Sequence[int], length: int, content: Word
 ) -> Iterator[Series]:
-    """Yield the products u g v that consist of the letters in ``content``, for every generator g and all
-    words u and v."""
+    """Yield the products u g v with exactly the letters in ``content``, for all generators g and all words u
+    and v."""
     for generator in generators:
         some = next(iter(generator))
         left = list(content)

@@ -1,6 +1,5 @@
-"""The two products of words: the shuffle product and concatenation. Concatenation of words extends to the
-product of series. The value of a group-like series on the shuffle product of two words is the product of its
-values on these words."""
+"""The shuffle product of words, and the product of series by concatenation of words. The value of a
+group-like series on the shuffle product of two words is the product of the values on these words."""
 
 from __future__ import annotations
 
@@ -11,16 +10,16 @@ from math import factorial
 from typing import Any
 
 Letter = Any
-"""A letter: a hashable value. For Lyndon words, letters must be comparable, and all letters of a word must
-have the same type."""
+"""A letter is a hashable value. In Lyndon words, letters must be comparable, and all letters must have the
+same type."""
 
 Word = tuple[Letter, ...]
 Series = dict[Word, Fraction]
-"""A series: the words with non-zero coefficients, and their coefficients."""
+"""A series, as a map from words to their non-zero coefficients."""
 
 
 def shuffle(u: Sequence[Letter], v: Sequence[Letter]) -> Counter[Word]:
-    """Return all words that interleave u and v, with multiplicities.
+    """Return the shuffle product of u and v: all words that interleave u and v, with multiplicities.
 
     >>> sorted(("".join(word), times) for word, times in shuffle("AB", "A").items())
     [('AAB', 2), ('ABA', 1)]
