@@ -1,6 +1,4 @@
-"""The functions that formulas may contain, for the number types of the lab: floats, mpmath numbers, balls,
-arrays.
-"""
+"""The functions that formulas may contain, for several number types: floats, mpmath numbers, balls, arrays."""
 
 from __future__ import annotations
 
@@ -17,15 +15,16 @@ TABLES = "table"
 """The key of the function that converts a table of a scene into a function of one number."""
 
 Functions = Mapping[str, Scalar]
-"""Functions by name. Every function accepts numbers, except the function with the key :data:`TABLES`. The
-arguments of this function are a table and a function that converts numbers, and its result is the function
-that the table defines.
+"""Functions by name. All functions accept numbers, except the function with the key :data:`TABLES`.
+
+The function with this key has two arguments: a table, and a function that converts numbers. The result is the
+function that the table defines.
 """
 
 
 def of_scalars(source: object) -> Functions:
-    """Return the functions for numbers that ``<`` compares, such as floats. ``source`` is a module or type
-    with the functions ``sin``, ``sqrt`` and so on for these numbers.
+    """Return the functions for numbers that can be compared with ``<``, such as floats. ``source`` is a
+    module or type that contains ``sin``, ``sqrt`` and other functions of these numbers.
     """
     return {
         **{name: getattr(source, name) for name in (*MATHEMATICAL, ANGLE)},
@@ -58,7 +57,8 @@ def of_arrays(library: Scalar) -> Functions:
 
 
 def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
-    """Return the function that a formula calls; raise ArithmeticError if ``functions`` does not contain it.
+    """Return the function that a formula calls. Raise ArithmeticError if ``functions`` does not contain the
+    function.
 
     ``name`` is the name of a function, or a table of a scene. ``constant`` converts the numbers of a table.
     """
@@ -75,9 +75,12 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
 
 
 def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
-    """Return the numbers of a piecewise polynomial, converted by ``constant``: the list of knots, the list of
-    base points, and for each power the list of its coefficients in all pieces. A piece is a polynomial in x
-    minus its base point."""
+    """Return the numbers of a piecewise polynomial, converted by ``constant``.
+
+    The result contains the list of knots, the list of base points, and for each power k a list of
+    coefficients, one for each piece. A piece is a polynomial in powers of x - b, where b is the base point of
+    the piece.
+    """
     columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
     return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]
 

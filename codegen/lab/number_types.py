@@ -1,4 +1,4 @@
-"""Names for the types of numbers that the lab computes with.
+"""Names for the types of numbers with which formulas are evaluated.
 
 The same formulas are evaluated on floats, mpmath numbers, Arb balls, power series and expressions. These
 types have no common base class.

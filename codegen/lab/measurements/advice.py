@@ -23,8 +23,9 @@ BODY = '{% include "sections/advice.html.j2" %}'
 OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
-"""A method is measured only if its predicted run time is at most SAFETY times the best measured time. The
-factor is smaller than in a search for a single goal, because this search divides its time among many goals.
+"""A method is measured only if its predicted run time is at most SAFETY times the best measured time.
+
+The factor is smaller than in a search for a single goal, because the search for a report has many goals.
 """
 
 
@@ -48,8 +49,8 @@ class Advised:
 
 @dataclass(frozen=True)
 class Line:
-    """A requirement, and in ``best`` the fastest method for each error 10^-k with k in :data:`DECADES`. The
-    entry is None if no method reaches the error.
+    """A requirement, and the fastest method for each error 10^-k with k in :data:`DECADES`. An entry of
+    ``best`` is None if no method reaches the error.
     """
 
     need: str
@@ -59,8 +60,8 @@ class Line:
 
 @dataclass(frozen=True)
 class Searched:
-    """The result of a search: one line for each requirement. ``complete`` is True if the time budget was
-    sufficient.
+    """The result of a search: one line for each requirement. ``complete`` is False if the time budget ended
+    the search.
     """
 
     lines: tuple[Line, ...]
@@ -109,8 +110,8 @@ class Advice(Measurement[Recommendations]):
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
 
     def verdict(self, result: Recommendations, subject: Subject) -> str:
-        """Return a sentence that names two methods: the fastest for the largest error, and the fastest for
-        the smallest error that a method reaches. The methods need not satisfy any further requirement.
+        """Return a sentence that names the fastest method for the largest error, and the fastest method for
+        the smallest error that a method reaches.
         """
         own = result.advice[0].best if result.advice else ()
         choices = [
@@ -167,8 +168,8 @@ def completed(
     """Return ``lines`` with their gaps filled, if possible. A gap is an error for which the search found no
     method.
 
-    A gap is filled with the fastest method that satisfies the requirement, among the methods that were
-    measured for the page of the report. Its time is interpolated between measured runs. Gaps remain for
+    The methods that were measured for the page of the report are used. Of the methods that satisfy the
+    requirement, the fastest fills the gap. Its time is interpolated between measured runs. Gaps remain for
     requirements that include long times, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
@@ -222,8 +223,8 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 
 
 def cell(best: Advised | None) -> dict[str, str] | None:
-    """Return the texts in a cell of the table (method, time, step size and steps, command); None if no method
-    reaches the error."""
+    """Return the texts in a cell of the table (method, time, step size and steps, command), or None if no
+    method reaches the error."""
     if best is None:
         return None
     control = "" if best.h is None else f"h = {best.h:.4g}"

@@ -103,8 +103,8 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            # The family is omitted, because there are no formulas to show: it is not a family of
-            # :mod:`orderconds.families`, or its methods have no tableau.
+            # Families outside :mod:`orderconds.families` and methods without a tableau have no formulas to
+            # show.
             continue
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())

@@ -22,7 +22,7 @@ from codegen.scenes import file_stem
 
 @dataclass(frozen=True)
 class CostResult:
-    """The measured rows, one for each run, and the candidates: the methods and peers that made the runs."""
+    """The measured rows, one for each run, and the candidates (methods and peers) that made the runs."""
 
     result: Result
     candidates: tuple[Candidate, ...]
@@ -67,8 +67,7 @@ class Cost(Measurement[CostResult]):
         return [row.as_json() for row in result.result.rows]
 
     def verdict(self, result: CostResult, subject: Subject) -> str:
-        """Return a sentence that lists the methods that are the fastest for at least one accuracy, each with
-        the accuracies for which it is the fastest."""
+        """Return a sentence that lists, for each accuracy, the fastest method."""
         places = result.result.places
         if not places:
             return ""
@@ -125,7 +124,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
 
 
 def _decades(numbers: Sequence[int]) -> str:
-    """Return a text that lists the errors 10^-k for increasing numbers k; consecutive numbers form a range.
+    """Return a text that lists the errors 10^-k for increasing numbers k. Consecutive numbers form a range.
 
     >>> _decades([2, 4, 5, 6])
     '10⁻² and 10⁻⁴ to 10⁻⁶'
@@ -141,7 +140,7 @@ def _decades(numbers: Sequence[int]) -> str:
 
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
     """Return one row of texts for each method and peer: the set-up times, and the operations and the time of
-    one step. The last run without failure, which has the shortest steps, determines the values of a step.
+    one step. The values of a step are taken from the successful run with the shortest steps.
     """
     lines = []
     for label, rows in entries.items():

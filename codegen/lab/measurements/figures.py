@@ -19,8 +19,11 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Stored:
-    """A drawn figure in the form that the cache stores: the SVG element, the note (a sentence that is added
-    to the caption), and the numbers that the figure shows."""
+    """A drawn figure as the cache stores it.
+
+    ``svg`` is the SVG element, ``note`` a sentence that is added to the caption, and ``numbers`` the numbers
+    that the figure shows.
+    """
 
     svg: str
     note: str
@@ -40,7 +43,7 @@ Results = tuple[Result, ...]
 
 
 class Figures(Measurement[Results]):
-    """Draws the figures that the file of the scene declares. They do not depend on the methods or on the
+    """Draws the figures that the file of the scene declares. The figures do not depend on the methods and the
     effort that the user requests for the report."""
 
     name = "figures"

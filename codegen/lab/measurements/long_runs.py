@@ -58,9 +58,11 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence on one quantity: the energy, else the first invariant, else the manifold
-        equations. The sentence states each observed law of growth of the deviations, such as ``bounded`` or
-        ``drift``, and the methods to which this law applies.
+        """Return a sentence on the growth of the deviations of one quantity.
+
+        The quantity is the energy, otherwise the first invariant, otherwise the manifold equations. The
+        sentence lists the observed laws of growth, such as ``bounded`` or ``drift``, with the methods to
+        which each law applies.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -92,8 +94,9 @@ def _count(n: int) -> str:
 
 
 def _shown(runs: Sequence[LongRun]) -> list[str]:
-    """Return the names of the quantities that have a diagram: the energy (or the first invariant if there is
-    no energy), and the manifold equations if there are any.
+    """Return the names of the quantities that have a diagram.
+
+    These are the energy, or the first invariant if there is no energy, and the manifold equations.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]
@@ -121,8 +124,8 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 
 
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
-    """Return points (time, largest deviation so far): the points at which the largest deviation increases,
-    and the last point."""
+    """Return points (t, d), where d is the largest deviation up to the time t. Only the points at which d
+    increases, and the last point, are returned."""
     for kept in run.kept:
         if kept.name != name:
             continue

@@ -17,8 +17,8 @@ Result = MethodResults[OrderStudy]
 
 
 class Orders(Measurement[Result]):
-    """Compares the observed order of the emitted code with the order that the order conditions prove, for
-    every target, such as C or Python."""
+    """Compares the observed order of the emitted code with the order from the order conditions, for every
+    target, such as C or Python."""
 
     name = "orders"
     title = "Orders"
@@ -59,8 +59,8 @@ class Orders(Measurement[Result]):
         return Section('{% include "sections/orders.html.j2" %}', values)
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence with the number of methods whose observed order equals the computed order, and
-        with the exceptions.
+        """Return a sentence with the number of methods whose observed order equals the computed order. The
+        sentence also lists the exceptions.
         """
         total = len(result.measured) + len(result.failures)
         held = sum(m.verdict == "holds" for m in result.measured)
@@ -82,7 +82,7 @@ class Orders(Measurement[Result]):
 
 def agreement(spread: float | None) -> str:
     """Return a text for ``spread``, the largest difference between the final states that the targets and the
-    interpreter compute; None means that no number of steps succeeds with all of them."""
+    interpreter compute. ``spread`` is None if no number of steps succeeds with all targets."""
     if spread is None:
         return "no run"
     return scientific(spread) if spread else "bit for bit"

@@ -23,7 +23,7 @@ Result = MethodResults[Stability]
 
 
 class StabilityTests(Measurement[Result]):
-    """Makes stress tests of single steps and of long runs, and computes the linear stability."""
+    """Tests single steps with extreme input and long runs, and computes the linear stability."""
 
     name = "stability"
     title = "Stability"
@@ -52,7 +52,7 @@ class StabilityTests(Measurement[Result]):
         return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Return True if every method could be tested, no result of a step is wrong, and every endurance run
+        """Return True if every method could be tested, no step has a wrong result, and every endurance run
         passed."""
         return not result.failures and all(s.honest for s in result.measured)
 
@@ -93,8 +93,8 @@ class StabilityTests(Measurement[Result]):
         return Section('{% include "sections/stability.html.j2" %}', data(result, subject))
 
     def overview(self, result: Result, subject: Subject) -> Section | None:
-        """Return a paragraph with the number of wrong results of steps with extreme input; None if no such
-        step was made."""
+        """Return a paragraph with the number of wrong results of steps with extreme input, or None if there
+        are no results."""
         answers = sum(len(s.findings.answers) for s in result.measured)
         wrong = sum(len(s.wrong) for s in result.measured)
         return Section(OVERVIEW, {"wrong": wrong, "all": answers}) if answers else None
@@ -162,8 +162,8 @@ def _length(x: float) -> str:
 
 
 def _cases(stability: Stability) -> dict[str, object]:
-    """Return the results of a method for extreme inputs as rows of a table. If steps with consecutive inputs
-    return the same status message, these inputs are in one row."""
+    """Return the results of a method for extreme inputs as rows of a table. Consecutive inputs with the same
+    status message share a row."""
     rows: list[dict[str, object]] = []
     names: list[str] = []
     for a in stability.findings.answers:

@@ -1,8 +1,9 @@
 """Convergence: the observed order of a method on a scene, compared with the stated order.
 
-The error is the distance of the final state from a reference solution (:mod:`codegen.lab.distance`). The
-steps are halved until the slopes of the errors have settled (:mod:`codegen.lab.orders.step_sizes`). The
-stated order comes from the order conditions, from the tableau file or from the user, never from the slopes.
+The error is the distance of the final state from a reference solution (:mod:`codegen.lab.distance`). A slope
+is the slope of log(error) against log(h) between two consecutive runs with step sizes h. The steps are halved
+until the slopes have settled (:mod:`codegen.lab.orders.step_sizes`). The stated order comes from the order
+conditions, from the tableau file or from the user, never from the slopes.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ from codegen.scene.problem import Problem
 
 ROUNDING = "rounding"
 UNPROVED = ("stated", "claimed")
-"""Certificates of orders that are not proved by order conditions. Very short steps must confirm these
-orders.
+"""Certificates of orders that are not proved by order conditions. Runs with very short steps must confirm
+these orders.
 """
 
 FEWEST = 4
@@ -33,7 +34,7 @@ FEWEST = 4
 
 @dataclass(frozen=True, repr=False)
 class Convergence:
-    """The runs of one method on one scene, and the order from the order conditions.
+    """The runs of one method on one scene, and the stated order.
 
     ``kinks`` contains, for each point of the solution at which the field is not smooth, the number of
     continuous derivatives of the field (:class:`codegen.lab.reference.Reference`).
@@ -51,8 +52,10 @@ class Convergence:
 
     @property
     def observed(self) -> float | None:
-        """The observed order: the last slope of the runs that are not excluded; None if there is no slope. If
-        :attr:`limit` is below the stated order, slopes are irregular, and the order is the mean slope.
+        """The observed order: the last slope of the runs that are not excluded, or None if there is no slope.
+
+        If :attr:`limit` is below the stated order, the slopes are irregular, and the observed order is the
+        mean slope.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -71,15 +74,15 @@ class Convergence:
 
     @property
     def limit(self) -> float:
-        """The highest order that equal steps can have if the solution has kinks (points at which the field is
-        not smooth); infinity if it has none."""
+        """The highest order that equal steps can have if the solution has kinks, which are points at which
+        the field is not smooth. Without kinks the limit is infinity."""
         # If k derivatives of the field are continuous at a kink, the local error of the step that contains
-        # the kink has order k + 2. The number of steps that contain a kink does not depend on h, so the error
-        # at the end has this order, too.
+        # the kink has order k + 2. The number of steps that contain a kink does not depend on h. Therefore
+        # the error at the end also has order k + 2.
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of ``orderconds converge``; an error that is not finite is null."""
+        """Return the JSON object of ``orderconds converge``. An error that is not finite becomes None."""
         runs = self.refinement.runs
         observed = self.observed
         return {
@@ -191,12 +194,12 @@ def converge(
 ) -> Convergence:
     """Run a method with shorter and shorter steps and return the result.
 
-    ``stated`` is the order to test, and ``exact`` is the reference solution. ``steps`` prescribes the
-    numbers of steps. By default the first run has five steps, and each further run
-    has twice as many steps as the previous run. The runs end when the slopes have settled (with
-    ``to_rounding``: when rounding errors dominate), or when a further run would have more than
-    ``runner.most_steps`` steps. ``form`` is the classical form of the equations that ``runner`` integrates;
-    errors are measured on the state of the scene.
+    ``stated`` is the order to test, and ``exact`` is the reference solution. ``steps`` prescribes the numbers
+    of steps. By default the first run has five steps, and each further run has twice as many steps as the
+    previous run. The runs end when the slopes have settled, or when a further run would have more than
+    ``runner.most_steps`` steps. If ``to_rounding`` is true, the runs continue until rounding errors dominate.
+    ``form`` is the classical form of the equations that ``runner`` integrates. Errors are measured in the
+    coordinates of the scene.
     """
     scene = runner.compiled.scene if form is None else form.scene
     label = runner.compiled.method.label if form is None else f"{runner.compiled.method.label} ({form.name})"

@@ -1,8 +1,9 @@
 """Exact elementary differentials of a scene over any ring, computed with nilpotent numbers.
 
-For x in the Lie algebra, a group action defines the frozen field y -> x.y. The derivative along a frozen
-field is computed by substituting y + eps x.y for y, with eps^2 = 0. After k substitutions, the coefficient
-of eps_1 ... eps_k is the k-th derivative. This works for every scene that is polynomial in its coordinates.
+For x in the Lie algebra, a group action defines the frozen field y -> x.y. To compute the derivative along a
+frozen field, y is replaced by y + eps x.y, with eps^2 = 0. After k substitutions with different numbers
+eps_1, ..., eps_k, the coefficient of the product eps_1 ... eps_k is the k-th derivative. This method requires
+a scene that is polynomial in its coordinates.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ class RingDomain(Domain):
         self.h = ring.one
 
     def number(self, value: Number) -> Element:
-        """Return an exact number as an element of the ring; the number must be rational or in the ring."""
+        """Return an exact number, which must be rational or in the ring, as an element of the ring."""
         if value.ring is self.ring:
             return value.element
         fraction = value.fraction()
@@ -106,9 +107,9 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, over trees with directed edges.
 
-    A vertex represents a derivative of H. For each branch, let (xi, n) be the result of :meth:`tree`. A
-    branch of kind 0 differentiates H with respect to q along xi, and a branch of kind 1 differentiates H with
-    respect to mu along n (:mod:`orderconds.trees.directed`).
+    A vertex represents a derivative of the Hamiltonian H(q, mu). For each branch, let (xi, n) be the result
+    of :meth:`tree`. A branch of kind 0 differentiates H with respect to q in the direction xi. A branch of
+    kind 1 differentiates H with respect to mu in the direction n (:mod:`orderconds.trees.directed`).
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -118,7 +119,7 @@ class CanonicalFields:
         self._known: dict[DirectedTree, Vector] = {}
 
     def tree(self, tree: DirectedTree) -> Vector:
-        """Return (xi, n) = (D_mu K, -D_q K) for a tree, where K is the derivative of H that the branches at
+        """Return (xi, n) = (D_mu K, -D_q K) for a tree. Here K is the derivative of H that the branches at
         the root define.
         """
         if tree not in self._known:
@@ -135,10 +136,10 @@ class CanonicalFields:
 
 
 def action_fields(scene: Problem, ring: Ring) -> ActionFields:
-    """Return an object that computes the elementary differentials of an autonomous polynomial Hamiltonian
-    scene at its initial point: velocities in the Lie algebra, and covectors in its dual.
+    """Return the elementary differentials of an autonomous polynomial Hamiltonian scene at its initial point.
 
-    Group elements are represented by their matrices; for R^n these are the matrices of translations.
+    The elementary differentials are velocities in the Lie algebra and covectors in its dual. Group elements
+    are represented by their matrices. For R^n these are the matrices of translations.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
     group = scene.group.require(MatrixRepresentation, where=scene.name)
