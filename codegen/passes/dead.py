@@ -20,8 +20,8 @@ def run(program: Program) -> Program:
     # its definition.
     for statement in reversed(program.body):
         if isinstance(statement, Assign):
-            # If one result of an operation is live, all its results are kept, because the operation computes
-            # them together. The field is an example.
+            # If one result of an operation is live, all its results are kept. The operation computes them
+            # together, as the Hamiltonian field computes a velocity and a force.
             if live.intersection(statement.targets):
                 live.update(statement.args)
                 kept.append(statement)

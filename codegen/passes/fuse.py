@@ -13,7 +13,10 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
-    """Return the program with act(exp(x), y) fused into actexp(x, y); dead-code removal then drops exp(x)."""
+    """Return the program with act(exp(x), y) replaced by the operation actexp(x, y).
+
+    The operation exp(x) is then unused. The pass for unused values removes it.
+    """
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if isinstance(assign.operation, Act):

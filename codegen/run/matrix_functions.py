@@ -100,7 +100,7 @@ def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> 
 
 
 def _coefficient() -> Term:
-    """Return the name of the table of the coefficients 1/k!."""
+    """Return the term for the table of the coefficients 1/k!."""
     return real(COEFFICIENTS, DEGREES[-1] + 1)
 
 
@@ -263,7 +263,7 @@ class _Exponential:
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
         """Return the statements that compute a bound of the spectral norm of exp(scale a).
 
-        The exponential exp(scale a) is computed first, and then squared repeatedly until it is exp(a).
+        The emitted function computes exp(a) from exp(scale a) by repeated squaring.
         """
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))

@@ -7,7 +7,7 @@ steps of the run do not depend on output times.
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of
 sign between two of these times. Two zeros of one function between two of these times are not found. A value
-that is exactly zero at the beginning of a run is no event; only changes of sign after that are events. The
+that is exactly zero at the beginning of a run is no event. Only later changes of sign are events. The
 Illinois variant of the secant method, together with bisection, encloses the time of an event in an interval.
 The search ends when the length of this interval is a few times the distance between adjacent floating-point
 numbers. The event state is the state at the end of this interval, where the sign has changed. A run that

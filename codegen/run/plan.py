@@ -150,8 +150,8 @@ class Plan:
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
         """Return the names in ``scalars`` that the statements of the kernel read."""
-        # Only the scheduled statements are searched. Scheduling may have removed all statements that read a
-        # scalar.
+        # Only the scheduled statements are searched, because scheduling may have removed the statements that
+        # read a scalar.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

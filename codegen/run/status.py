@@ -36,7 +36,7 @@ MEANINGS = {
     BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is an infinity or a NaN",
-    BAD_SHAPE: "too few sites in a dimension, or an odd number in a periodic dimension with flows of pairs",
+    BAD_SHAPE: "too few sites in a dimension, or an odd number of sites where flows act on pairs",
     BAD_OPERATOR: "exp(c h L) or another function of h L is infinite or NaN",
 }
 """The comment on each status code in the header of emitted code."""
@@ -52,7 +52,7 @@ REASONS = {
     BAD_TIMES: "the output times are not finite, not in order, or not between t and end",
     LEAST_STEP: "the end is not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is not finite",
-    BAD_SHAPE: "too few sites in a dimension, or an odd number in a periodic dimension with flows of pairs",
+    BAD_SHAPE: "too few sites in a dimension, or an odd number of sites where flows act on pairs",
     BAD_OPERATOR: "exp(c h L) or another function of h L is not finite for h = {h}",
 }
 """The reason for each failure in error messages of both targets.

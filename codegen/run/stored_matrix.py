@@ -103,7 +103,7 @@ class StoredMatrix(ABC):
         """Return the functions :data:`VALUE`, :data:`ROW_SUM` and :data:`PRODUCT`."""
 
     def vector(self, name: str) -> Term:
-        """Return the name of an n x k array."""
+        """Return the term for an n x k array, where k is the number of columns of the state."""
         return real(name, self.n * self.columns)
 
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
@@ -156,7 +156,7 @@ class BandedMatrix(StoredMatrix):
         return [For(_ROW, whole(self.letter_size), (Assign(target[_ROW], _combined(nodes, letter)),))]
 
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
-        """Return the functions of the matrix."""
+        """Return the functions that evaluate the matrix, bound its row sums, and multiply it by a vector."""
         a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
         result = real("result", self.node_size)
         loops = [self._diagonal(number, result) for number in range(len(self.matrix.offsets))]
@@ -250,7 +250,7 @@ class FullMatrix(StoredMatrix):
         return body
 
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
-        """Return the functions of the matrix."""
+        """Return the functions that evaluate the matrix, bound its row sums, and multiply it by a vector."""
         a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
         result = real("result", self.node_size)
         named = [Assign(result[k], value(node)) for k, node in enumerate(self.hoisted.names)]

@@ -69,8 +69,9 @@ LEAST = 1e-30
 smaller norm is replaced by this number."""
 
 ROWS = 4
-"""The number of products of coefficients that each iteration of the loop of the Cauchy products adds to each
-sum."""
+"""The number of rows of coefficients that one iteration of the loop over Cauchy products reads.
+
+Each row adds one product to each sum."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 

@@ -169,32 +169,32 @@ def _comparison(op: str, x: Term, y: Operand) -> Term:
 
 
 def real(name: str, *shape: int, optional: bool = False, cell: bool = False) -> Term:
-    """Return the name of a real, or of an array of reals."""
+    """Return the term for a variable of kind real, or for an array of reals."""
     return Term("name", (), Kind.REAL, name, shape=shape, optional=optional, cell=cell)
 
 
 def count(name: str, *shape: int, optional: bool = False, cell: bool = False) -> Term:
-    """Return the name of a count: an integer that is never negative."""
+    """Return the term for a count (an integer that is never negative), or for an array of counts."""
     return Term("name", (), Kind.COUNT, name, shape=shape, optional=optional, cell=cell)
 
 
 def flag(name: str) -> Term:
-    """Return the name of a flag."""
+    """Return the term for a flag, a variable that is true or false."""
     return Term("name", (), Kind.FLAG, name)
 
 
 def own(name: str, *shape: int) -> Term:
-    """Return the name of a real of the kernel."""
+    """Return the term for a real variable or array of the kernel."""
     return Term("name", (), Kind.REAL, name, shape=shape, own=True)
 
 
 def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
-    """Return the name of a record, or of an array of records; ``of`` is the name of the record type."""
+    """Return the term for a record or an array of records; ``of`` is the name of the record type."""
     return Term("name", (), Kind.RECORD, name, shape=shape, optional=optional, record=of)
 
 
 def signal(name: str) -> Term:
-    """Return the name of a function of time that returns the run-time inputs."""
+    """Return the term for a function of time that returns the run-time inputs."""
     return Term("name", (), Kind.SIGNAL, name)
 
 
@@ -361,7 +361,7 @@ def names(terms: Iterable[Term]) -> Iterator[Term]:
 
 @lru_cache(maxsize=4096)
 def _read(name: str) -> Term:
-    """Return the name of a symbol that an expression reads.
+    """Return the term for a symbol that an expression reads.
 
     All expressions that read the symbol share one object.
     """

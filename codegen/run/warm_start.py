@@ -50,7 +50,7 @@ FEW = 12
 """The largest number of unknowns for which differences are computed in scalars, without inner loops."""
 
 SELDOM = 8
-"""When the memory is full, the degree is adapted only in every step whose number is a multiple of SELDOM."""
+"""When the memory is full, the degree is adapted only once in SELDOM steps."""
 
 _I = count("i")
 
@@ -262,7 +262,7 @@ class WarmStart:
         def added(k: Term) -> Statement:
             return Assign(moved, moved + size(solution[k] - self.values[self.place][k]))
 
-        # The matrix of Newton's method is kept. A separate test decides when it is computed again.
+        # The matrix of Newton's method is not discarded. A separate test decides when it is computed again.
         forgotten = (Assign(self.known, whole(0)), Assign(self.degree, whole(0)))
         return [
             Assign(moved, number(0.0)),

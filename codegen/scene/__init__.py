@@ -3,8 +3,9 @@
 A scene is the differential equation that a user writes. A problem is the form of a scene that the compiler
 evaluates.
 
-A scene file imports its names from this package:
+A scene file imports its names from this package, for example
 ``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``.
+
 Scenes with large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and
 ``full``. Chains and lattices use ``SiteScene`` or ``HamiltonianSiteScene``, with ``neighbour``, ``left`` and
 ``right``. Semilinear partial differential equations use ``SemilinearScene`` and ``Dx``.

@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 
 
 def check_group(name: str, group: object) -> None:
-    """Raise :class:`SceneError` if ``group`` is not a group. A class such as ``SO3`` in place of ``SO3()`` is
-    no group, and a name of a group is none either."""
+    """Raise :class:`SceneError` if ``group`` is not an object of a group class.
+
+    Typical mistakes are the name of a group, and a class such as ``SO3`` in place of ``SO3()``.
+    """
     if not isinstance(group, LieGroup):
         _refuse(name, "group", group, "SO3()")
 
