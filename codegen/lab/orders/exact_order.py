@@ -2,10 +2,11 @@
 
 Slopes of errors only estimate the order. For a scene whose field is polynomial or rational, the Taylor
 coefficients of the local error are exact numbers. The order is p if the coefficients of h, ..., h^p vanish
-and the coefficient of h^(p+1) does not vanish. Coordinates of the initial state that are not in the ring of
-the method's coefficients are replaced by nearby rational numbers. The initial point may then lie off the
-manifold. This does not matter, because the equations, the group action and the order conditions are valid at
-such points, too.
+and the coefficient of h^(p+1) does not vanish.
+
+Coordinates of the initial state that are not in the ring of the method's coefficients are replaced by nearby
+rational numbers. The initial point may then lie off the manifold. The equations, the group action and the
+order conditions are also valid at points off the manifold.
 """
 
 from __future__ import annotations
@@ -37,10 +38,10 @@ DENOMINATOR = 64
 class ExactLocalError:
     """The leading term of the local error of one step, with exact coefficients.
 
-    ``order`` is the exact order if ``vanishes`` is false. ``coefficients`` are then the coefficients of
-    h^(order+1), one for each coordinate in ``symbols``. If ``vanishes`` is true, all computed coefficients
-    are zero: the order on this scene is at least ``order``, and ``coefficients`` is empty. ``start`` is the
-    initial state that was used.
+    If ``vanishes`` is False, ``order`` is the exact order, and ``coefficients`` are the coefficients of
+    h^(order+1), one for each coordinate in ``symbols``. If ``vanishes`` is True, all computed coefficients
+    are zero. The order on this scene is then at least ``order``, and ``coefficients`` is empty. ``start`` is
+    the initial state that was used.
     """
 
     scene: str
@@ -54,7 +55,8 @@ class ExactLocalError:
 
     @property
     def verdict(self) -> str:
-        """``holds`` if the exact order is at least the order from the order conditions, else ``fails``."""
+        """``holds`` if the exact order is at least the order from the order conditions, otherwise
+        ``fails``."""
         return "holds" if self.order >= self.certified.order else "fails"
 
     def sentence(self) -> str:

@@ -1,9 +1,9 @@
 """The exact local error of a step program: its Taylor coefficients in h, computed in two ways.
 
-First, the interpreter runs a program on a polynomial scene over Q[[h]] and returns the series of the state
-after one step. The series of the exact solution, which Picard iteration returns, is subtracted. The
-difference starts at h^(p+1), where p is the order. Second, the theory predicts the coefficient of h^(p+1). It
-is a sum over the order conditions: the residual of each condition times an elementary differential of the
+First, the interpreter runs a program on a polynomial scene over Q[[h]]. The result is the series of the state
+after one step. Picard iteration gives the series of the exact solution. The difference of the two series
+starts at h^(p+1), where p is the order. Second, the theory predicts the coefficient of h^(p+1) as a sum over
+the order conditions. Each summand is the residual of a condition times an elementary differential of the
 scene. Comparing the two coefficients tests the program against the order conditions.
 """
 
@@ -89,12 +89,13 @@ def leading_term(error: Vector) -> tuple[int, Vector]:
 
 
 def predicted(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the coefficients of h^power in the local error, as the order conditions of a method predict
-    them: one coefficient for each coordinate.
+    """Return the coefficient of h^power in the local error for each coordinate, as the order conditions
+    predict.
 
     The method must satisfy the conditions of all orders below ``power``. ``scene`` is the problem for which
-    the program was generated. It must be autonomous and polynomial. For symplectic partitioned methods it
-    must be Hamiltonian on T*R^n, and the order conditions are those of trees with directed edges.
+    the program was generated. The scene must be autonomous and polynomial. For symplectic partitioned
+    methods, the scene must be Hamiltonian on T*R^n, and the order conditions belong to trees with directed
+    edges.
     """
     if not scene.autonomous:
         raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")
@@ -144,8 +145,8 @@ def _trees(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _forests(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the Lie-Butcher series: a sum over ordered forests w of d(w) F(w). Here F(w) is the
-    elementary differential of w, and d(w) is the coefficient of w in the numerical solution minus its
+    """Return a term of the Lie-Butcher series: the sum of d(w) F(w) over ordered forests w. Here F(w) is the
+    elementary differential of w. The number d(w) is the coefficient of w in the numerical solution minus its
     coefficient in the exact solution."""
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]

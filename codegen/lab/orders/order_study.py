@@ -1,4 +1,5 @@
-"""The order of one method on a scene: convergence in every target, agreement of the targets, and times."""
+"""Studies the order of one method on a scene: convergence for every target, differences between the targets,
+and run times."""
 
 from __future__ import annotations
 
@@ -19,8 +20,8 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""The number of steps after which the states of all targets and of the interpreter are compared. If a run
-with this number of steps fails, a larger number is used.
+"""The number of steps of the runs whose final states are compared between all targets and the interpreter. If
+a run with this number of steps fails, a larger number is used.
 """
 
 MOST_TIMED = 2560
@@ -31,9 +32,9 @@ MOST_TIMED = 2560
 class OrderStudy:
     """The study of one method: its certified order, and its convergence for each target, such as C or Python.
 
-    ``times`` and ``artifact`` belong to the default target. ``spread`` is the largest difference of a
-    coordinate between the final states of all targets and of the interpreter, after at least :data:`COMPARED`
-    steps; None if no such run succeeds.
+    ``times`` and ``artifact`` belong to the default target. The final states of all targets and of the
+    interpreter are compared after at least :data:`COMPARED` steps. ``spread`` is the largest difference of a
+    coordinate, or None if there is no number of steps with which all runs succeed.
     """
 
     method: Method
@@ -111,10 +112,9 @@ def order_study(
 def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:
     """Return the largest difference of a coordinate between the final states of several runners.
 
-    The number of steps is the first number in ``steps`` that is at least :data:`COMPARED` and with which no
-    runner fails. A long step may fail in some runners only: Newton's method of emitted code solves some steps
-    that the interpreter cannot solve. The result is None if there is no number of steps with which all
-    runners succeed.
+    The function uses the first number in ``steps`` that is at least :data:`COMPARED` and with which all
+    runners succeed. The result is None if there is no such number. A long step may fail in some runners only.
+    For example, Newton's method in emitted code solves some steps that the interpreter cannot solve.
     """
     for n in steps:
         if n < COMPARED:

@@ -55,8 +55,8 @@ class ConvergenceTest:
         digits: int = DOUBLE,
         stated: int | None = None,
     ) -> ConvergenceTest:
-        """Check the arguments and return a test. The arguments and the errors for wrong arguments are those
-        of :func:`converge`."""
+        """Check the arguments and return a test. The function :func:`converge` explains the arguments and the
+        errors."""
         problem = scenes.with_one_system(scenes.problem_of(scene))
         chosen = find_form(problem, form) if form not in (None, PRINTED) else None
         equations = problem if chosen is None else chosen.problem
@@ -126,11 +126,11 @@ def converge(
     stated: int | None = None,
     progress: Progress = str,
 ) -> Convergences:
-    """Measure the order of methods on a scene and compare it with the order that the order conditions prove.
+    """Measure the order of methods on a scene and compare it with the order from the order conditions.
 
-    The arguments are those of ``orderconds converge``; a method is a name or an :class:`orderconds.Tableau`.
-    If a method cannot be emitted for the scene, its result contains the reason. Wrong arguments raise
-    SceneError, MethodError, UnknownName or TableauError.
+    The arguments are the arguments of the command ``orderconds converge``. A method is a name or an
+    :class:`orderconds.Tableau`. If a method cannot be emitted for the scene, its result contains the reason.
+    Wrong arguments raise SceneError, MethodError, UnknownName or TableauError.
     """
     if not methods:
         raise InputError("no method", where="converge", expected="at least one method, such as cf4")

@@ -1,9 +1,10 @@
 """The order of a step that is far shorter than every time scale of the scene.
 
-A small parameter e can hide the leading term of the error: if e << h, the error e h^p + h^(p+1) has the slope
-p + 1 and not p. In 100 digits a step can be so short that the leading term dominates. The difference between
-one step of h and two steps of h/2 is (1 - 2^-p) C h^(p+1), where C h^(p+1) is the local error. The slope of
-this difference is p + 1, which gives the order p without a reference solution.
+A small parameter e can hide the leading term of the error. For example, the error e h^p + h^(p+1) has the
+slope p + 1 and not p for step sizes h much larger than e. In 100 digits a step can be so short that the
+leading term dominates. Let C h^(p+1) be the local error of a step. The difference between one step of size h
+and two steps of size h/2 is (1 - 2^-p) C h^(p+1) to leading order. The slope of this difference is p + 1. In
+this way the order p is measured without a reference solution.
 """
 
 from __future__ import annotations
@@ -35,8 +36,8 @@ SWEEPS = 400
 def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
     """Return the order of very short steps from the initial state of the scene.
 
-    ``stated`` is the expected order; it determines the step sizes. The result is None if a step cannot be
-    computed, if one step and two half steps do not differ, or if the slopes do not agree.
+    ``stated`` is the expected order, which determines the step sizes. The result is None if a step cannot be
+    computed, if one step and two half steps give the same state, or if the slopes do not agree.
     """
     problem = problem_for(compiled.scene, compiled.method)
     first, last = problem.span

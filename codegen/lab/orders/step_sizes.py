@@ -1,16 +1,16 @@
 """The observed order, computed from the errors at a sequence of step sizes and compared with the stated
 order.
 
-A slope is the logarithm of the error ratio of neighbouring runs, divided by the logarithm of the ratio of
-their step sizes. Runs whose errors may be rounding errors are excluded, and the longest sequence of
-consecutive other runs is used.
+A slope is the logarithm of the error ratio of consecutive runs, divided by the logarithm of the ratio of
+their step sizes. Runs whose errors may be rounding errors are excluded. Of the other runs, the longest
+consecutive sequence is used.
 
-For a smooth problem the error is C h^p (1 + O(h)), so a slope differs from p by O(h). If h is divided by r,
-this difference is also divided by r. Therefore the last change of the slope, divided by r - 1, estimates the
-difference that remains. Slopes have *settled* when this estimate is at most :data:`SETTLED` for two
-consecutive slopes. The last slope must then be within :data:`TOLERANCE` of the stated order, below or above.
-The tolerance is larger than :data:`SETTLED`, but far smaller than 1, the distance to the next order.
-Therefore a method whose order is higher than stated fails as well.
+For a smooth problem and a method of order p, the error is C h^p (1 + O(h)), so a slope differs from p by
+O(h). If h is divided by r, this difference is also divided by r. Therefore the last change of the slope,
+divided by r - 1, estimates the remaining difference. Slopes have *settled* when this estimate is at most
+:data:`SETTLED` for two consecutive slopes. The last slope must then differ from the stated order by at most
+:data:`TOLERANCE`. The tolerance is larger than :data:`SETTLED`, but far smaller than the distance 1 to the
+next order. Therefore a method whose order is higher than stated also fails.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ CLEAR = 100.0
 slope by less than 0.03."""
 
 ZERO = 0.5
-"""An order of very short steps that is at most this number counts as order zero and is ignored. Rounded
-decimal coefficients cause the order zero, because their error does not depend on the step size.
+"""An order of very short steps that is at most this number counts as order zero and is ignored. Coefficients
+that are rounded to decimal numbers cause the order zero.
 """
 
 FIRST = 5
 """Number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""The numbers of steps of additional runs. They are made if rounding errors dominate before the slopes have
-settled."""
+"""The numbers of steps of additional runs, which are needed if rounding errors dominate before the slopes
+have settled."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +53,8 @@ class Run:
 class Refinement:
     """Runs from long to short steps, and the order estimated from their slopes.
 
-    ``short`` is the order of very short steps (:mod:`codegen.lab.orders.short_steps`); it is None if it was
-    not needed or could not be computed.
+    ``short`` is the order of very short steps (:mod:`codegen.lab.orders.short_steps`), or None if this order
+    was not needed or could not be computed.
     """
 
     runs: tuple[Run, ...]
@@ -86,7 +86,7 @@ class Refinement:
 
     @property
     def observed(self) -> float | None:
-        """The last slope of the runs that are not excluded; None if there are fewer than two of these
+        """The last slope of the runs that are not excluded, or None if there are fewer than two of these
         runs.
         """
         return self.slopes[-1] if self.slopes else None
@@ -99,13 +99,15 @@ class Refinement:
         - If the slopes have settled and very short steps have an order below ``stated``, the verdict is
           ``fails``. Orders up to :data:`ZERO` are ignored here.
         - If the slopes have otherwise settled at the stated order, the verdict is ``holds``.
-        - If the slopes have settled at another order, the verdict depends on very short steps. If they have
-          the stated order and the slopes are above it, the verdict is ``holds``, because a small parameter
-          hides the leading term. If they have the stated order and the slopes are below it, the verdict is
-          ``undecided``. If their order is another one or is not known, it is ``fails``.
-        - If the slopes have not settled, the verdict is ``undecided``, with one exception. It is ``holds`` if
-          the errors of the finest runs are too small to be used (:attr:`too_fine`), very short steps have the
-          stated order, and the last slope is not below it.
+        - If the slopes have settled at another order, the verdict depends on the order of very short steps.
+          If this order is the stated order and the slopes are above the stated order, the verdict is
+          ``holds``, because a small parameter hides the leading term. If this order is the stated order and
+          the slopes are below the stated order, the verdict is ``undecided``. Otherwise the verdict is
+          ``fails``.
+        - If the slopes have not settled, the verdict is ``undecided``, with one exception. The verdict is
+          ``holds`` if three conditions are satisfied: the errors of the finest runs are too small to be used
+          (:attr:`too_fine`), very short steps have the stated order, and the last slope is not below the
+          stated order.
         """
         if self.observed is None:
             return "undecided"
@@ -142,11 +144,11 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     """Double the number of steps, from :data:`FIRST` up to ``most``, and return the runs.
 
     ``run`` makes a run with a given number of steps. The refinement ends when the slopes have settled, or
-    when rounding errors dominate; with ``to_rounding`` only the second condition ends it. A run that failed
-    does not end the refinement. For example, Newton's method may converge to a wrong solution for a long
-    step, fail for half of this step, and find the right solution for shorter steps. With a method of high
-    order, rounding errors may dominate before the slopes have settled. Then runs with longer steps and
-    intermediate runs are added.
+    when rounding errors dominate. With ``to_rounding`` only the second condition ends the refinement. A run
+    that failed does not end the refinement. For example, Newton's method may converge to a wrong solution for
+    a long step, fail for half of this step, and find the right solution for shorter steps. With a method of
+    high order, rounding errors may dominate before the slopes have settled. In this case runs with longer
+    steps and intermediate runs are added.
     """
     runs: list[Run] = []
     steps = FIRST
@@ -171,6 +173,7 @@ def rounding(steps: int, epsilon: float, size: float) -> float:
     """Return a bound of the accumulated rounding error: the number of steps times epsilon times the size of
     the state.
 
-    This is the worst case; errors of random sign grow like the square root of the number of steps.
+    The bound is for the worst case. Errors of random sign grow only like the square root of the number of
+    steps.
     """
     return steps * epsilon * max(1.0, size)

@@ -1,8 +1,9 @@
 """The strict protocol: the order of a method on demanding scenes, computed with 50 digits.
 
-The slopes are compared with a stated order: a given number, or the order that the tableau file claims.
-A method passes if, on every scene of :mod:`codegen.lab.orders.strict_scenes`, its slopes settle at a number
-that differs from the stated order by at most 0.25. A method whose order is higher than stated fails as well.
+The slope of log(error) against log(step size) is compared with a stated order, which is a given number or the
+order that the tableau file claims. A method passes if, on every scene of
+:mod:`codegen.lab.orders.strict_scenes`, its slopes settle at a number that differs from the stated order by
+at most 0.25. A method whose order is higher than stated also fails.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ Alter = Callable[[Optimised], Optimised]
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
     """Return the stated order, with which the slopes are compared.
 
-    The order is ``stated`` if it is given, else the claim of the tableau file if the file has a claim, else
-    the certified order.
+    If ``stated`` is not None, the result is this number. Otherwise the result is the claim of the tableau
+    file. If the file has no claim, the result is the certified order.
     """
     if stated is not None:
         return CertifiedOrder(stated, "stated")

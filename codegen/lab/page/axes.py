@@ -15,13 +15,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SIZE = (4.7, 3.9)
-"""Width and height in inches. A phone shows the figure at about this size, so the text of the figure is
-readable.
+"""Width and height of a figure in inches. A phone shows a figure of this size with readable text.
 """
 
 LINE = 0.175
-"""Height of a line of the legend in inches. If the legend has more than three lines, the figure becomes
-higher by LINE for each further line."""
+"""Height of a line of the legend in inches. Each line of the legend after the third increases the height of
+the figure by LINE."""
 
 LONG_LABEL = 27
 """If a label is longer than this number of characters, the legend has one column."""
@@ -78,8 +77,8 @@ def label_axes(axes: Axes, x: str, y: str) -> None:
 
 
 def few_decades(axes: Axes) -> None:
-    """If a logarithmic vertical axis covers less than two decades, label not only the powers of ten, but also
-    2 and 5 times each power of ten."""
+    """Add labels to a logarithmic vertical axis that covers less than two decades, at 2 and 5 times each
+    power of ten."""
     from matplotlib.ticker import FuncFormatter, LogLocator
 
     low, high = axes.get_ylim()

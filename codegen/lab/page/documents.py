@@ -34,7 +34,7 @@ def page_name(results: SceneResults) -> str:
 
 
 def render(results: SceneResults, command: str) -> str:
-    """Return the page of one scene; ``command`` is the command line that writes the same page."""
+    """Return the page of one scene. ``command`` is the command line that writes the same page."""
     scene = results.scene
     first, last = scene.span
     values = {
@@ -65,7 +65,7 @@ class Summary:
     """The part of the overview that shows one scene.
 
     ``about`` is the first paragraph of the description of the scene, and ``sections`` are the results of the
-    measurements; both are HTML. ``page`` is the file name of the page of the scene.
+    measurements. Both are HTML. ``page`` is the file name of the page of the scene.
     """
 
     title: str
@@ -88,12 +88,12 @@ def summary(results: SceneResults) -> Summary:
 
 
 def render_overview(summaries: Sequence[Summary], command: str) -> str:
-    """Return the overview page of several scenes; ``command`` is the command line that writes the report."""
+    """Return the overview page of several scenes. ``command`` is the command line that writes the report."""
     return _filled("overview.html.j2", command, scenes=summaries, needs=REQUIREMENTS)
 
 
 def _formatted(paragraph: str) -> Markup:
-    """Return a paragraph of a docstring as HTML; text between double or single backquotes is code."""
+    """Return a paragraph of a docstring as HTML. Text between double or single backquotes is code."""
     # The pattern has one group. Therefore the entries of ``parts`` with even indices are the texts between
     # the matches, and the entries with odd indices are the texts of the group.
     parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)

@@ -27,11 +27,10 @@ Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 
 @dataclass(frozen=True)
 class Curve:
-    """A labelled sequence of points (x, y) with its style. ``order`` is the slope of a reference line; None
-    means no line.
+    """A labelled sequence of points (x, y) with its style.
 
-    If the x of each point is the lower end of an interval, ``upper`` contains the upper ends; otherwise
-    ``upper`` is empty.
+    ``order`` is the slope of a reference line, or None for no line. If each x is the lower end of an
+    interval, ``upper`` contains the upper ends. Otherwise ``upper`` is empty.
     """
 
     label: str
@@ -50,7 +49,7 @@ class _Drawing:
     values: dict[int, list[str]] = field(default_factory=dict)
 
     def draw(self, curve: Curve, value: Callable[[float, float], str], marks: Sequence[int]) -> None:
-        """Draw a curve; ``marks`` contains the indices of the points with markers, and ``value(x, y)`` is the
+        """Draw a curve. ``marks`` contains the indices of the points with markers, and ``value(x, y)`` is the
         text of the marker at (x, y)."""
         number, style = len(self.values), curve.style
         x, y = zip(*curve.points, strict=True)
@@ -60,7 +59,7 @@ class _Drawing:
         line.set_gid(f"series:{number}")
         self.values[number] = [f"{curve.label}: {value(*curve.points[k])}" for k in marks]
         if curve.upper:
-            # The intervals of all points form one path without markers; a NaN separates two intervals.
+            # The intervals of all points form one path without markers. A NaN separates two intervals.
             ends = [z for (a, _), b in zip(curve.points, curve.upper, strict=True) for z in (a, b, math.nan)]
             heights = [z for _, e in curve.points for z in (e, e, math.nan)]
             (bars,) = self.axes.plot(ends, heights, color=line.get_color(), linewidth=2.6, alpha=0.35)
@@ -92,8 +91,8 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
     """Return a log-log diagram of error against CPU time of the whole run, with a line for each order p of
     :data:`SLOPES`.
 
-    The line has the slope -p, because with a method of order p and equal steps, the error is proportional to
-    the time to the power -p.
+    With a method of order p and equal steps, the error is proportional to the time to the power -p. Therefore
+    the line has the slope -p.
     """
     drawing = _drawing()
     for curve in curves:
@@ -138,9 +137,11 @@ parts.
 """
 
 GRID = 120
-"""The number of grid points in each direction. The number is even, so that no grid point is on an axis. Many
-stable regions are bounded by the imaginary axis. At a point on a boundary, rounding errors would decide
-whether |R| <= 1, where R is the stability function.
+"""The number of grid points in each direction. The number is even, so that no grid point is on the imaginary
+axis.
+
+The imaginary axis is the boundary of many stable regions. At a point on a boundary, rounding errors would
+decide whether |R| <= 1, where R is the stability function.
 """
 
 MARGIN = 0.7
@@ -151,10 +152,10 @@ SHADE = 0.09
 
 
 def region_figure(name: str, title: str, functions: Sequence[Function]) -> Markup:
-    """Return a diagram of the stable regions |R(z)| <= 1: the regions are shaded and their boundaries drawn.
+    """Return a diagram of the stable regions |R(z)| <= 1, with shaded regions and their boundaries.
 
     ``functions`` contains triples: label, style and stability function R of a method. The markers of
-    different methods are at different points, so that two methods with the same boundary are both visible.
+    different methods are at different points. Therefore two methods with the same boundary are both visible.
     """
     drawing, plane = _drawing(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes
@@ -199,8 +200,8 @@ class _Plane:
 
     @classmethod
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
-        """Return a grid over the part of :data:`PLANE` that contains the stable regions, with a margin. If
-        a region reaches the upper edge of :data:`PLANE`, the grid covers all of :data:`PLANE`."""
+        """Return a grid that covers the stable regions within :data:`PLANE`, with a margin. If a region
+        reaches the upper edge of :data:`PLANE`, the grid covers all of :data:`PLANE`."""
         whole = cls.between(*PLANE)
         points = [
             (x, y)
@@ -218,8 +219,8 @@ class _Plane:
         return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
-        """Return the absolute values of ``function`` at the points of the grid, row by row. Only points are
-        used whose indices are multiples of ``step``. Values above 1000 are replaced by 1000.
+        """Return the absolute values of ``function`` at the grid points whose indices are multiples of
+        ``step``, row by row. Values above 1000 are replaced by 1000.
         """
         return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]
 
@@ -290,9 +291,9 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a line with the slope of each order of :data:`SLOPES`, in a corner of the figure.
 
-    Work-precision curves seldom reach the lower left and the upper right corner, and the one with fewer
-    ``points`` is used. All lines begin at the upper left corner of an invisible box in this corner, and end
-    near the lower side or the right side of the box.
+    Work-precision curves seldom reach the lower left and the upper right corner of the figure. The lines are
+    drawn in the corner with fewer ``points``. All lines begin at the upper left corner of an invisible box in
+    this corner, and end near the lower side or the right side of the box.
     """
     if not points:
         return

@@ -68,7 +68,7 @@ def seconds(x: float) -> str:
 
 
 def duration(time: float | None) -> str:
-    """Return a time with three digits and a unit; if the time is None, return a dash.
+    """Return a time with three digits and a unit, or a dash if the time is None.
 
     >>> duration(1.234e-5), duration(None)
     ('12.3 µs', '–')

@@ -6,7 +6,7 @@ import re
 from html import escape
 
 LETTERS = {"alpha": "α", "beta": "β", "gamma": "γ", "ahat": "â", "bhat": "b̂", "chat": "ĉ"}
-"""For each name of a coefficient in formulas, the letter that the page shows."""
+"""The letters that the page shows for the names of coefficients in formulas."""
 
 _TOKEN = re.compile(
     r"sum_(?:\{(?P<range>[^}]*)\}|(?P<index>\w+))"
@@ -23,7 +23,7 @@ _TOKEN = re.compile(
 
 
 def formula_html(text: str) -> str:
-    """Return a formula as HTML; the formula is given in the notation that the commands print.
+    """Return a formula as HTML. ``text`` is the formula in the notation that the commands print.
 
     >>> formula_html("sum_{i,j} b_i a_ij c_j^2 = 1/12")
     '∑<sub>i,j</sub> <i>b</i><sub>i</sub> <i>a</i><sub>ij</sub> <i>c</i><sub>j</sub><sup>2</sup> = 1/12'

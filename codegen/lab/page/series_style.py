@@ -1,10 +1,10 @@
 """The colour, marker and dash of each method in the pictures and tables of all pages.
 
 A method has the same colour and marker in every section, on every page and in the pictures of the README. The
-line is solid for equal steps and dash-dotted for step-size control. It is dotted if the code was emitted for
-another target (such as Python) than the default target. Peers (other integrators, measured for comparison)
-have open markers, and dashed lines in the two colours in which the page shows text. Colour-blind readers can
-distinguish the colours. In grey print, markers and dashes distinguish the methods.
+line is solid for equal steps, and dash-dotted for step-size control. The line is dotted for a target other
+than the default target, for example Python. Peers (other integrators, measured for comparison) have open
+markers, and dashed lines in the two text colours of the page. Colour-blind readers can distinguish the
+colours. In grey print, markers and dashes distinguish the methods.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ from codegen.lab.peers import PEERS
 from codegen.printers import names
 
 COLOURS = 8
-"""Number of colours of the series; the stylesheet defines the CSS variables ``--series-1``, ..."""
+"""Number of colours of the series. The style sheet defines the colours as CSS variables ``--series-1``,
+``--series-2`` and so on."""
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h", "p", "*")
 """The markers in the notation of Matplotlib."""
@@ -58,9 +59,9 @@ class Style:
 class Styles:
     """The styles of all methods and peers of a report or picture, by label.
 
-    Methods that the commands use by default have a fixed colour and marker. For any other method, the search
-    for a colour and a marker begins at a place that depends on its label. From there on, the first colour and
-    the first marker are used that are rarest among the methods of the report.
+    Methods that the commands use by default have a fixed colour and marker. Every other method gets a colour
+    and a marker that are rarest among the methods of the report. If several colours or markers are equally
+    rare, the label of the method determines the choice.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -79,7 +80,8 @@ class Styles:
     def of(self, label: str) -> Style:
         """Return the style of a label.
 
-        A label may begin with ``adaptive``; a target or a form of the equations may follow in brackets.
+        A label may begin with ``adaptive``. A target or a form of the equations may follow the name in
+        brackets.
         """
         name = method_name(label)
         if name in PEERS:
@@ -121,10 +123,9 @@ def _fixed() -> Mapping[str, Place]:
 
 
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
-    """Return the indices of a colour and of a marker. Both are among those that occur least often in
-    ``used``.
+    """Return the indices of a colour and of a marker that occur least often in ``used``.
 
-    If several colours or markers occur equally often, the first one is chosen, counted cyclically from an
+    If several colours or markers occur equally often, the first of them is chosen, counted cyclically from an
     index that depends on ``first``. Pairs in ``taken`` are avoided if possible.
     """
     used, taken = tuple(used), set(taken) | set(used)
