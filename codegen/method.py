@@ -30,8 +30,7 @@ STEP = "step"
 """The word before the colon in the label of a step that the scene states."""
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
-"""The form of a method's label without a tableau: a family, with a number in parentheses if the family needs
-one."""
+"""The label of a method without a tableau: a family, and a number in parentheses if the family needs it."""
 
 PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
@@ -220,8 +219,7 @@ def with_estimate() -> tuple[str, ...]:
 
 
 def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
-    """Return the method that a label such as ``taylor(12)`` names; None if the text does not name a
-    family that needs no tableau."""
+    """Return the method for a label without a tableau, such as ``taylor(12)``; None for any other text."""
     match = ALONE.fullmatch(text.strip())
     if match is None or match["family"] not in names() or family_class(match["family"]).has_tableau:
         return None
@@ -259,7 +257,7 @@ def _claimed(tableau: Tableau) -> tuple[str, ...]:
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau that claims no order in any of the families that can read it."""
+    """Return the error for a tableau that claims no order in any family that can read the tableau."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
     # If the family has a cut-off, the label in the hint contains a cut-off. A user who follows a hint without

@@ -66,12 +66,11 @@ class SplittingLowering(FlowLowering):
 def _in_order(
     own: Parts, tableau: Splitting, steps: Sequence[tuple[int, Number]], summands: Sequence[Summand]
 ) -> tuple[Word, str]:
-    """Return the sequence of flows for a tableau with one part for each summand, and the label of its order
-    conditions.
+    """Return the sequence of flows and the label of its order conditions.
 
-    If the parts of the tableau and of the scene have the same names, they are matched by name. Otherwise
-    a Runge-Kutta-Nystroem tableau has a part V, which is matched with the kick (not on lattices). The parts
-    of any other tableau are matched in their order.
+    The tableau must have one part for each summand. If the parts of the tableau and of the scene have the
+    same names, they are matched by name. Otherwise a Runge-Kutta-Nystroem tableau has a part V, which is
+    matched with the kick (not on lattices). The parts of any other tableau are matched in their order.
     """
     chosen = summands
     names = [part.name for part in own.parts]

@@ -44,9 +44,10 @@ If each sweep divides the error by four, 24 sweeps divide the error by 2^48, so 
 remain. For slower blocks the next, shorter step is tried."""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""The most sweeps, and the decimal digits, with which a step is repeated if its results in doubles differ.
+"""The limit of sweeps and the decimal digits of a second comparison.
 
-The step is also repeated if only one of the two programs converges in doubles."""
+If the results in doubles differ, or only one of the two programs converges, the step is repeated with
+FEW_DIGITS digits and at most MORE_SWEEPS sweeps."""
 
 NOT_A_NUMBER = "differs by nan"
 """The end of the message for a result that is not finite. Such a step is too long for a comparison."""

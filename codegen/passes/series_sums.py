@@ -100,8 +100,10 @@ class SeriesSums:
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of one sum. All functions are written as functions of ad_x, with x of the last
-        term."""
+        """Return the value of one sum.
+
+        All functions are converted to functions of ad_x, where x is the exponent in the last term.
+        """
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:

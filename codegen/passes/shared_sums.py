@@ -19,8 +19,10 @@ Key = tuple[Operation, tuple[Var, ...]]
 """A linear map, given by an operation and all its arguments except the last."""
 
 Share = tuple[tuple[Var, Coefficient], ...]
-"""A linear combination of values of one map. It is scaled so that a certain coefficient is one: that of the
-first term among the terms with the lowest power of h."""
+"""A linear combination of values of one map.
+
+Its terms are sorted by their power of h and then by name. It is scaled so that the first coefficient is
+one."""
 
 
 def run(program: Program) -> Program:

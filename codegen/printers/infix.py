@@ -53,8 +53,7 @@ def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
 
 
 SHORT, LONG = 48, 80
-"""The greatest numbers of characters of an operand (SHORT) and of a comparison (LONG) that is never broken
-into lines."""
+"""Operands with at most SHORT characters, and comparisons with at most LONG characters, stay on one line."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:

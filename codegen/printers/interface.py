@@ -65,8 +65,10 @@ class Interface:
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
-        """Return the interface of a kernel. It has t and a parameter as arguments only if the kernel reads
-        them."""
+        """Return the interface of a kernel.
+
+        The time t and the parameters are arguments only if the kernel reads them.
+        """
         used = kernel.used_scalars()
         # Run-time inputs are sampled at certain times, so a step that reads inputs has the argument t.
         assert not kernel.inputs or "t" in used

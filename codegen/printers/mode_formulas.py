@@ -88,8 +88,10 @@ class ModeFormulas:
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
     def time(self, number: int, start: str) -> str:
-        """Return the text of the time of evaluation ``number``; ``start`` is the text of the time at the
-        start of the step."""
+        """Return the text of the time of evaluation ``number``.
+
+        ``start`` is the text of the time at which the step begins.
+        """
         c = self.step.evaluations[number].time
         if c.is_zero:
             return start

@@ -209,8 +209,7 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that compute the number of terms that follow the first term in the series of
-        phi."""
+        """Yield the statements that compute how many terms of the series of phi follow the first term."""
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
@@ -223,8 +222,10 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set the result to the displacement of the start point, or to zero without
-        one."""
+        """Yield the statements that set the result to the displacement of the start point.
+
+        If there is no start point, the result is set to zero.
+        """
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))

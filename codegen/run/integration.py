@@ -42,7 +42,7 @@ INTEGRATE = "integrate"
 """The name of the public function for a run to a given end time."""
 
 NEARLY = 1e-9
-"""If the rest of the interval exceeds the step size by at most this fraction of it, one step covers the rest.
+"""If the rest of the interval is at most (1 + NEARLY) times the step size, one step covers the rest.
 
 Without this tolerance, rounding errors in the times could leave a tiny last step."""
 

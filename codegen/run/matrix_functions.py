@@ -51,7 +51,7 @@ from codegen.run.terms import (
 from codegen.run.unitary_exponential import unitary_functions
 
 UNROLLED = 4
-"""The largest number of rows for which an entry of a product of matrices is computed without a loop."""
+"""The largest number of rows for which the entries of a matrix product are computed without a loop."""
 
 COEFFICIENTS = "inverse_factorial"
 """The name of the table that contains the coefficients 1/k!."""

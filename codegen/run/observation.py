@@ -63,8 +63,10 @@ TRIALS = 200
 trials shorten it to rounding level."""
 
 CLOSE = 4
-"""The search for an event in a step from t to t' ends when the enclosing interval has at most the length
-2 CLOSE u max(|t|, |t'|), where u is the unit roundoff."""
+"""The bound at which the search for an event ends.
+
+In a step from t to t', the enclosing interval then has at most the length 2 CLOSE u max(|t|, |t'|), where
+u is the unit roundoff."""
 
 RISING, FALLING = 1, 2
 """Values of ``stops``: the run ends where the event function crosses zero from below (RISING) or from above
@@ -260,8 +262,7 @@ class Observation:
         return Function(CROSSED, about, (self.signs, self.measured), body, Kind.FLAG)
 
     def locate(self) -> Function:
-        """Return the function that encloses the time of the first event in a part of a step in a short
-        interval."""
+        """Return the function that finds a short interval around the first event in a part of a step."""
         plan, state, high, ahead = self.plan, self.plan.state(), self.high[0], self.ahead
         trials, side, change = count("trials"), real("side"), flag("change")
         width, longer = real("width"), real("longer")

@@ -13,13 +13,15 @@ from codegen.run.terms import Term, count, flag, real, select, value, whole
 from codegen.run.values import simple
 
 SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
-"""Four numbers for indexing: the number of all sites, the number of sites in one row of the lattice, the
-index of a site in its row, and the index of the first site of this row among all sites."""
+"""SITES is the number of all sites, and COLUMNS is the number of sites in one row of the lattice.
+
+COLUMN is the index of a site in its row. ROW is the index of the first site of this row among all sites."""
 
 SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), count("i")
 BAD, WHOLE = count("bad"), flag("whole")
-"""The number of sites whose new state is not finite, and a flag. If the flag is true, sines, cosines and
-Stumpff functions are computed by variants that accept all arguments."""
+"""BAD is the number of sites whose new state is not finite, and WHOLE is a flag.
+
+If WHOLE is true, sines, cosines and Stumpff functions are computed by variants that accept all arguments."""
 
 _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048

@@ -58,8 +58,10 @@ ASKED = "as asked for"
 """The reason that is stated for a solver that the caller has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""The number of steps of a trial, the same for a trial with many unknowns, and the size of the longer trial
-step relative to the usual step."""
+"""The numbers of steps in a trial and in a trial with many unknowns, and the size of the longer trial
+step.
+
+The longer trial step is LONGER times as long as the usual step."""
 
 SWEEPS = 50
 """The largest number of sweeps that a robust solver may need in the longer step.

@@ -71,8 +71,9 @@ class Amounts:
 WEIGHTS = Amounts(
     unknowns=2.1, swept=1.7, arithmetic=0.097, divisions=1.5, calls=3.4, corrections=6.1, cubes=0.26
 )
-"""The nanoseconds that one unit of each amount takes on the machine of the measurements. The choice of a
-solver depends only on the ratios of these weights."""
+"""The weights: nanoseconds for one unit of each amount, on the machine of the measurements.
+
+The choice of a solver depends only on the ratios of these weights."""
 
 
 CHEAP = ("add", "mul", "choose", "fabs")

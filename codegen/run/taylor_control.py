@@ -65,8 +65,9 @@ ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "m
 """The names of the emitted functions that the adaptive run calls."""
 
 LEAST = 1e-30
-"""The least norm of a Taylor coefficient in the formula of the step size, which divides by this norm. A
-smaller norm is replaced by this number."""
+"""If the norm of a Taylor coefficient is below this number, the number replaces the norm.
+
+The formula of the step size divides by the norm."""
 
 ROWS = 4
 """The number of rows of coefficients that one iteration of the loop over Cauchy products reads.

@@ -15,7 +15,7 @@ from codegen.run.language import Array, Call, Statement, terms
 from codegen.run.terms import Term, own
 
 SHORTEST = 25
-"""The least number of entries of an array that is treated as a whole. A 5 x 5 matrix has so many entries.
+"""The least number of entries of an array that is treated as a whole: the entries of a 5 x 5 matrix.
 
 Each entry of a shorter array is a scalar variable, which compilers can keep in a register."""
 

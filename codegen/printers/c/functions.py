@@ -40,8 +40,7 @@ from codegen.run.writes import written
 from codegen.snippets.graph import LIBRARY
 
 MANY = 20
-"""If more than this number of short statements follow one another, several of them are printed on each
-line."""
+"""If more than MANY short statements follow one another, several of them share a line."""
 
 ONE_TEST = "one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise"
 

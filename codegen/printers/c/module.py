@@ -44,18 +44,17 @@ VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Further flags for modules with a batch and for modules of lattices. These flags do not change results."""
 
 FRAMES = 640
-"""The number of bytes that the bound on the stack of a call reserves for return addresses, saved registers
-and the frames of helpers."""
+"""The stack space, in bytes, that the bound reserves for return addresses, saved registers and the frames
+of helpers."""
 
 EACH, EACH_SOLVING = 8, 10
-"""The bytes that the bound on the stack of a call reserves for each floating-point number of a step.
+"""The stack space, in bytes, that the bound reserves for each floating-point number of a step.
 
-The first value is for steps without equations, the second for steps with equations. A double has 8 bytes and
-a float has 4. The bound is the same for both precisions, because an optimiser also stores pairs of floats in
-vector registers of 16 bytes, that is 8 bytes for each float. If a step solves equations, an optimiser moves
-common subexpressions out of the loop. These values need more space. The largest measured values with
-equations were 8.8 bytes in double precision and 8.0 bytes in single precision.
-"""
+The first value is for steps without equations, the second for steps with equations. A double has 8 bytes
+and a float has 4. The bound is the same for both precisions, because an optimiser also stores pairs of
+floats in vector registers of 16 bytes, that is 8 bytes for each float. If a step solves equations, an
+optimiser moves common subexpressions out of the loop. These values need more space. The largest measured
+values with equations were 8.8 bytes in double precision and 8.0 bytes in single precision."""
 
 LARGEST_STACK = 6 * 2**20
 """The largest permitted bound on the stack of a call. Most systems limit the stack to 8 MiB."""
