@@ -1,8 +1,8 @@
 """A step of a large linear problem y' = A(t) y, by products of A and vectors.
 
-The step evaluates the matrices a_i = h A(t_i) at its nodes. Its exponents are sums of letters and
-commutators. A letter is a linear combination of the a_i. A commutator [X, Y] is applied to a vector v as
-X (Y v) - Y (X v). So no product of matrices and no exponential of a matrix is formed.
+The step evaluates the matrices a_i = h A(t_i) at its nodes t_i. Its exponents are sums of letters and
+commutators. A letter is a linear combination of the a_i. A commutator [X, Y] is applied to a vector v as X (Y
+v) - Y (X v), so no product of matrices and no exponential of a matrix is formed.
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 TERMS = 14
-"""The degree of the Taylor polynomials that is assumed when operations are counted. It is a typical value: in
-a run the degree depends on the norm of the exponent."""
+"""The degree of the Taylor polynomials that is assumed for counts of operations. In a run the degree depends
+on the norm of the exponent.
+"""
 
 Letter = tuple[tuple[int, Number], ...]
 """A linear combination of the matrices a_i, as pairs (i, coefficient of a_i)."""
@@ -25,7 +26,7 @@ Letter = tuple[tuple[int, Number], ...]
 
 @dataclass(frozen=True)
 class TimeMatrix:
-    """A square matrix A(t) = sum of coefficients times matrices; coefficients and entries may contain t."""
+    """A square matrix A(t) = sum of coefficients times matrices. Coefficients and entries may depend on t."""
 
     terms: tuple[tuple[Expr, ConstantMatrix], ...]
 
@@ -41,13 +42,15 @@ class TimeMatrix:
 
     @cached_property
     def offsets(self) -> tuple[int, ...]:
-        """The offsets of the diagonals of a banded matrix; the main diagonal comes first."""
+        """The offsets of the diagonals of a banded matrix. The main diagonal comes first."""
         offsets = {d.offset for _, matrix in self.terms for d in matrix.diagonals}
         return tuple(sorted(offsets, key=lambda x: (abs(x), x)))
 
     @property
     def filled(self) -> int:
-        """The number of stored entries: those on the diagonals if the matrix is banded, else all."""
+        """The number of stored entries: the entries on the diagonals if the matrix is banded, else all
+        entries.
+        """
         n = self.rows
         return sum(n - abs(d) for d in self.offsets) if self.is_banded else n * n
 
@@ -56,8 +59,7 @@ class TimeMatrix:
         return tuple(dict.fromkeys(matrix for _, matrix in self.terms))
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the coefficients of the terms, and the formulas of those matrices whose entries are given by
-        formulas."""
+        """Yield the coefficients of the terms, and the formulas for entries of matrices."""
         for coefficient, matrix in self.terms:
             yield coefficient
             entries: tuple[Entry, ...] = matrix.entries
@@ -66,9 +68,12 @@ class TimeMatrix:
 
 @dataclass(frozen=True)
 class Element:
-    """The sum of a letter and of multiples of commutators. ``letter`` is the index of the letter in the list
-    of letters of the step, or None if there is no letter. ``commutators`` are pairs: a coefficient, and the
-    index of a commutator in the list of commutators of the step."""
+    """The sum of a letter and of multiples of commutators.
+
+    ``letter`` is the index of the letter in the list of letters of the step, or None if there is no letter.
+    ``commutators`` contains pairs of a coefficient and the index of a commutator in the list of commutators
+    of the step.
+    """
 
     letter: int | None
     commutators: tuple[tuple[Number, int], ...] = ()
@@ -95,17 +100,20 @@ class LinearArrayStep:
         yield from self.matrix.expressions()
 
     def products(self, element: Element) -> int:
-        """Return how many times a letter is multiplied by a vector when ``element`` is multiplied by one
-        vector."""
+        """Return the number of products of letters and vectors that the product of ``element`` and a vector
+        requires.
+        """
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
             own += 2 * sum(map(self.products, self.commutators[number]))
         return own
 
     def operations(self) -> dict[str, int]:
-        """Return the number of additions and multiplications of a step. For each exponential, one Taylor
-        polynomial of degree :data:`TERMS` is counted, as if no exponent had to be halved. The evaluation of
-        entries that are formulas is not counted."""
+        """Return the number of additions and multiplications of a step.
+
+        One Taylor polynomial of degree :data:`TERMS` is counted for each exponential, without halvings of the
+        exponent. The evaluation of formulas for entries is not counted.
+        """
         size, k = self.argument.size, self.argument.columns
         products = TERMS * sum(map(self.products, self.exponents))
         sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0

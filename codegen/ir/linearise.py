@@ -1,8 +1,8 @@
 """Jacobians of expressions to first order in h, for simplified Newton iterations.
 
 Every expression is expanded as v_0 + v_1 h, together with its derivatives with respect to the unknowns.
-Higher powers of h are never formed: an exponential of h x becomes 1 + h x, and a force with a factor h is
-evaluated at h = 0. In an iteration with this Jacobian, each sweep multiplies the error by O(h^2).
+Higher powers of h are never computed. For example, an exponential of h x becomes 1 + h x, and a force with a
+factor h is evaluated at h = 0. In an iteration with this Jacobian, each sweep multiplies the error by O(h^2).
 """
 
 from __future__ import annotations
@@ -21,29 +21,34 @@ from codegen.ir.table import PiecewisePolynomial
 STEP = "h"
 
 EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
-"""The functions with a rule for their expansion."""
+"""The functions that can be expanded to first order in h."""
 
 Pair = tuple[Expr, Expr]
 """The coefficients (v_0, v_1) of an expansion v_0 + v_1 h."""
 
 
 class NotLinearised(ArithmeticError):
-    """The error for a function that has a pole or a branch point at h = 0, or no rule for its expansion in
-    h."""
+    """The error for a function that has a pole or a branch point at h = 0, or that cannot be expanded in
+    h.
+    """
 
 
 @dataclass(frozen=True)
 class _Dual:
-    """An expansion v_0 + v_1 h with its derivatives. ``slopes`` maps the index of an unknown to the
-    derivative with respect to this unknown, if the derivative is not zero."""
+    """An expansion v_0 + v_1 h with its derivatives.
+
+    ``slopes`` maps the index of an unknown to the derivative with respect to this unknown, if the derivative
+    is not zero.
+    """
 
     value: Pair
     slopes: dict[int, Pair]
 
 
 class FirstOrder:
-    """Derivatives of expressions with respect to the unknowns, to first order in h. A shared subexpression is
-    expanded only once.
+    """Derivatives of expressions with respect to the unknowns, to first order in h.
+
+    A shared subexpression is expanded only once.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, h = s.sym("x"), s.sym("h")
@@ -69,7 +74,7 @@ class FirstOrder:
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
-        # The coefficients v_0 and v_1 are computed separately; the expression v_0 + v_1 h is formed only for
+        # The coefficients v_0 and v_1 are computed separately. The sum v_0 + v_1 h is formed only for
         # results.
         h, none = space.sym(STEP), (space.zero, space.zero)
         rows = []
@@ -88,7 +93,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             if node.payload == STEP:
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
-            # An unknown u has the expansion u + 0 h, because the unknowns are fixed in the expansion in h.
+            # An unknown u has the expansion u + 0 h, because it does not depend on h.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":
@@ -100,13 +105,13 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "mul":
             return _product(space, args[0], args[1])
         case "div":
-            # a/b is expanded as the product of a and 1/b. If several quotients have the divisor b, they share
-            # the node 1/b.
+            # a/b is expanded as the product of a and 1/b, so that all quotients with the divisor b share the
+            # node 1/b.
             return _product(space, args[0], _inverse(space, args[1]))
         case "pow":
             result = args[0]
             for _ in range(node.payload - 1):
-                # Every product is truncated when it is formed, so no coefficient of h^2 is computed.
+                # Each product is truncated, so no coefficient of h^2 is computed.
                 result = _product(space, result, args[0])
             return result
         case _ if node.payload == CHOOSE:
@@ -169,8 +174,10 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
 
 
 def _called(space: Space, function: str, a: _Dual) -> _Dual:
-    """Return the expansion of function(v_0 + v_1 h), where ``a`` is the expansion v_0 + v_1 h, with the
-    derivatives with respect to the unknowns."""
+    """Return the expansion of function(v_0 + v_1 h), with the derivatives with respect to the unknowns.
+
+    ``a`` is the expansion v_0 + v_1 h of the argument.
+    """
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])
@@ -202,7 +209,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         at, rule = space.call(function, low), ELEMENTARY[function]
         first, second = rule.slope(low, at), rule.curvature(low, at)
     else:
-        # sin'' = -sin and cos'' = -cos: the second derivative is minus the value.
+        # sin'' = -sin and cos'' = -cos, so the second derivative is minus the value.
         other = {"sin": "cos", "cos": "sin"}[function]
         at, turned = space.call(function, low), space.call(other, low)
         first, second = (turned, -at) if function == "sin" else (-turned, -at)

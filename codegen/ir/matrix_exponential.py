@@ -2,7 +2,7 @@
 
 Derivatives are computed with jets. Let d_0, ..., d_(l-1) be symbols whose squares are zero. A jet of level l
 is the sum of A_m e_m over 0 <= m < 2^l. Here A_m is a matrix, and e_m is the product of the symbols d_k for
-which bit k of m is set. With one symbol d, the exponential of the jet A + d E is exp(A) + d L, where L is the
+which bit k of m is set. For one symbol d, the exponential of the jet A + d E is exp(A) + d L, where L is the
 derivative of exp at A in the direction E. The matrices A_m of a jet are stored one after the other, each row
 by row.
 
@@ -24,19 +24,21 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Scalar
 
 DEGREES = (4, 8, 12, 16)
-"""The degrees of the Taylor polynomials. Evaluating a polynomial of degree 4 g takes g + 2 products of
-matrices."""
+"""The degrees of the Taylor polynomials. A polynomial of degree 4 g requires g + 2 products of matrices."""
 
 LEAST_DIGITS = 10
-"""The least number of correct binary digits, about three decimal digits. If the bound of the relative error
-of the exponential exceeds 2^-LEAST_DIGITS, all results are NaN."""
+"""The smallest accepted number of correct binary digits, about three decimal digits. If the bound of the
+relative error of the exponential exceeds 2^-LEAST_DIGITS, all results are NaN.
+"""
 
 Pairs = tuple[tuple[tuple[int, int], ...], ...]
 
 
 @cache
 def pairs(level: int) -> Pairs:
-    """Return, for each index m < 2^level, the pairs (j, k) such that matrix number m of the product of two
+    """Return the index pairs of the products that form the product of two jets.
+
+    For each index m < 2^level, these are the pairs (j, k) such that matrix number m of the product of the
     jets A and B contains the term A_j B_k.
 
     >>> pairs(1)
@@ -48,11 +50,11 @@ def pairs(level: int) -> Pairs:
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return, for each degree m of :data:`DEGREES`, the largest norm for which the Taylor polynomial of
-    degree m is accurate: (m! 2^-(bits + 2))^(1/m), rounded to three digits.
+    """Return, for each degree m of :data:`DEGREES`, the largest norm for which the Taylor polynomial is
+    accurate.
 
-    For matrices of a smaller norm, the remainders of the polynomial and of its derivative are below a quarter
-    of the unit roundoff 2^-bits.
+    This norm is (m! 2^-(bits + 2))^(1/m), rounded to three digits. For matrices of a smaller norm, the
+    remainders of the polynomial and of its derivative are below a quarter of the unit roundoff 2^-bits.
 
     >>> largest_norms(53)
     (0.000161, 0.0321, 0.221, 0.628)
@@ -63,8 +65,10 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
 
 def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
-    """Return the exponential of the jet ``a`` of n x n matrices. All results are NaN if fewer than three
-    digits would be correct."""
+    """Return the exponential of the jet ``a`` of n x n matrices.
+
+    All results are NaN if fewer than three digits would be correct.
+    """
     size = n * n
     scale, squarings, norm = _halvings(_norm(a[:size]))
     total = _polynomial(n, level, [x * scale for x in a], norm)
@@ -103,7 +107,7 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
         for i in rows:
             for j in rows:
                 # An entry is a sum over the inner index of the matrix products and over the pairs of factors.
-                # For each inner index, the terms of all pairs are added, then those of the next index.
+                # The terms of all pairs with the same inner index are added one after the other.
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
@@ -117,8 +121,10 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
 
 
 def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]:
-    """Return the Taylor polynomial of the exponential at the jet ``b1``. The degree is the least one that is
-    accurate for matrices of norm at most ``norm``."""
+    """Return the Taylor polynomial of the exponential at the jet ``b1``.
+
+    The degree is the smallest one that is accurate for matrices of norm at most ``norm``.
+    """
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     b2 = product(n, level, b1, b1)
@@ -141,7 +147,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     norm.
 
     The logarithmic norm is the largest eigenvalue of the symmetric part of the matrix. Gershgorin's circles
-    give a bound of this eigenvalue, which is zero for a skew matrix.
+    give the bound of this eigenvalue. For a skew matrix the bound is zero.
     """
     largest = a[0]
     for i in range(n):
@@ -157,12 +163,12 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Return the jet total^(2^squarings). All entries are NaN if the first matrix of the result may have
-    fewer than three correct digits.
+    """Return the jet total^(2^squarings).
 
-    Let u be the unit roundoff, and E the first matrix before a squaring, with an error e in the Frobenius
-    norm. The computed square has an error of at most about 2 |E| e + n^2 u |E|^2. Here |E| is the spectral
-    norm, which is bounded by ``growth`` and by the Frobenius norm.
+    All entries are NaN if the first matrix of the result may have fewer than three correct digits. Let u be
+    the unit roundoff, and E the first matrix before a squaring, with an error e in the Frobenius norm. The
+    computed square has an error of at most about 2 |E| e + n^2 u |E|^2. Here |E| is the spectral norm, which
+    is bounded by ``growth`` and by the Frobenius norm.
     """
     size, unit = n * n, 2.0**-53
     error = (n + 8) * unit * n
@@ -177,17 +183,17 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
 
 
 def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exponential of a jet of mpmath numbers, with an error of about 10^-``digits`` times the norm
-    of the exponential.
+    """Return the exponential of a jet of mpmath numbers.
 
-    :class:`OverflowError` is raised if a bound of the norm of the matrix is not below 2^40.
+    The error is about 10^-``digits`` times the norm of the exponential. :class:`OverflowError` is raised if a
+    bound of the norm of the matrix is not below 2^40.
     """
     size = max((abs(x) for x in a[: n * n]), default=0) * n
     if not size < 2**40:
         raise OverflowError("the matrix exponential is not computed for a matrix with a norm above 2^40")
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
-    # The working precision includes the digits that the squarings lose: at most log10(|exp(A)| |exp(-A)|)
-    # digits, and one bit for each squaring.
+    # The working precision includes the digits that the squarings lose. These are at most log10(|exp(A)|
+    # |exp(-A)|) digits, and one bit for each squaring.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
     scale = work.mpf(2) ** -halvings

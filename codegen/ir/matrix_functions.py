@@ -25,8 +25,7 @@ class MatrixExponential(VectorFunction):
     """The exponential of a jet of n x n matrices (:mod:`codegen.ir.matrix_exponential`).
 
     Level 0 is the exponential of a matrix. The arguments of level l + 1 are the arguments of level l followed
-    by their rates of change. The results of level l + 1 are the results of level l followed by their rates of
-    change.
+    by their derivatives. The results of level l + 1 are the results of level l followed by their derivatives.
     """
 
     n: int
@@ -44,13 +43,14 @@ class MatrixExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """A typical number of operations of a call: those of a Taylor polynomial of degree 12, without
-        squarings."""
+        """A typical number of operations of a call: those of a Taylor polynomial of degree 12 without
+        squarings.
+        """
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the rates of change of the results: the second half of the results of level + 1."""
+        """Return the derivatives of the results: the second half of the results of the next level."""
         space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
@@ -58,14 +58,15 @@ class MatrixExponential(VectorFunction):
         return tuple(results[self.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return the sum 1 + A + A^2/2 + ... if the positions of the zeros in A imply that only few terms are
-        non-zero; otherwise None."""
+        """Return the sum 1 + A + A^2/2 + ... if the zeros in A imply that only few terms are non-zero,
+        otherwise None.
+        """
         pattern = power = [int(not x.is_zero) for x in args]
         if not is_nilpotent(self.n, pattern):
             return None
         count = 1
-        # The powers of the pattern of zeros are computed first. They show whether the sum is short, before
-        # long expressions are created.
+        # The powers of the pattern of zeros show whether the sum is short, before long expressions are
+        # created.
         while any(power):
             count += 1
             if count > EXPANDED:
@@ -90,10 +91,11 @@ class MatrixExponential(VectorFunction):
         return matrix_exponential.in_digits(context, digits, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential of a jet of power series; the constant terms of the first matrix must be
-        nilpotent."""
-        # A product of more than ``longest`` factors is zero: it contains too high a power of h, one symbol
-        # d_k of the jet twice, or n nilpotent factors one after the other.
+        """Return the exponential of a jet of power series. The constant terms of the first matrix must be
+        nilpotent.
+        """
+        # A product of more than ``longest`` factors is zero, because it contains too high a power of h, one
+        # symbol d_k of the jet twice, or n successive nilpotent factors.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -120,26 +122,30 @@ class MatrixInverse(VectorFunction):
         return {"add": self.n**3, "mul": self.n**3}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return -g^-1 r g^-1, the rate of the inverse g^-1 for the rate r of the matrix g."""
+        """Return -g^-1 r g^-1, the derivative of the inverse g^-1 of the matrix g, where r is the derivative
+        of g.
+        """
         inverse = args[0].space.vector(self.name, args)
         inner = matrix_exponential.product(self.n, 0, rates, inverse)
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return None: a call of the inverse is never replaced by expressions."""
+        """Return None, because a call of the inverse is never replaced by expressions."""
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the inverse in doubles; NaN for a singular matrix."""
+        """Return the inverse in doubles, or NaNs for a singular matrix."""
         return matrix_inverse.inverse(self.n, args, 1.0, abs) or (math.nan,) * self.size
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the inverse for mpmath numbers; raise ZeroDivisionError for a singular matrix."""
+        """Return the inverse for mpmath numbers. ZeroDivisionError is raised for a singular matrix."""
         return self._invertible(matrix_inverse.inverse(self.n, args, context.mpf(1), abs))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the inverse of a matrix of power series. ZeroDivisionError is raised if the constant terms
-        of the entries form a singular matrix."""
+        """Return the inverse of a matrix of power series.
+
+        ZeroDivisionError is raised if the constant terms of the entries form a singular matrix.
+        """
 
         def size(x: Scalar) -> int:
             return int(ring.valuation(x) == 0)
@@ -155,8 +161,8 @@ class MatrixInverse(VectorFunction):
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     """Return True if every n x n matrix with zeros at the zeros of ``pattern`` is nilpotent.
 
-    This is the case if the graph with an edge from i to j for each non-zero entry (i, j) of ``pattern`` has
-    no cycle.
+    The criterion uses a graph with an edge from i to j for each non-zero entry (i, j) of ``pattern``. The
+    matrices are nilpotent if the graph has no cycle.
 
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)

@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 def inverse(
     n: int, a: Sequence[Scalar], one: Scalar, size: Callable[[Scalar], Any]
 ) -> tuple[Scalar, ...] | None:
-    """Return the inverse of a matrix, row by row; None for a singular matrix.
+    """Return the inverse of a matrix, row by row, or None for a singular matrix.
 
     ``one`` is the number 1 as a scalar of the same type as the entries. The pivot of a column is the entry x
-    with the largest ``size(x)``; an entry of size 0 cannot be a pivot. Emitted code executes the same
+    with the largest ``size(x)``. An entry of size 0 cannot be a pivot. Emitted code executes the same
     operations in the same order, so its results in doubles agree in every bit.
     """
     rows = [list(a[n * i : n * i + n]) for i in range(n)]

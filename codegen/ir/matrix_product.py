@@ -16,8 +16,10 @@ if TYPE_CHECKING:
 
 
 class BilinearFunction(VectorFunction):
-    """A bilinear function of two n x n matrices. Its results need only additions and multiplications, so one
-    formula suffices for doubles, mpmath numbers and power series.
+    """A bilinear function of two n x n matrices.
+
+    The results need only additions and multiplications, so one formula suffices for doubles, mpmath numbers
+    and power series.
     """
 
     @property
@@ -35,7 +37,9 @@ class BilinearFunction(VectorFunction):
         """Return the results for doubles, mpmath numbers or power series, by the same formula."""
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return f(a', b) + f(a, b'), the derivative of f(a, b) for rates a' and b' of the matrices."""
+        """Return f(a', b) + f(a, b'), the derivative of f(a, b) for the derivatives a' and b' of the
+        matrices.
+        """
         space, size = args[0].space, self.size
         total = (space.zero,) * size
         for pair in ((*rates[:size], *args[size:]), (*args[:size], *rates[size:])):
@@ -48,7 +52,7 @@ class BilinearFunction(VectorFunction):
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
         """Return the derivatives of the results with respect to the scalar with the index ``argument``.
 
-        This scalar is an entry of one matrix; the derivatives are linear in the entries of the other matrix.
+        This scalar is an entry of one matrix. The derivatives are linear in the entries of the other matrix.
         """
         space = args[0].space
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
@@ -58,7 +62,7 @@ class BilinearFunction(VectorFunction):
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return zeros if one of the two matrices is zero. Otherwise return None: the call is kept."""
+        """Return zeros if one of the two matrices is zero, otherwise None."""
         if all(x.is_zero for x in args[: self.size]) or all(x.is_zero for x in args[self.size :]):
             return (args[0].space.zero,) * self.size
         return None
@@ -89,7 +93,7 @@ class MatrixProduct(BilinearFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The operations of a product."""
+        """The number of operations of a product."""
         return {"add": self.n**3 - self.n**2, "mul": self.n**3}
 
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -110,7 +114,7 @@ class MatrixCommutator(BilinearFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The operations of two products and a difference."""
+        """The number of operations of two products and a difference."""
         return {"add": 2 * self.n**3 - self.n**2, "mul": 2 * self.n**3}
 
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

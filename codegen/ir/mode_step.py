@@ -1,9 +1,10 @@
 """Steps of semilinear equations u' = L u + N(u) on Fourier modes.
 
-L multiplies each mode by a number lambda. A step of size h evaluates N several times, each time at a linear
-combination of the old state and of earlier values of N. The new state is a linear combination of the old
-state and of all values of N. The coefficients of these linear combinations are functions of z = h lambda
-(:class:`Multiplier`). Emitted code computes them once for each step size.
+The linear operator L multiplies each mode by a number lambda. A step of size h evaluates the nonlinear part N
+several times, each time at a linear combination of the old state and of earlier values of N. The new state is
+a linear combination of the old state and of all values of N. The coefficients of these linear combinations
+are functions of z = h lambda (:class:`Multiplier`). Emitted code computes these coefficients once for each
+step size.
 """
 
 from __future__ import annotations
@@ -23,15 +24,15 @@ EXP, PHI, BERNOULLI, POWER = "exp", "phi1", "bernoulli", "z"
 """The functions in multipliers: exp(w), phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w itself."""
 
 WIDTH = 100
-"""A formula with more characters than this number is printed on several lines, one line for each term."""
+"""A formula with more characters than this number is printed with one line for each term."""
 
 STATE = -1
-"""The ``source`` of a :class:`Term` that contains the old state and not a value of N."""
+"""The ``source`` of a :class:`Term` that contains the old state instead of a value of N."""
 
 
 @dataclass(frozen=True)
 class Factor:
-    """The value of ``function`` at ``scale`` z, where z is the product of h and the eigenvalue of L."""
+    """The value of ``function`` at ``scale`` z, where z is the step size h times an eigenvalue of L."""
 
     function: str
     scale: Number
@@ -48,7 +49,7 @@ class Factor:
 
 
 Monomial = tuple[tuple[Factor, int], ...]
-"""Factors with positive exponents, sorted."""
+"""A product of powers: factors with positive exponents, sorted."""
 
 ONE = Number.rational(1)
 
@@ -97,7 +98,7 @@ class Multiplier:
 
     @property
     def key(self) -> tuple[tuple[Monomial, Number], ...]:
-        """The terms in a fixed order; equal multipliers have equal keys."""
+        """The terms in a fixed order. Equal multipliers have equal keys."""
         return tuple(sorted(self.terms.items(), key=lambda term: [(f.order, n) for f, n in term[0]]))
 
     @property
@@ -126,8 +127,7 @@ class Multiplier:
 
 
 def _product(a: Monomial, b: Monomial) -> Monomial:
-    """Return the product of two monomials. All exponentials are joined to one, because exp(a z) exp(b z) =
-    exp((a + b) z)."""
+    """Return the product of two monomials. Exponentials are joined by exp(a z) exp(b z) = exp((a + b) z)."""
     powers: dict[Factor, int] = {}
     exponent = Number.rational(0)
     for factor, n in (*a, *b):
@@ -143,8 +143,10 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
 
 @dataclass(frozen=True)
 class Table:
-    """The function h^``power`` times a multiplier. Emitted code computes its values at all modes once for
-    each step size, and stores them."""
+    """The function h^``power`` times a multiplier.
+
+    Emitted code computes and stores the values of this function at all modes once for each step size.
+    """
 
     multiplier: Multiplier
     power: int
@@ -160,9 +162,11 @@ class Table:
 
 @dataclass(frozen=True)
 class Term:
-    """One term of a linear combination: a factor times the old state if ``source`` is :data:`STATE`, else a
-    factor times value number ``source`` of N. The factor is the table with the index ``table``; it is 1 if
-    ``table`` is None."""
+    """One term of a linear combination: a factor times the old state, or times a value of N.
+
+    The term contains the old state if ``source`` is :data:`STATE`, otherwise value number ``source`` of N.
+    The factor is the table with the index ``table``, or 1 if ``table`` is None.
+    """
 
     source: int
     table: int | None
@@ -170,8 +174,11 @@ class Term:
 
 @dataclass(frozen=True)
 class Evaluation:
-    """An evaluation of N at the time t + ``time`` h. The terms ``point`` form the state at which N is
-    evaluated: a linear combination of the old state and of earlier values of N."""
+    """An evaluation of N at the time t + ``time`` h.
+
+    N is evaluated at the sum of the terms ``point``, a linear combination of the old state and of earlier
+    values of N.
+    """
 
     point: tuple[Term, ...]
     time: Number
@@ -181,11 +188,11 @@ class Evaluation:
 class Nonlinearity:
     """N(u) as a sum of derivatives of pointwise formulas.
 
-    ``inner`` are the orders of the derivatives of u that the formulas read, with their symbols. Output j of
+    ``inner`` contains the orders of the derivatives of u in the formulas, with their symbols. Output j of
     ``formulas`` is a function of these derivatives, of x, t and parameters. N is the sum of derivatives of
     the outputs: output j is differentiated ``outer[j]`` times with respect to x. If the fraction ``kept`` is
-    less than one, only this fraction of the n/2 + 1 modes is kept in the values of N, and all others are set
-    to zero (against aliasing).
+    less than one, only this fraction of the n/2 + 1 modes is used in the values of N. All other modes are set
+    to zero to avoid aliasing.
     """
 
     inner: tuple[tuple[int, str], ...]
@@ -198,10 +205,10 @@ class Nonlinearity:
 class ModeStep:
     """One step: tables, evaluations of N, and the new state.
 
-    The kernel ``symbol`` computes the eigenvalue lambda from the wave number. Its outputs are the real part
-    of lambda and, unless all eigenvalues are real, the imaginary part. ``length`` computes the period of the
-    domain, and ``initial`` the initial state at the point x. ``wave`` is the name of the wave number in
-    expressions, and ``space`` is the name of x.
+    The kernel ``symbol`` computes the eigenvalue lambda of L from the wave number. The outputs are the real
+    part of lambda and, if some eigenvalues are not real, the imaginary part. ``length`` computes the period
+    of the domain, and ``initial`` the initial state at the point x. ``wave`` is the name of the wave number
+    in expressions, and ``space`` is the name of x.
     """
 
     tables: tuple[Table, ...]
@@ -238,9 +245,10 @@ class ModeStep:
 
     @property
     def growth(self) -> int:
-        """A bound p on the growth of the tables: they are at most a constant times (1 + |z|)^p for z < 0.
+        """A bound p on the growth of the tables: their values are at most a constant times (1 + |z|)^p for z
+        < 0.
 
-        If :attr:`backwards` is true, the tables grow exponentially, and the bound does not hold.
+        The bound does not hold if :attr:`backwards` is true, because the tables then grow exponentially.
         """
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
         products = [m for table in self.tables for m in table.multiplier.terms]
@@ -252,12 +260,15 @@ class ModeStep:
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression that emitted code evaluates during a run. The formula of the initial state
-        is not included."""
+        is omitted.
+        """
         for kernel in (self.symbol, self.length, self.nonlinearity.formulas):
             yield from kernel.expressions()
 
     def explanation(self) -> list[str]:
-        """Return lines with the stages and the new state, as formulas in z, where N_i is N at U_i."""
+        """Return lines that describe the stages and the new state by formulas in z, where N_i is the value of
+        N at U_i.
+        """
         lines = []
         for number, evaluation in enumerate(self.evaluations, 1):
             time = "" if evaluation.time.is_zero else f", at t + {evaluation.time.text()} h"
@@ -274,7 +285,7 @@ class ModeStep:
         return lines
 
     def bound(self) -> str:
-        """Return a text that says how fast the tables grow for large negative z."""
+        """Describe how fast the tables grow for large negative z."""
         if self.backwards:
             return "some contain exp(-c z) with c > 0 and grow exponentially, so short steps are required"
         if self.growth > 0:
@@ -283,8 +294,10 @@ class ModeStep:
         return "all are bounded"
 
     def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:
-        """Return the lines of the formula ``name`` = sum of ``terms``, followed by ``remark``. A long formula
-        has one line for each term."""
+        """Return the lines of the formula ``name`` = sum of ``terms``, followed by ``remark``.
+
+        A long formula has one line for each term.
+        """
         words = []
         for term in terms:
             source = "u" if term.source == STATE else f"N{term.source + 1}"

@@ -1,11 +1,11 @@
 """Normal forms: expressions as polynomials in symbols, function calls and inverses, reduced by relations.
 
-Two different expressions may have equal values wherever the coordinates satisfy the laws of a group, such as
-g^T g = 1. Here an expression is rewritten with these laws. First the arguments of functions and the divisors
-in the expression are brought to normal form. Then the expression is expanded as a polynomial, and one product
-of each law is replaced by the sum that equals it. Many formulas with equal values then become equal
-expressions: |g y|^2 becomes |y|^2. The result equals the given expression wherever the laws hold. It is not
-canonical, and need not be shorter.
+Two different expressions may have equal values wherever the coordinates satisfy the equations of a group,
+such as g^T g = 1. Here an expression is rewritten by such equations, called relations. First the arguments of
+functions and the divisors are brought to normal form. Then the expression is expanded as a polynomial, and
+one product in each relation is replaced by the sum that equals the product. Many formulas with equal values
+then become equal expressions. For example, |g y|^2 becomes |y|^2. The result equals the given expression
+wherever the relations hold. The result is not canonical, and it may be longer.
 """
 
 from __future__ import annotations
@@ -16,8 +16,7 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers: sorted pairs (node, exponent). A node is given by its number in the expression
-space."""
+"""A product of powers, as sorted pairs (number of a node in the expression space, exponent)."""
 
 Polynomial = dict[Monomial, Number]
 
@@ -28,8 +27,8 @@ ONE = Number.rational(1)
 MOST_TERMS = 400
 """A polynomial with more terms than this number is not expanded further.
 
-The limit bounds the compile time. The limits 200 and 800 give the same emitted files (to verify this, edit
-the number and run ``orderconds regenerate --check``).
+The limit bounds the compile time. The limits 200 and 800 give the same emitted files. To verify this, edit
+the number and run ``orderconds regenerate --check``.
 """
 
 
@@ -40,16 +39,16 @@ class TooLong(ArithmeticError):
 class NormalForms:
     """Brings expressions of one space to normal form.
 
-    Each of ``relations`` replaces a product of two symbols by an equal sum. Repeated replacement must end.
-    The expressions in ``whole`` are not expanded.
+    Each relation replaces a product of two symbols by an equal sum. Repeated replacement must end. The
+    expressions in ``whole`` are not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
-        # Monomials contain node numbers, because these are sorted and hashed faster than nodes. This table
-        # maps numbers to nodes.
+        # Monomials contain node numbers, because numbers are sorted and hashed faster than nodes. This table
+        # maps the numbers to nodes.
         self.atoms: dict[int, Expr] = {}
-        # An expression in ``whole`` is not expanded: it becomes a variable of the polynomials.
+        # An expression in ``whole`` becomes a variable of the polynomials, so it is not expanded.
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
@@ -62,21 +61,26 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # The right side is not reduced here: when _reduced inserts its terms, it applies the rules to
-            # them.
+            # The right side is not reduced here, because _reduced applies the rules to its terms when it
+            # inserts them.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
-        """Return an expression that equals the expression ``root`` wherever the relations hold. If the
-        expansion is too long, ``root`` itself is returned."""
+        """Return an expression that equals ``root`` wherever the relations hold.
+
+        If the expansion is too long, ``root`` itself is returned.
+        """
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # The result must only equal ``root`` wherever the relations hold, so ``root`` itself is valid.
+            # ``root`` itself is a valid result, because the result must only equal ``root`` wherever the
+            # relations hold.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
-        """Return root as a reduced polynomial; raise :class:`TooLong` if it has too many terms."""
+        """Return ``root`` as a reduced polynomial. :class:`TooLong` is raised if the polynomial has too many
+        terms.
+        """
         known_forms = self.known
         for node in walk([root], lambda n: n.id in known_forms):
             if node.id in known_forms:
@@ -95,8 +99,8 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
-                    # Only products can contain the left side of a rule, so sums of reduced polynomials need
-                    # no reduction.
+                    # Only products can contain the left side of a rule, so sums of reduced polynomials are
+                    # already reduced.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
@@ -118,15 +122,15 @@ class NormalForms:
         return known_forms[root.id]
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
-        """Return a polynomial as an expression; the most frequent factor is taken out first."""
+        """Return a polynomial as an expression. The most frequent factor is taken out first."""
         # A copy is used, so that the given polynomial is not changed.
         terms = dict(polynomial)
         count: dict[int, int] = {}
         for monomial in terms:
             for atom, _ in monomial:
                 count[atom] = count.get(atom, 0) + 1
-        # This is Horner's rule in several variables. If two factors are equally frequent, max returns the
-        # factor with the smaller node number.
+        # The recursion is Horner's rule in several variables. If two factors are equally frequent, max
+        # returns the factor with the smaller node number.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
         # A factor that occurs in only one term is not taken out, because this would save no product.
         if best < 0 or count[best] < 2:
@@ -146,8 +150,7 @@ class NormalForms:
 
     def _sum(self, terms: Mapping[Monomial, Number]) -> Expr:
         total = self.space.zero
-        # Sorting compares the monomials of the terms and never their coefficients, because the monomials are
-        # distinct.
+        # Monomials are distinct, so sorting compares only monomials and never coefficients.
         for monomial, c in sorted(terms.items()):
             product = self.space.const(c)
             for atom, n in monomial:
@@ -165,8 +168,8 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # This test limits the work of one product. The limit is MOST_TERMS^2 pairs of terms and not
-        # MOST_TERMS, because like terms are added: a product has often far fewer terms than pairs.
+        # This test limits the work of one product. The limit for pairs of terms is MOST_TERMS^2, because like
+        # terms are added, and a product often has far fewer terms than pairs.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
@@ -185,13 +188,13 @@ class NormalForms:
         # ``popitem`` removes the entry that was inserted last, so the order of reduction does not depend on
         # hashes.
         waiting = dict(polynomial)
-        # Each pass of the loop replaces the left side of one relation. The loop ends, because callers must
-        # pass relations whose repeated replacement ends.
+        # Each pass of the loop replaces the left side of one relation. Callers must pass relations whose
+        # repeated replacement ends, so the loop ends.
         while waiting:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # The left side may be a square, that is i = j; the exponent must then be at least 2.
+                # If the left side is a square, i = j, and the exponent must be at least 2.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1

@@ -1,9 +1,10 @@
-"""Exact numbers in programs: each is an element of a ring. Only printers round the numbers to doubles.
+"""Exact numbers in programs. Each number is an element of a ring, and only printers round the numbers to
+doubles.
 
-Tableau coefficients stay exact (rational, algebraic) or certified (balls) until they are printed. Programs
-represent them as a :class:`Number`. Two numbers are equal when their rings give equal keys. Two overlapping
-balls do not prove that two numbers are equal. Therefore, if the coefficients of a tableau are balls, their
-keys contain the names of the coefficients in the file of the tableau: coefficients with the same name are
+Tableau coefficients stay exact (rational, algebraic) or certified (balls that contain the number) until they
+are printed. Programs represent coefficients as objects :class:`Number`. Two numbers are equal if their rings
+give equal keys. Overlapping balls do not prove that two numbers are equal. Therefore the key of a ball
+contains the name of the coefficient in the file of the tableau, and coefficients with the same name are
 equal. The difference of equal numbers is exactly 0, and their quotient is exactly 1. Multiplication by 1 does
 not make a ball wider.
 """
@@ -19,15 +20,16 @@ from functools import cached_property
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 
-# The lengths of texts and exponents are limited: Fraction("1e999999999") would build an integer of a billion
-# digits.
+# The lengths of texts and exponents are limited, because Fraction("1e999999999") would build an integer with
+# a billion digits.
 _TYPED = re.compile(r"[+-]?(\d{1,99}/\d{1,99}|(\d{1,99}\.?\d{0,99}|\.\d{1,99})([eE][+-]?\d{1,3})?)", re.ASCII)
 _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 
 
 def is_normal(value: Fraction) -> bool:
-    """Return True if a double represents this number to the full precision of doubles. This is the case for
-    zero and for numbers in the range of normal doubles.
+    """Return True if a double represents this number to the full precision of doubles.
+
+    This holds for zero and for numbers in the range of normal doubles.
 
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
@@ -38,16 +40,18 @@ def is_normal(value: Fraction) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Number:
-    """A real number, given exactly or by a ball that contains it; rational numbers are elements of QQ."""
+    """A real number, given exactly or by a ball that contains the number. Rational numbers are elements of
+    QQ.
+    """
 
     ring: Ring = field(repr=False)
     element: Element = field(repr=False)
 
     @cached_property
     def key(self) -> tuple[object, ...]:
-        """A value that identifies this number: two numbers are equal if and only if their keys are equal."""
-        # Keys make equality decidable for balls, too: coefficients with the same name in a tableau file have
-        # equal keys.
+        """A value that identifies this number. Two numbers are equal if and only if their keys are equal."""
+        # Keys make equality decidable for balls, too, because coefficients with the same name in a tableau
+        # file have equal keys.
         return tuple(self.ring.key(self.element))
 
     def __eq__(self, other: object) -> bool:
@@ -67,9 +71,9 @@ class Number:
 
     @classmethod
     def read(cls, text: str) -> Number:
-        """Return the rational number that a person typed: ``1/2``, ``0.25``, ``-3e-2``.
+        """Return the rational number that a user typed, such as ``1/2``, ``0.25`` or ``-3e-2``.
 
-        ValueError is raised for any other text, and for numbers outside the range of doubles. Its message is
+        ValueError is raised for any other text, and for numbers outside the range of doubles. The message is
         the expected form. The lengths of the digits and of the exponent are checked before the number is
         built.
 
@@ -77,7 +81,8 @@ class Number:
         True
         """
         try:
-            # Fraction converts the text 0.1 to 1/10 exactly; a conversion through float would round it.
+            # Fraction converts the text 0.1 to 1/10 exactly. A conversion through float would round the
+            # number.
             value = Fraction(text) if _TYPED.fullmatch(text) else None
         except ZeroDivisionError:
             value = None
@@ -89,7 +94,7 @@ class Number:
     @cached_property
     def is_zero(self) -> bool:
         """True if this number is provably zero."""
-        # The ring's is_zero returns None if the question is undecided; such a number does not count as zero.
+        # is_zero of the ring returns None if the question is undecided. Such a number does not count as zero.
         return self.ring.is_zero(self.element) is True
 
     @cached_property
@@ -110,8 +115,8 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # A rational number is converted to the ring of the other number. If the rings differ and neither is
-        # QQ, no common ring is known, and an error is raised.
+        # A rational number is converted to the ring of the other number. If the rings differ and neither ring
+        # is QQ, no common ring is known, and an error is raised.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
@@ -121,8 +126,7 @@ class Number:
         raise TypeError(f"numbers of two different fields cannot be combined in one operation: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # Most numbers are rational, and their sum needs no keys. This case comes first, because keys take
-        # time to compute.
+        # This case comes first, because most numbers are rational, and keys take time to compute.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
         # The difference of equal balls would be a ball around 0, which no simplification recognises as zero.
@@ -142,7 +146,7 @@ class Number:
     def __mul__(self, other: Number) -> Number:
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element * other.element)
-        # Multiplying by 1 would make a ball wider and change its key, so the other factor is returned.
+        # Multiplication by 1 would make a ball wider and change its key, so the other factor is returned.
         if self.is_one or other.is_one:
             return other if self.is_one else self
         ring, x, y = self._join(other)
@@ -164,17 +168,17 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
-        # The value is computed to 40 digits and then rounded to a double, which has 17 digits. The error of
-        # the value with 40 digits is negligible.
+        # The value is computed to 40 digits and then rounded to a double with 17 digits. The error of the
+        # first rounding is negligible.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:
-        """Return the value of a rational number; raise a TypeError for any other number."""
+        """Return the value of a rational number. TypeError is raised for any other number."""
         if not self.is_rational:
             message = f"the number {self.text()} is not stored as a rational number"
             raise TypeError(message)
         return Fraction(int(self.element.p), int(self.element.q))
 
     def text(self) -> str:
-        """Return this number as exact text, or to 20 digits if it is a ball."""
+        """Return this number as exact text, or with 20 digits if it is a ball."""
         return self.ring.text(self.element)

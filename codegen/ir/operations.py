@@ -1,11 +1,10 @@
 """The operations of step programs: one small class for each operation.
 
-A class defines how the operation is printed, which kinds its arguments and results have, and how it is
-evaluated. If an operation has the attribute ``dual`` and it is true, the operation acts on the dual of the
-Lie algebra.
+A class defines how the operation is printed, which kinds its arguments and results have, and how the
+operation is evaluated. An operation whose attribute ``dual`` is true acts on the dual of the Lie algebra.
 
-Conventions: [x, y] = AB - BA for the matrices A and B of x and y; ad*_x and Ad*_g are the dual maps of ad_x
-and Ad_g, without a change of sign and without an inverse.
+The bracket is [x, y] = AB - BA for the matrices A and B of x and y. The dual maps ad*_x and Ad*_g of ad_x and
+Ad_g have no change of sign and no inverse.
 """
 
 from __future__ import annotations
@@ -22,7 +21,8 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# Each kind is in a tuple of its own, so that signatures can be written as sums: G + A is (Group, Alg).
+# Each kind is in a tuple of its own, so that signatures can be written as sums. For example, G + A is (Group,
+# Alg).
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -30,23 +30,25 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 
 
 class Problem(Protocol):
-    """A problem: the group, its action, and the field or Hamiltonian of a scene. All of them can be evaluated
-    over any domain, that is, for scalars such as doubles, power series or expressions."""
+    """A problem: the group, its action, and the field or Hamiltonian of a scene.
+
+    The functions of a problem can be evaluated over any domain, that is, for scalars such as doubles, power
+    series or expressions.
+    """
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of the function called ``name``, which the group, its action or the scene
-        provides.
+        """Return the results of the function ``name`` of the group, of its action or of the scene.
 
         ``order`` is a parameter of the function, such as the number of brackets after which dexp^{-1} is
         truncated. It is None for functions without a parameter.
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
-        """Return the state after the exact flow of one part of the splitting for the time tau."""
+        """Return the state after the exact flow of one part of the vector field for the time tau."""
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Apply an operator to v and return the result. The operator is the product of the functions of ad_x
-        in ``word``; if ``dual`` is true, ad*_x replaces ad_x.
+        """Apply the product of the functions of ad_x in ``word`` to v. If ``dual`` is true, ad*_x replaces
+        ad_x.
         """
 
     def dimension(self) -> int:
@@ -54,32 +56,34 @@ class Problem(Protocol):
 
 
 class Operation(ABC):
-    """The operation on the right-hand side of an assignment; the assignment stores the arguments."""
+    """The operation on the right-hand side of an assignment. The assignment stores the arguments."""
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """The kinds of the arguments and of the results, if these kinds do not depend on the parameters of the
+    """The kinds of the arguments and of the results, if they do not depend on the parameters of the
     operation.
     """
-    # Passes use linearity to move factors and sums out of an operation: ad_x(c v + w) = c ad_x v + ad_x w.
+    # Compiler passes use linearity to move factors and sums out of an operation: ad_x(c v + w) = c ad_x v +
+    # ad_x w.
     linear_in_last: ClassVar[bool] = False
     """True if the result is linear in the last argument."""
     # The cost of a method is measured by two numbers: its evaluations of the scene, and its exponentials.
     evaluates_scene: ClassVar[bool] = False
     """True if the operation counts as one evaluation of the field or of the derivatives of the
-    Hamiltonian."""
+    Hamiltonian.
+    """
     exponentials: ClassVar[int] = 0
     """The number of exponentials or flows that the operation computes."""
 
     noun: ClassVar[str] = ""
-    """The name of the operation in reports, where ``{s}`` is replaced by the plural ending; '' if the
-    operation costs nothing."""
+    """The name of the operation in reports, or '' if the operation costs nothing. ``{s}`` is replaced by the
+    plural ending.
+    """
 
     @property
     @abstractmethod
     def name(self) -> str:
-        """The name of the operation in printed programs. Programs also count their operations by this
-        name."""
+        """The name of the operation in printed programs and in counts of operations."""
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the results."""
@@ -87,7 +91,9 @@ class Operation(ABC):
 
     @abstractmethod
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Return the results for the arguments ``args``. Arguments and results consist of scalars of
+        ``domain``.
+        """
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the operation maps arguments of these kinds to results of these kinds."""
@@ -119,7 +125,7 @@ class Zero(Operation):
         return self.kind in LINEAR and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Return the zero vector."""
         # The components are zeros of the domain, because a plain 0 would have another type than other
         # scalars.
         return ((domain.rational(0),) * problem.dimension(),)
@@ -134,13 +140,15 @@ class Linear(Operation):
     noun = "sum{s}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds for a combination in the algebra; :meth:`accepts` also admits combinations in the
-        dual."""
+        """Return the kinds for a combination in the algebra. :meth:`accepts` also admits combinations in the
+        dual.
+        """
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if the number of arguments equals the number of coefficients and is not zero, and all
-        arguments have the kind of the result."""
+        """Return True if there is one argument for each coefficient, and all arguments have the kind of the
+        result.
+        """
         # A combination has the kind of its arguments, so it needs at least one argument. An empty sum is a
         # :class:`Zero`, which stores its kind.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
@@ -148,20 +156,20 @@ class Linear(Operation):
 
     def applied(self, args: Sequence[str]) -> str:
         """Return the text of the operation applied to the arguments with the names ``args``."""
-        # The verifier also prints ill-formed programs, which may have more coefficients than arguments, or
-        # fewer.
+        # The number of coefficients may differ from the number of arguments, because the verifier also prints
+        # ill-formed programs.
         terms = zip_longest([f"({c.text()})" for c in self.coefficients], args)
         return " + ".join(f"{c or '?'} {a or '?'}" for c, a in terms)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the sum; terms with equal coefficients are added before they are scaled."""
+        """Return the sum. Terms with equal coefficients are added before they are scaled."""
         # Emitted code uses the same order of operations: one product for each distinct coefficient.
         groups: dict[Coefficient, list[Value]] = {}
         for c, x in zip(self.coefficients, args, strict=True):
             groups.setdefault(c, []).append(x)
         total: Value = None
         for c, vectors in groups.items():
-            # Dictionaries keep the order of insertion, so each build forms the sum in the same order.
+            # Dictionaries keep the order of insertion, so each run computes the sum in the same order.
             part = vectors[0]
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
@@ -188,7 +196,7 @@ class Advance(Operation):
         return super().applied([*args, self.coefficient.text()])
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Return the time of the stage."""
         return (args[0] + self.coefficient.evaluate(domain),)
 
 
@@ -197,12 +205,13 @@ class OfGroup(Operation):
 
     @property
     def function(self) -> str:
-        """The name of the function of the group, the action or the scene that evaluates this operation
-        (:meth:`Problem.apply`)."""
+        """The name of the function of the group, of the action or of the scene that evaluates this
+        operation.
+        """
         return self.name
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Call the function of the group, of the action or of the scene."""
         return problem.apply(domain, self.function, None, args)
 
 
@@ -227,7 +236,8 @@ class Exp(OfGroup):
 @dataclass(frozen=True)
 class ElementAt(OfGroup):
     """The group element tau(x) for the coordinate map tau of the scene
-    (:mod:`codegen.groups.coordinate_maps`)."""
+    (:mod:`codegen.groups.coordinate_maps`).
+    """
 
     name = "element_at"
     exponentials = 1
@@ -238,7 +248,10 @@ class ElementAt(OfGroup):
 @dataclass(frozen=True)
 class InverseDifferential(OfGroup):
     """The element dtau^{-1}_x y of the Lie algebra for the coordinate map tau of the scene, without
-    truncation. If x' = dtau^{-1}_x y, then tau(x)' = y.tau(x)."""
+    truncation.
+
+    If x' = dtau^{-1}_x y, then tau(x)' = y.tau(x).
+    """
 
     linear_in_last = True
     name = "inverse_differential"
@@ -248,7 +261,7 @@ class InverseDifferential(OfGroup):
 
 @dataclass(frozen=True)
 class Multiply(OfGroup):
-    """The group product g k. If the product acts on a point, k acts first: (g k).y = g.(k.y)."""
+    """The group product g k. The product acts on a point y by (g k).y = g.(k.y)."""
 
     name = "mul"
     takes, gives = G + G, G
@@ -266,7 +279,7 @@ class MultiplyExp(OfGroup):
 
 @dataclass(frozen=True)
 class Act(OfGroup):
-    """The point g.y, to which the group element g moves the point y."""
+    """The point g.y: the group element g acts on the point y."""
 
     name = "act"
     takes, gives = G + P, P
@@ -275,7 +288,7 @@ class Act(OfGroup):
 
 @dataclass(frozen=True)
 class ActExp(OfGroup):
-    """The point exp(x).y, computed without forming exp(x)."""
+    """The point exp(x).y, computed without the group element exp(x)."""
 
     name = "actexp"
     exponentials = 1
@@ -285,7 +298,7 @@ class ActExp(OfGroup):
 
 @dataclass(frozen=True)
 class Adjoint(OfGroup):
-    """Ad_g x, or Ad*_g mu if ``dual`` is true; if ``inverse`` is true, g^-1 replaces g."""
+    """Ad_g x, or Ad*_g mu if ``dual`` is true. If ``inverse`` is true, g^-1 replaces g."""
 
     dual: bool = False
     inverse: bool = False
@@ -294,7 +307,7 @@ class Adjoint(OfGroup):
 
     @property
     def name(self) -> str:
-        """The name under which programs count this operation."""
+        """The name in printed programs and in counts of operations."""
         return f"Ad{'*' if self.dual else ''}{'^-1' if self.inverse else ''}"
 
     @property
@@ -308,9 +321,9 @@ class Adjoint(OfGroup):
         return G + own, own
 
     def opposite(self) -> Adjoint:
-        """Return the operation whose linear map is the inverse of this one, for the same g."""
-        # Ad_g Ad_{g^-1} = 1. The same holds for the duals, although they reverse the order of products:
-        # Ad*_{gk} = Ad*_k Ad*_g.
+        """Return the operation that inverts this linear map, for the same g."""
+        # Ad_g Ad_{g^-1} = 1. The dual maps reverse the order of products, Ad*_{gk} = Ad*_k Ad*_g, but Ad*_g
+        # Ad*_{g^-1} = 1 also holds.
         return Adjoint(self.dual, not self.inverse)
 
 
@@ -324,7 +337,7 @@ class Bracket(OfGroup):
 
     @property
     def name(self) -> str:
-        """The name under which programs count this operation."""
+        """The name in printed programs and in counts of operations."""
         return "ad*" if self.dual else "ad"
 
     @property
@@ -340,8 +353,10 @@ class Bracket(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDexp(Operation):
-    """The truncated dexp^{-1}: the sum over k <= order of B_k/k! ad_x^k y, or of B_k/k! (ad*_x)^k mu if
-    ``dual`` is true. B_k are the Bernoulli numbers."""
+    """The truncated dexp^{-1}: the sum over k <= order of B_k/k! ad_x^k y with the Bernoulli numbers B_k.
+
+    If ``dual`` is true, the operation is the sum of B_k/k! (ad*_x)^k mu.
+    """
 
     order: int
     dual: bool = False
@@ -350,14 +365,14 @@ class InverseDexp(Operation):
 
     @property
     def name(self) -> str:
-        """The name under which programs count this operation."""
+        """The name in printed programs and in counts of operations."""
         return "dexpinv*" if self.dual else "dexpinv"
 
     @property
     def word(self) -> Word:
-        """The operation as a word of one factor, the truncated function dexp^{-1} of ad_x."""
-        # If further functions of the same ad_x are applied to the result, a pass joins all these functions in
-        # one word.
+        """The operation as a product with one factor, the truncated function dexp^{-1} of ad_x."""
+        # If further functions of the same ad_x are applied to the result, a compiler pass joins all these
+        # functions to one product.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -370,17 +385,18 @@ class InverseDexp(Operation):
         return A + own, own
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Return the truncated series, which the group computes."""
         # The group computes the series. The order is an argument, because it depends on the method.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
 @dataclass(frozen=True)
 class InverseDexpSlope(Operation):
-    """The element P* mu of the dual, for the arguments x, y and mu. It is defined by <P* mu, z> = <mu, d/deps
-    dexpinv_{x + eps z} y at eps = 0> for all z.
+    """The derivative of the truncated dexp^{-1} with respect to x, transposed and applied to mu.
 
-    dexpinv is the truncated dexp^{-1} of :class:`InverseDexp` with the same order.
+    For the arguments x, y and mu, the result P* mu in the dual is defined by <P* mu, z> = <mu, d/deps
+    dexpinv_{x + eps z} y at eps = 0> for all z. dexpinv is the truncated dexp^{-1} of :class:`InverseDexp`
+    with the same order.
     """
 
     order: int
@@ -394,13 +410,13 @@ class InverseDexpSlope(Operation):
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Return P* mu, which the group computes."""
         return problem.apply(domain, "P", self.order, args)
 
 
 @dataclass(frozen=True)
 class DualDexp(OfGroup):
-    """The dual of the linear map dexp_x, applied to mu."""
+    """The dual dexp*_x of the linear map dexp_x, applied to mu."""
 
     linear_in_last = True
     name = "dexp*"
@@ -410,14 +426,16 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """The operation as a word of one factor, the function dexp of ad_x."""
+        """The operation as a product with one factor, the function dexp of ad_x."""
         return (Factor("dexp", UNIT),)
 
 
 @dataclass(frozen=True)
 class AdSeries(Operation):
-    """A product of functions of ad_x, applied to the last argument; x is the first argument. ``word`` lists
-    the functions. If ``dual`` is true, ad*_x replaces ad_x."""
+    """A product of functions of ad_x, applied to the last argument. The first argument is x.
+
+    ``word`` lists the functions. If ``dual`` is true, ad*_x replaces ad_x.
+    """
 
     word: Word
     dual: bool = False
@@ -426,7 +444,7 @@ class AdSeries(Operation):
 
     @property
     def name(self) -> str:
-        """The name under which programs count this operation."""
+        """The name in printed programs and in counts of operations."""
         return "series*" if self.dual else "series"
 
     def text(self) -> str:
@@ -440,10 +458,11 @@ class AdSeries(Operation):
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the operation maps arguments of these kinds to results of these kinds, and its word
-        is not empty."""
-        # An empty word is the identity. The pass that simplifies words removes assignments with empty words.
+        is not empty.
+        """
+        # An empty word is the identity. A compiler pass removes assignments with empty words.
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Return the product of the functions, applied to the last argument."""
         return (problem.series(domain, self.word, self.dual, *args),)

@@ -1,4 +1,4 @@
-"""The floating-point formats of emitted code: how constants are rounded and printed in each format.
+"""The floating-point formats of emitted code, and how constants are rounded and printed in each format.
 
 >>> SINGLE.text(SINGLE.round(Number.rational(1, 3))), DOUBLE.text(DOUBLE.round(Number.rational(1, 3)))
 ('0.33333334', '0.3333333333333333')
@@ -16,16 +16,17 @@ from codegen.ir.number import Number
 from orderconds.errors import InputError, UnknownName
 
 SUBNORMAL = {24: -149, 53: -1074}
-"""The binary exponent of the smallest positive number of a format. A key is the number of bits of the
-significand."""
+"""The binary exponent of the smallest positive number of a format, by the number of bits of the
+significand.
+"""
 
 
 @dataclass(frozen=True)
 class Precision:
-    """A binary format of IEEE 754: the number of ``bits`` of its significand, its C type, and the suffix of C
-    names.
+    """A binary format of IEEE 754.
 
-    ``largest`` is the greatest finite number.
+    ``bits`` is the number of bits of the significand, and ``suffix`` is the suffix of the names of functions
+    and constants in C. ``largest`` is the greatest finite number.
     """
 
     name: str
@@ -41,13 +42,13 @@ class Precision:
 
     @property
     def digits(self) -> int:
-        """The number of significant decimal digits that suffices to distinguish any two numbers of the
-        format."""
+        """The smallest number of significant decimal digits that distinguishes any two numbers of the
+        format.
+        """
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:
-        """Convert a tolerance for doubles to this format: the result is the same multiple of the unit
-        roundoff.
+        """Convert a tolerance for doubles to the same multiple of the unit roundoff of this format.
 
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True
@@ -56,9 +57,11 @@ class Precision:
         return tolerance * (self.unit / UNIT)
 
     def round(self, value: Number | Fraction | float) -> float:
-        """Return the nearest number of the format, rounded once; InputError if the value is too large."""
+        """Return the nearest number of the format, rounded once. InputError is raised if the value is too
+        large.
+        """
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # A comparison with a NaN is false. The condition is negated, so that a NaN is also refused.
+        # A comparison with a NaN is false, so the negated condition also refuses a NaN.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -72,8 +75,8 @@ class Precision:
         # Python's ``repr`` of a float is already the shortest text that reads back as the same double.
         if self.bits == 53:
             return repr(x)
-        # Python prints a double with the fewest digits. For other formats the smallest number of digits is
-        # found by trial.
+        # For other formats the smallest number of digits is found by trial, because Python finds it only for
+        # doubles.
         for digits in range(1, self.digits + 1):
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
@@ -90,7 +93,7 @@ def _double(value: Number | Fraction | float) -> float:
 
 
 def _nearest(value: Number | Fraction | float, bits: int) -> float:
-    """Return the nearest number of ``bits`` bits, ties to even."""
+    """Return the nearest number with ``bits`` significant bits. Ties are rounded to even."""
     if isinstance(value, Number):
         rational = value.is_rational
         exact = value.fraction() if rational else Fraction(value.ring.approximate(value.element, 40))
@@ -98,9 +101,9 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
-    # The value is not rounded to a double first, because after two roundings a tie may be decided wrongly.
+    # The value is not rounded to a double first, because two successive roundings may decide a tie wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The bit lengths determine the exponent up to one; this comparison adds one if necessary.
+    # The bit lengths determine the exponent only up to one. This comparison adds one if necessary.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
     exponent = max(exponent, SUBNORMAL[bits])
@@ -117,7 +120,7 @@ PRECISIONS = {p.name: p for p in (DOUBLE, SINGLE)}
 
 
 def precision(name: str) -> Precision:
-    """Return the format called ``name``; raise UnknownName for an unknown name."""
+    """Return the format called ``name``. UnknownName is raised for an unknown name."""
     if name not in PRECISIONS:
         raise UnknownName(f"unknown precision {name}", expected=" or ".join(PRECISIONS))
     return PRECISIONS[name]

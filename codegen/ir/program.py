@@ -1,10 +1,10 @@
 """Step programs: one step of a method on a scene, as operations of a Lie group, without coordinates.
 
 A value has one of five kinds (:class:`codegen.ir.values.Kind`). Each variable is assigned once. Equations
-that depend on one another form a :class:`Solve` block u = g(u). A block has unknowns u, a body that computes
-values from the unknowns, and images: those values g(u) of the body that equal the unknowns at the solution. A
-method is lowered to *one* block with all its stages; the passes find the order in which stages can be solved
-one after the other.
+that depend on one another form a :class:`Solve` block u = g(u). A block has unknowns u and a body that
+computes values from the unknowns. The images are those values g(u) of the body that equal the unknowns at the
+solution. A method is first translated to *one* block with all its stages. Compiler passes then find the order
+in which stages can be solved one after the other.
 
 A program has no branches that depend on data, no loops other than blocks, and only one group.
 """
@@ -43,16 +43,16 @@ class Assign:
 
     @property
     def terms(self) -> tuple[tuple[Coefficient, Var], ...]:
-        """The terms of a linear combination; () for any other operation."""
-        # For other operations the result is empty, so callers may loop over the terms of any assignment.
+        """The terms of a linear combination, or () for any other operation."""
+        # The result for other operations is empty, so that callers can loop over the terms of any assignment.
         if not isinstance(self.operation, Linear):
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # Passes use this test to move a coefficient out of a linear map: L(c x) = c L(x).
+    # Compiler passes use this test to move a coefficient out of a linear map: L(c x) = c L(x).
     @property
     def is_multiple(self) -> bool:
-        """True if the operation is a combination of one term: one coefficient times one value."""
+        """True if the operation is a linear combination with one term: a coefficient times a value."""
         return isinstance(self.operation, Linear) and len(self.args) == 1
 
     @classmethod
@@ -69,14 +69,12 @@ class Assign:
 
 @dataclass(frozen=True)
 class Solve:
-    """The equations unknowns = images, which are solved for the unknowns. The body computes the images from
-    the unknowns.
+    """The equations unknowns = images, which are solved for the unknowns. The body computes the images.
 
-    Statements after the block may read values of the body. They read the values at the solution. ``starts``
-    are the first values of the unknowns: they have the kinds of the unknowns and are known before the block.
-    ``residuals`` may be empty. Otherwise there is one residual for each unknown. The residual must be about
-    as large as the error of the unknown. All residuals are zero if and only if all unknowns equal their
-    images.
+    Statements after the block may use the values of the body at the solution. ``starts`` are the first values
+    of the unknowns. They have the kinds of the unknowns and are known before the block. ``residuals`` is
+    empty, or contains one residual for each unknown, about as large as the error of this unknown. All
+    residuals are zero if and only if all unknowns equal their images.
     """
 
     label: str
@@ -84,8 +82,8 @@ class Solve:
     starts: tuple[Var, ...]
     body: tuple[Assign, ...]
     images: tuple[Var, ...]
-    # A residual must be about as large as the error of its unknown, because the stopping rule compares
-    # residuals with unknowns.
+    # The stopping rule compares residuals with unknowns, so a residual must be about as large as the error of
+    # its unknown.
     residuals: tuple[Var, ...] = ()
 
 
@@ -93,24 +91,23 @@ Statement = Assign | Solve
 
 
 EMBEDDED = "embedded"
-"""The output name of the embedded solution: a second new state y of lower order, from which the error is
-estimated."""
+"""The output name of the embedded solution: a second new state of lower order for the error estimate."""
 
 
 POWERS = "power"
-"""The outputs of a program for a continuous extension are called ``power1``, ``power2``, ...: the
+"""The prefix of the output names of a continuous extension. The outputs ``power1``, ``power2``, ... are the
 coefficients of theta, theta^2, ... in a polynomial sigma(theta). The solution at the time t + theta h is
-exp(sigma(theta)).y."""
+exp(sigma(theta)).y.
+"""
 
 
 SPACE, BODY = "space", "body"
-"""The possible values of :attr:`Program.frame`: the frame of the momentum that the statements of a program
-read and return."""
+"""The possible values of :attr:`Program.frame`, the frame of the momentum in the statements of a program."""
 
 
 @dataclass(frozen=True)
 class Substep:
-    """A part of a step: it is ``fraction`` h long and begins at t + ``offset`` h."""
+    """A part of a step. It has the length ``fraction`` h and begins at the time t + ``offset`` h."""
 
     fraction: Number
     offset: Number
@@ -120,9 +117,10 @@ class Substep:
 class Program:
     """One step: inputs, statements, and the new state. An output has the name of the input that it replaces.
 
-    With ``substeps`` a step executes the statements once for each substep, in order. If ``frame`` is
-    :data:`BODY`, the statements read m = Ad*_q mu in place of mu, and return the new values q' and m'. The
-    step then first computes m. At its end it computes the new momentum mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
+    If ``substeps`` is not empty, a step executes the statements once for each substep, in order. If ``frame``
+    is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu, and return q' and m'.
+    In this case the step first computes m, and at the end the new momentum mu + Ad*_{q'^-1} m' - Ad*_{q^-1}
+    m.
     """
 
     name: str
@@ -141,11 +139,13 @@ class Program:
                 yield from statement.body
 
     def counts(self) -> dict[str, int]:
-        """Return the number of occurrences of each operation, sorted by name; a block counts as one sweep."""
+        """Return the number of occurrences of each operation, sorted by name. The body of a block is counted
+        once.
+        """
         total: dict[str, int] = {}
         for assign in self.assigns():
-            # The number of sweeps of a block is not known before the program is run, so its operations are
-            # counted once.
+            # The number of iterations of a block is not known before the program is run, so its operations
+            # are counted once.
             total[assign.operation.name] = total.get(assign.operation.name, 0) + 1
         return dict(sorted(total.items()))
 
@@ -154,8 +154,8 @@ class Program:
         # The lines have the order of execution, and the body of a block is indented.
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
-        # In the body frame, mu in the statements means Ad*_q mu. This changes all statements, so the text
-        # states it first.
+        # In the body frame, mu in the statements means Ad*_q mu. The text states this first, because all
+        # statements depend on it.
         lines += ["  where mu denotes Ad*(q, mu):"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
@@ -174,13 +174,15 @@ class Program:
 
 @dataclass
 class Builder:
-    """Appends assignments with fresh names; used by lowerings and by passes that insert operations."""
+    """Appends assignments with new variable names. Lowerings and passes that insert operations use this
+    class.
+    """
 
     taken: set[str] = field(default_factory=set)
     body: list[Assign] = field(default_factory=list)
 
     def fresh(self, name: str, kind: Kind) -> Var:
-        """Return a variable called ``name``; a number is appended if this name is taken."""
+        """Return a variable called ``name``. A number is appended if this name is taken."""
         # Only a number is appended, so that the name is still recognised in printed programs.
         candidate, n = name, 1
         while candidate in self.taken:
@@ -213,7 +215,7 @@ class Builder:
         return self.add(Act(), target, g, y)
 
     def adjoint(self, target: str, g: Var, v: Var, *, inverse: bool = False) -> Var:
-        """Append target = Ad_g v, or Ad*_g v for v in the dual; if ``inverse`` is true, g^-1 replaces g."""
+        """Append target = Ad_g v, or Ad*_g v for v in the dual. If ``inverse`` is true, g^-1 replaces g."""
         return self.add(Adjoint(v.kind is Kind.DUAL, inverse), target, g, v)
 
     def bracket(self, target: str, x: Var, v: Var) -> Var:
@@ -221,8 +223,9 @@ class Builder:
         return self.add(Bracket(v.kind is Kind.DUAL), target, x, v)
 
     def dexpinv(self, target: str, x: Var, v: Var, order: int) -> Var:
-        """Append target = dexp^{-1}_x v, truncated after ``order`` brackets; for v in the dual, ad*_x
-        replaces ad_x."""
+        """Append target = dexp^{-1}_x v, truncated after ``order`` brackets. For v in the dual, ad*_x
+        replaces ad_x.
+        """
         return self.add(InverseDexp(order, v.kind is Kind.DUAL), target, x, v)
 
     def dual_dexp(self, target: str, x: Var, mu: Var) -> Var:
@@ -234,7 +237,7 @@ class Builder:
         return self.add(Field(bool(time)), target, y, *time)
 
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
-        """Append target = sum of coefficient * variable; an empty sum becomes the operation ``zero``."""
+        """Append target = sum of coefficient * variable. An empty sum becomes the operation ``zero``."""
         var = self.fresh(target, kind)
         # Terms with coefficient zero are omitted, because passes assume that a sum depends on each of its
         # arguments.
@@ -261,8 +264,9 @@ class Builder:
         return targets
 
     def take(self) -> tuple[Assign, ...]:
-        """Return the assignments appended so far and remove them from the builder; their names stay
-        reserved."""
+        """Return the assignments appended so far, and remove them from the builder. Their names stay
+        reserved.
+        """
         body = tuple(self.body)
         # The names stay reserved, because the returned statements still contain them.
         self.body.clear()
