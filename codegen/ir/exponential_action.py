@@ -1,12 +1,14 @@
 """The action exp(A) y of the exponential of an n x n matrix on a vector, without the matrix exp(A).
 
-In doubles the matrix is halved s times, until its largest row sum is small, and a Taylor polynomial of exp(A
-2^-s) is applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). With degree m
-the polynomial is y + A (p/m!), where p is the sum of (m!/j!) A^(j-1) y over j from 1 to m, by Horner's rule.
-The integers m!/j! are exact in floating-point arithmetic. Coefficients 1/j! would be rounded, and their error
-would be the same in every step. If A is skew, the length of y would therefore drift. With the integers all
-rounding errors depend on y, and the length does not drift. Emitted code executes the same operations in the
-same order (:mod:`codegen.run.exponential_action`).
+In doubles the matrix A is halved s times, until its largest row sum is small. Then a Taylor polynomial of
+exp(A 2^-s) is applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). For a
+matrix A, the polynomial of degree m is y + A (p/m!), where p is the sum of (m!/j!) A^(j-1) y over j from 1 to
+m, by Horner's rule.
+
+The integers m!/j! are exact in floating-point arithmetic. Coefficients 1/j! would be rounded, and the same
+rounding error in every step would make the length of y drift if A is skew. With integers all rounding errors
+depend on y, and the length does not drift. Emitted code executes the same operations in the same order
+(:mod:`codegen.run.exponential_action`).
 """
 
 from __future__ import annotations
@@ -24,19 +26,22 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 HALVINGS = 13
-"""The largest number s of halvings. If a matrix needs more, every result is NaN: the Taylor polynomial would
-have to be applied 2^s times, which takes too long."""
+"""The largest number s of halvings. The Taylor polynomial is applied 2^s times, so a larger s would take too
+long. If a matrix needs more halvings, every result is NaN.
+"""
 
 SPARSE = 12
-"""The largest number of rows for which the arguments of a call are y and only those entries of A that are not
-zero. Emitted code then has one sum for each row, without a loop."""
+"""The largest number of rows for which a call receives only the non-zero entries of A besides y. Emitted code
+then has one sum for each row, without a loop.
+"""
 
 
 @cache
 def degrees(bits: int) -> tuple[int, ...]:
-    """Return the degrees of the Taylor polynomials. The largest degree is the largest m for which all
-    integers m!/j!, 0 <= j <= m, are floating-point numbers with ``bits`` binary digits. The other degrees are
-    smaller by 4, 8, and so on.
+    """Return the degrees of the Taylor polynomials.
+
+    The largest degree is the largest m for which all integers m!/j!, 0 <= j <= m, are floating-point numbers
+    with ``bits`` binary digits. The other degrees are smaller by 4, 8, and so on.
 
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
@@ -53,11 +58,11 @@ def _odd(x: int) -> int:
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return, for each degree m, the largest row sum of a matrix for which the degree is used: ((m + 1)!
-    2^-(bits + 10))^(1/(m + 1)), rounded to three digits.
+    """Return, for each degree m, the largest row sum of a matrix for which this degree is used.
 
-    The remainder of the Taylor polynomial is then below 2^-10 times the unit roundoff. The remainder must be
-    this small, because it changes the length of y by the same amount in every step.
+    The row sum is ((m + 1)! 2^-(bits + 10))^(1/(m + 1)), rounded to three digits. The remainder of the Taylor
+    polynomial is then below 2^-10 times the unit roundoff. The remainder must be this small, because it
+    changes the length of y by the same amount in every step.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)
@@ -68,10 +73,10 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
 @dataclass(frozen=True)
 class ExponentialAction(VectorFunction):
-    """exp(A) y; the arguments are the entries of A row by row, and y.
+    """The function exp(A) y of the entries of A, row by row, and of y.
 
-    If ``pattern`` is not zero, only some entries of A are arguments, and all others are zero: entry k is an
-    argument if bit k of the pattern is set.
+    If ``pattern`` is not zero, entry k of A is an argument if bit k of the pattern is set. All other entries
+    are zero.
     """
 
     n: int
@@ -94,8 +99,9 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each row of the matrix, the pairs (index among the arguments, column) of those entries that are
-        arguments."""
+        """For each row of the matrix, the entries that are arguments, as pairs (index among the arguments,
+        column).
+        """
         entries = list(enumerate(self.places))
         return tuple(
             tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)
@@ -108,7 +114,7 @@ class ExponentialAction(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The number of operations of exp(A) y with a polynomial of degree 18. No halvings are counted."""
+        """The number of operations of exp(A) y for a polynomial of degree 18 without halvings."""
         products = 18 * (len(self.places) + self.n)
         return {"add": products, "mul": products}
 
@@ -120,8 +126,11 @@ class ExponentialAction(VectorFunction):
         return result
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of exp(A) y, if ``args`` are A and y, and ``rates`` are their derivatives A'
-        and y': exp([[A, A'], [0, A]]) (y', y) is the pair of this derivative and exp(A) y."""
+        """Return the derivative of exp(A) y, where ``args`` are A and y, and ``rates`` are their derivatives
+        A' and y'.
+
+        exp([[A, A'], [0, A]]) (y', y) is the pair of this derivative and exp(A) y.
+        """
         space, n, entries = args[0].space, self.n, len(self.places)
         a, e = (self.matrix(x[:entries], space.zero) for x in (args, rates))
         y, v = args[entries:], rates[entries:]
@@ -135,9 +144,12 @@ class ExponentialAction(VectorFunction):
         return tuple(results[:n])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return y if A is zero. If A has at most :data:`SPARSE` rows, return the results of a call whose
-        arguments are only y and the non-zero entries of A. Otherwise, or if ``pattern`` is not zero, return
-        None."""
+        """Return exp(A) y in a simpler form if one exists, otherwise None.
+
+        If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the results are those of a call
+        with y and the non-zero entries of A as arguments. If ``pattern`` is not zero, the call already has
+        this form, and the result is None.
+        """
         if self.pattern:
             return None
         size = self.n**2
@@ -177,8 +189,10 @@ class ExponentialAction(VectorFunction):
         return tuple(y)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return exp(A) y for mpmath numbers. :class:`OverflowError` is raised if n times the largest
-        absolute value of an entry is 2^40 or more."""
+        """Return exp(A) y for mpmath numbers.
+
+        :class:`OverflowError` is raised if n times the largest absolute value of an entry is 2^40 or more.
+        """
         entries, rows = len(self.places), self.rows
         largest = max((abs(x) for x in args[:entries]), default=0) * self.n
         if not largest < 2**40:
@@ -199,7 +213,7 @@ class ExponentialAction(VectorFunction):
         return tuple(context.mpf(x) for x in y)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return exp(A) y for power series, exactly; the constant terms of A must be nilpotent."""
+        """Return exp(A) y for power series, exactly. The constant terms of A must form a nilpotent matrix."""
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
         longest = self.n * (ring.order + 2)
@@ -215,7 +229,7 @@ class ExponentialAction(VectorFunction):
 def _product(
     rows: Sequence[Sequence[tuple[int, int]]], a: Sequence[Scalar], y: Sequence[Scalar], zero: Scalar = 0.0
 ) -> list[Scalar]:
-    """Return A y. Row by row, ``rows`` contains the pairs (index in ``a``, column) of the entries of A."""
+    """Return A y. For each row of A, ``rows`` contains the pairs (index in ``a``, column) of its entries."""
     result = []
     for row in rows:
         terms = [a[k] * y[j] for k, j in row]

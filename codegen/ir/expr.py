@@ -1,12 +1,13 @@
 """Scalar expressions: immutable, hash-consed within a :class:`Space`, ordered by creation.
 
-A space interns every node, so equal expressions are identical objects and are stored once. Nodes are numbered
-in the order of their creation, and each compilation uses a new space. Hence the order of operands and the
-emitted text depend only on the input. A new node is simplified only by local rules, for constants, zeros,
-ones, signs and x - x. Sums are never flattened, because subexpressions would then no longer be shared.
+A space stores equal expressions only once, so they are the same object. Nodes are numbered in the order of
+their creation, and each compilation uses a new space. Hence the order of operands and the emitted text depend
+only on the input. A new node is simplified only by local rules for constants, zeros, ones, signs and x - x.
+Sums are never flattened, because subexpressions would then no longer be shared.
 
-Operations: ``const`` (a :class:`Number`), ``sym`` (a name), ``add sub mul div neg``, ``pow`` (integer
-exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`, or a result of a vector function).
+The operations are ``const`` (a :class:`Number`), ``sym`` (a name), ``add``, ``sub``, ``mul``, ``div``,
+``neg``, ``pow`` (integer exponent >= 2), and ``call`` (a function of :data:`FUNCTIONS`, or a result of a
+vector function).
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ FUNCTIONS = (
     "stumpff1",
     "stumpff2",
     "stumpff3",
-    # c_k for positive and negative z: for z < 0 they contain cosh and sinh
+    # c_k for positive and negative z. For z < 0 they contain cosh and sinh.
     "signed_stumpff0",
     "signed_stumpff1",
     "signed_stumpff2",
@@ -52,13 +53,13 @@ FUNCTIONS = (
     "signed_slope1",
     "signed_slope2",
     "signed_slope3",
-    # a/b, and 0 where b = 0: used for quotients whose limit is 0 where the divisor vanishes
+    # a/b, and 0 where b = 0. It is used for quotients with the limit 0 where the divisor vanishes.
     "quotient",
 )
 
 
 class Expr:
-    """One node of an expression; nodes are created by their :class:`Space` only."""
+    """One node of an expression. Nodes are created only by their :class:`Space`."""
 
     # Neither == nor hash is defined: within one space equal expressions are the same object.
     __slots__ = ("args", "id", "op", "payload", "space")
@@ -124,8 +125,8 @@ class Space:
         self.one = self.const(Number.rational(1))
 
     def _make(self, op: str, args: tuple[Expr, ...] = (), payload: Payload = None) -> Expr:
-        # Arguments are created before the nodes that use them, so they have smaller numbers: numbers are a
-        # topological order.
+        # Arguments are created before the nodes that use them, so they have smaller numbers, and the numbers
+        # are a topological order.
         key = (op, tuple(a.id for a in args), payload)
         node = self._table.get(key)
         if node is None:
@@ -156,8 +157,8 @@ class Space:
             return self.const(-a.payload)
         if a.op == "neg":
             return a.args[0]
-        # -(a - b) is replaced by b - a, which needs no negation. In floating point both are equal up to the
-        # sign of zero.
+        # -(a - b) is replaced by b - a, which needs no negation. In floating point both are equal, except for
+        # the sign of zero.
         if a.op == "sub":
             return self._make("sub", (a.args[1], a.args[0]))
         return self._make("neg", (a,))
@@ -177,8 +178,8 @@ class Space:
         # In floating point x + x equals 2 x exactly, and the node 2 x may already exist.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
-        # Floating-point addition is commutative, so a + b and b + a are one node. It is not associative, so
-        # sums of three terms keep their order.
+        # Floating-point addition is commutative, so a + b and b + a are one node. Floating-point addition is
+        # not associative, so sums of three terms keep their order.
         return self._make("add", (a, b) if a.id < b.id else (b, a))
 
     def sub(self, a: Expr, b: Expr) -> Expr:
@@ -194,16 +195,16 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # By -x - b = -(x + b) the sign is moved outside. The sum x + b may occur elsewhere, and a sum
-            # that contains -(x + b) becomes a difference at no cost.
+            # The sign is moved outside: -x - b = -(x + b). The sum x + b may occur elsewhere, and a sum that
+            # contains -(x + b) becomes a difference at no cost.
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
     def mul(self, a: Expr, b: Expr) -> Expr:
-        """Return a b; a constant factor comes first."""
+        """Return a b. A constant factor comes first."""
         if b.op == "const":
             a, b = b, a
-        # 0 x = 0, as in exact arithmetic: x is assumed to be finite.
+        # 0 x = 0 for finite x, and x is assumed to be finite.
         if a is self.zero or b is self.zero:
             return self.zero
         if a.op == "const":
@@ -219,8 +220,8 @@ class Space:
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # If a is a constant, its sign changes. Otherwise the sign is moved to the outside of the product,
-            # so that x y and x (-y) share one product.
+            # If a is a constant, the sign of the constant changes. Otherwise the sign is moved outside, so
+            # that x y and x (-y) share one product.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
@@ -230,7 +231,7 @@ class Space:
         return self._make("mul", (a, b))
 
     def div(self, a: Expr, b: Expr) -> Expr:
-        """Return a/b; a constant divisor becomes a constant factor."""
+        """Return a/b. A constant divisor becomes a constant factor."""
         if b is self.zero:
             raise ZeroDivisionError("division by the constant 0")
         if a is self.zero:
@@ -271,8 +272,11 @@ class Space:
         return self._make("pow", (a,), n)
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return the node function(args). ``function`` is a name in :data:`FUNCTIONS`, the name of a result
-        of a vector function, or a table, that is, an object :class:`PiecewisePolynomial`."""
+        """Return the node function(args).
+
+        ``function`` is a name in :data:`FUNCTIONS`, the name of a result of a vector function, or a table,
+        that is, an object :class:`PiecewisePolynomial`.
+        """
         known = _folded(function, args)
         if known is not None:
             return known
@@ -290,8 +294,10 @@ class Space:
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return a simpler expression for a selection or an absolute value, for example if the sign of its first
-    argument is known. Return None if there is none."""
+    """Return a simpler expression for a selection or an absolute value, or None if there is none.
+
+    A simpler expression exists, for example, if the sign of the first argument is known.
+    """
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
@@ -309,8 +315,7 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Return True if two constants have a common ring. Their sum and product are then elements of this
-    ring."""
+    """Return True if two constants have a common ring, which then contains their sum and product."""
     # Rational numbers are elements of every ring. Two different rings, neither of them QQ, have no known
     # common ring.
     x, y = a.payload, b.payload
@@ -318,8 +323,10 @@ def _joinable(a: Expr, b: Expr) -> bool:
 
 
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
-    """Yield each node of the expressions once, arguments before the nodes that use them. The arguments of a
-    node for which ``stop`` is true are not visited."""
+    """Yield each node of the expressions once, arguments before the nodes that use them.
+
+    The arguments of a node for which ``stop`` is true are not visited.
+    """
     # An explicit stack is used, because the expressions of long steps are nested more deeply than Python's
     # recursion limit allows. The loop is written for speed, because a compilation visits millions of nodes.
     seen: set[Expr] = set()
@@ -338,8 +345,8 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     continue
                 seen.add(arg)
                 if arg.args and (stop is None or not stop(arg)):
-                    # The expression that contains this node is put back on the stack, because its other
-                    # arguments are visited after this node.
+                    # The present node is put on the stack, because its other arguments are visited after this
+                    # argument.
                     users.append((node, args))
                     node, args = arg, iter(arg.args)
                     break
@@ -360,16 +367,16 @@ _BINARY: dict[str, Callable[[Any, Any], Any]] = {
 
 
 def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]) -> list[Scalar]:
-    """Evaluate roots in a domain (see :mod:`codegen.ir.domain`); ``values`` are the values of the symbols.
+    """Evaluate roots in a domain (see :mod:`codegen.ir.domain`), with ``values`` for the symbols.
 
-    In a domain of expressions, each symbol is replaced by an expression.
+    In a domain of expressions, the value of a symbol is the expression that replaces the symbol.
     """
-    # The roots are copied to a list, because they are read twice below, and an iterator would be empty at the
-    # second time.
+    # The roots are copied to a list, because they are read twice below, and an iterator can be read only
+    # once.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
-    # The results of a vector function are computed together. They are stored under its name and the ids of
-    # its arguments.
+    # The results of a vector function are computed together. They are stored under the name of the function
+    # and the ids of its arguments.
     vectors: dict[tuple[str, tuple[int, ...]], tuple[Scalar, ...]] = {}
     for node in walk(roots):
         # walk yields the arguments of a node before the node, so the values of the arguments are already
@@ -398,10 +405,12 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
 
 
 def power(x: Scalar, n: int) -> Scalar:
-    """Return x**n, n >= 1, by repeated squaring, from the leading bit of n to the last bit. Printers write
-    the same products."""
+    """Return x**n, n >= 1, by repeated squaring, from the leading bit of n to the last bit.
+
+    Emitted code computes the same products.
+    """
     result = x
-    # The prefix 0b and the leading bit are skipped: the leading bit gives x itself.
+    # The prefix 0b and the leading bit are skipped, because the leading bit gives x itself.
     for bit in bin(n)[3:]:
         result = result * result
         if bit == "1":

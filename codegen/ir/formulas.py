@@ -23,7 +23,9 @@ class Formulas(ExprDomain):
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the terms of a product or commutator, and a call node for each result of other functions."""
+        """Return the terms of a product or commutator. For other functions return one call node for each
+        result.
+        """
         called = named(function)
         if isinstance(called, BilinearFunction):
             return called.arithmetic(args)

@@ -1,7 +1,4 @@
-"""Convert the sympy formulas of a scene to expressions; the rest of the compiler uses only expressions.
-
-The arguments of a sympy formula are sorted by ``sort_key``, so that the result does not depend on hashing.
-"""
+"""Convert the sympy formulas of a scene to expressions. The rest of the compiler uses only expressions."""
 
 from __future__ import annotations
 
@@ -23,7 +20,7 @@ if TYPE_CHECKING:
     import sympy
 
 CALLS = frozenset(MATHEMATICAL) - {"sqrt"}
-"""The functions that formulas may call. ``sqrt`` is not among them, because sympy writes roots as powers."""
+"""The functions that formulas may call. ``sqrt`` is missing, because sympy writes roots as powers."""
 
 SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 """The functions of sympy that select one of several formulas."""
@@ -31,15 +28,17 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""For each function that may be infinite or undefined, an argument at which its value is finite. In a branch
-of a Piecewise formula, the function is evaluated at this argument wherever the branch is not selected."""
+"""For each function that may be infinite or undefined, an argument at which its value is finite.
+
+Where a branch of a Piecewise formula is not selected, its functions are evaluated at these arguments.
+"""
 
 
 def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
-    """Return a sympy expression as a node of space; raise :class:`SceneError` with the part that cannot be
-    read.
+    """Convert a sympy expression to a node of ``space``.
 
-    Rational numbers stay exact. A float is read as the shortest decimal that rounds to it, so 0.1 is 1/10.
+    Rational numbers stay exact. A float is read as the shortest decimal that rounds to this float, so 0.1 is
+    1/10. :class:`SceneError` is raised with the part of the expression that is not supported.
     """
     import sympy
 
@@ -53,7 +52,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
 
 @dataclass
 class _Reader:
-    """Converts one formula; each subexpression is converted once, even if it occurs several times.
+    """Converts one formula. Each subexpression is converted once, even if it occurs several times.
 
     Inside a branch of a Piecewise formula, ``guard`` is positive exactly where the branch is selected.
     """
@@ -65,8 +64,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Return an expression as a node."""
-        # Sympy expressions share subexpressions. The table stores the result for each of them; without it the
-        # time could grow exponentially with the depth of the formula.
+        # Sympy expressions share subexpressions. The table stores the result of each subexpression. Without
+        # the table the time could grow exponentially with the depth of the formula.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -81,8 +80,8 @@ class _Reader:
             return self.space.const(Number.rational(int(e.p), int(e.q)))
         if isinstance(e, sympy.Float):
             return self._float(e)
-        # A sum is read as a chain of binary additions in sorted order, so that its rounding errors depend
-        # only on the formula.
+        # A sum becomes a chain of binary additions in sorted order, so that its rounding errors depend only
+        # on the formula.
         if isinstance(e, sympy.Add):
             return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
         if isinstance(e, sympy.Mul):
@@ -122,11 +121,14 @@ class _Reader:
         return self.space.const(Number.rational(*value.as_integer_ratio()))
 
     def guarded(self, x: Expr, safe: int) -> Expr:
-        """Return an expression that equals x where the present branch of a Piecewise formula is selected, and
-        the number ``safe`` elsewhere. Outside such a branch, and for a constant x, return x."""
-        # A branch is evaluated even where it is not selected. There a root or a quotient could raise an
-        # exception in Python or be a NaN. Also the derivative of the branch could be a NaN there. It is
-        # multiplied by zero, but zero times NaN is NaN.
+        """Return x where the present branch of a Piecewise formula is selected, and the number ``safe``
+        elsewhere.
+
+        Outside such a branch, and for a constant x, return x.
+        """
+        # A branch is evaluated even where it is not selected. There a root or a quotient could be a NaN, or
+        # raise an exception in Python. The derivative of the branch could also be a NaN. It is multiplied by
+        # zero there, but zero times NaN is NaN.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
@@ -150,7 +152,9 @@ class _Reader:
                 return self._piecewise(e)
 
     def _piecewise(self, e: sympy.Piecewise) -> Expr:
-        """Return a Piecewise formula. The formula of a branch is evaluated everywhere, and then selected."""
+        """Convert a Piecewise formula. All branches are evaluated, and then one of their values is
+        selected.
+        """
         import sympy
 
         if e.args[-1][1] != sympy.true:
@@ -174,8 +178,9 @@ class _Reader:
         return total
 
     def _product(self, e: sympy.Mul) -> Expr:
-        """Return a product; factors with negative powers form one divisor, so that the product has one
-        division."""
+        """Convert a product. All factors with negative powers form one divisor, so that the product has one
+        division.
+        """
         import sympy
 
         above, below = [], []
@@ -185,7 +190,7 @@ class _Reader:
                 below.append(self._power(self.guarded(self.node(a.base), 1), -a.exp, a))
             else:
                 above.append(self.node(a))
-        # Numerator and divisor are formed as separate products, because x/(y z) has one division and x y^-1
+        # The numerator and the divisor are separate products, because x/(y z) has one division and x y^-1
         # z^-1 has two.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
@@ -201,7 +206,7 @@ class _Reader:
         if exponent.is_Rational and exponent.q == 2:
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
-            # x^(n/2) = x^(n div 2) sqrt x for odd n: all half-integer powers of one base share one root.
+            # x^(n/2) = x^(n div 2) sqrt x for odd n, so all half-integer powers of one base share one root.
             value = space.mul(space.pow(base, abs(n) // 2), root)
             return value if n > 0 else space.div(space.one, value)
         raise SceneError(
@@ -214,14 +219,13 @@ class _Reader:
 def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
     import sympy
 
-    # The arguments are sorted, because sympy's order of ``args`` depends on hashes, which Python randomises
-    # in each process.
+    # The arguments are sorted, because their order in sympy depends on hashes, which differ between
+    # processes.
     return sorted(e.args, key=sympy.default_sort_key)
 
 
 def _fold(operation: Callable[[Expr, Expr], Expr], nodes: list[Expr]) -> Expr:
-    # The loop starts with the first node and not with 0 or 1, so that no node is created only to be
-    # simplified.
+    # The loop starts with the first node, because a node for 0 or 1 would only be simplified away.
     total = nodes[0]
     for node in nodes[1:]:
         total = operation(total, node)

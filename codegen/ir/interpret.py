@@ -1,5 +1,6 @@
-"""The interpreter: it evaluates a step program over any domain. Tests compare emitted code with its
-results."""
+"""The interpreter, which evaluates a step program over any domain. Tests compare emitted code with its
+results.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +25,9 @@ TO_SPACE = TO_BODY.opposite()
 
 
 def flatten(kind: Kind, value: Value) -> tuple[Scalar, ...]:
-    """Return the scalars of a value: a Real is one scalar, all other values are flat tuples (matrices row by
-    row)."""
+    """Return the scalars of a value. A Real is one scalar, and all other values are flat tuples (matrices row
+    by row).
+    """
     return (value,) if kind is Kind.REAL else tuple(value)
 
 
@@ -43,20 +45,20 @@ def interpret(
     """Return the new state after one step, as a table from the names of its parts (such as q) to values.
 
     ``inputs`` has a value for each input: a scalar of the domain for a Real, else a flat tuple of scalars
-    (group elements row by row). Blocks are solved by fixed-point iteration until the domain reports
-    convergence. If an iteration is slow or fails, Newton's method with difference quotients solves the block,
-    provided that the domain has them and ``newton`` is true. If a block needs more than ``limit`` sweeps,
-    :class:`NotConverged` is raised with the label of the block.
+    (group elements row by row). A block is a system of equations. Blocks are solved by fixed-point iteration
+    until the domain reports convergence. If an iteration is slow or fails, Newton's method with difference
+    quotients solves the block, provided that the domain supports difference quotients and ``newton`` is true.
+    If a block needs more than ``limit`` sweeps, :class:`NotConverged` is raised with the label of the block.
 
-    If ``solutions`` is given, iterations start at its values, and the new solutions are stored in it. If
-    ``near`` is given, Newton's method is used from the first sweep. ``near`` contains a list of numbers for
-    each block, in the order in which the blocks are solved: the first values of the unknowns of the block.
-    Each list is replaced by the solution of its block. If the domain has a method ``computed``, it receives
-    the name and the value of each result and returns a new value.
+    If ``solutions`` is given, iterations start at the values in ``solutions``, and the new solutions are
+    stored there. If ``near`` is given, Newton's method is used from the first sweep. For each block, in the
+    order in which the blocks are solved, ``near`` contains a list with the first values of the unknowns. Each
+    list is replaced by the solution of its block. If the domain has a method ``computed``, this method
+    receives the name and the value of each result and returns a new value.
     """
     if program.frame == BODY:
-        # In the body frame and in the space frame the statements are executed in the same way; only the
-        # momentum that they read and return is converted.
+        # The statements of a step in the body frame are those of a step in the space frame. Only the momentum
+        # before and after the step is converted.
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         end = interpret(core, problem, domain, start, **options)
@@ -77,7 +79,7 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # ``near`` is a queue: the first entry contains the first values for this block and is removed.
+            # ``near`` is a queue. Its first entry contains the first values for this block and is removed.
             # The solution is appended, so after the step ``near`` contains the solutions in the same order.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
@@ -103,7 +105,7 @@ def _fixed_point_first(
     patience = getattr(domain, "patience", limit) if newton else limit
     try:
         _iterate(block, env, domain, run, min(limit, patience), expected)
-    # Iterates that diverge may overflow, divide by zero or leave the domain of a root.
+    # Divergent iterates may overflow, divide by zero or leave the domain of a root.
     except (ArithmeticError, ValueError):
         if not newton or not hasattr(domain, "increment"):
             raise
@@ -112,8 +114,8 @@ def _fixed_point_first(
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum in the body frame."""
-    # The result is computed by the operation Ad*_q of step programs, so this function contains no formula of
-    # the group.
+    # The operation Ad*_q of step programs computes the result, so this function contains no formula of the
+    # group.
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -125,7 +127,7 @@ def outward(
 
     ``state`` contains the space momentum mu before the step. ``ends`` are the states before and after the
     step, with the body momentum. The result is mu plus the change of the space momentum. Rounding makes q
-    slightly non-orthogonal, and this error then affects only the change, and not mu.
+    slightly non-orthogonal, and this error affects only the change of the momentum.
     """
     # The states before and after the step are converted by the same operation. The error that a slightly
     # non-orthogonal q causes is nearly equal in both results, so it cancels in the difference.
@@ -145,13 +147,12 @@ def _composed(
     """Return the new state after all substeps of the program."""
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
-        # A substep needs a domain with another h. The domain is copied, so that the caller's domain is not
-        # changed.
+        # A substep needs a domain with another h. The domain of the caller is copied and not changed.
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
             # Times are computed from the beginning of the whole step, so that rounding errors of the substeps
-            # do not add up.
+            # do not accumulate.
             state["t"] = inputs["t"] + domain.number(step.offset) * domain.h
         state |= interpret(substep, problem, shorter, state, limit=limit, newton=newton, near=near)
     return {name: state[name] for name, _ in program.outputs}
@@ -167,7 +168,7 @@ def _iterate(
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
         # The first value of an unknown is its solution in an earlier step, if ``expected`` contains this
-        # solution, and otherwise the value of its start.
+        # solution. Otherwise the first value is that of the corresponding start.
         env[unknown] = expected.get(unknown, env[start])
     size: Scalar = None
     for _ in range(limit):
@@ -175,8 +176,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The test comes before the update. At convergence all values in ``env`` are therefore computed from
-        # the unknowns that are returned.
+        # The test comes before the update, so that at convergence all values in ``env`` are computed from the
+        # unknowns that are returned.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -186,8 +187,7 @@ def _iterate(
 
 
 def _differenced(domain: Domain) -> Differenced:
-    # isinstance is not used, because it is false for a domain that wraps another domain and forwards
-    # attributes by __getattr__.
+    # isinstance would be false for a domain that wraps another domain and forwards attributes by __getattr__.
     assert hasattr(domain, "increment")
     return cast("Differenced", domain)
 
@@ -200,11 +200,11 @@ def _correct(
     limit: int,
     near: Sequence[Scalar] | None = None,
 ) -> list[Scalar]:
-    """Solve a block by Newton's method with difference quotients: no formula is differentiated.
+    """Solve the equations u = g(u) of a block by Newton's method with difference quotients.
 
-    The iteration for u = g(u) begins at ``near``. Without ``near`` it begins at the block's starts. The
-    result is the list of the values of the unknowns u. If the domain has a method ``rounded``, this method
-    rounds the values g(u).
+    The iteration begins at ``near`` if it is given, else at the starts of the block. The result is the list
+    of the values of the unknowns u. If the domain has a method ``rounded``, this method rounds the values
+    g(u).
     """
     kinds = [u.kind for u in block.unknowns]
     # All unknowns of a block form one vector, because their equations depend on one another.
@@ -222,7 +222,7 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
-    # ``sharp`` is true after the corrections have converged. Then one further correction is computed.
+    # ``sharp`` is true after the corrections have converged. One further correction is then computed.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)
@@ -231,21 +231,19 @@ def _correct(
         for j, u in enumerate(now):
             step = domain.increment(u)
             moved = images([*now[:j], u + step, *now[j + 1 :]])
-            # This is column j of 1 - g'(u), the derivative of u - g(u). The correction is the inverse matrix
-            # times g(u) - u.
+            # This is column j of the derivative 1 - g'(u) of u - g(u).
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
         # The correction d solves (1 - g') d = g(u) - u.
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # One further correction follows, and it about squares the error. Therefore a change below the
-            # increment of the difference quotients, which is about the square root of the rounding unit, is
-            # small enough.
+            # The further correction about squares the error. Therefore a change below the increment of the
+            # difference quotients, which is about the square root of the rounding unit, is small enough.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # The body was last evaluated at a point displaced for a difference quotient, so it is evaluated
+            # The body was last evaluated at a displaced point for a difference quotient, so it is evaluated
             # once more at the solution.
             images(now)
             if sharp:
@@ -255,15 +253,17 @@ def _correct(
 
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
-    """Return the reason why an implicit block did not converge; ``change`` is the last change."""
-    # A ball is converted to a double, because two digits of the change are enough for the user.
+    """Return the message that an implicit block did not converge. ``change`` is the last change."""
+    # The change is converted to a double, because two digits are enough for the message.
     last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)
     return f"{block.label} did not converge in {limit} sweeps; the last change was {last}"
 
 
 def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
-    """Return the solution of a linear system by elimination with row exchanges. ``columns`` are the columns
-    of the matrix, and ``right`` is the right-hand side."""
+    """Solve a linear system by elimination with row exchanges.
+
+    ``columns`` are the columns of the matrix, and ``right`` is the right-hand side.
+    """
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
@@ -273,7 +273,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
         if not rows[k][k]:
             raise NotConverged("Newton's matrix is singular")
         for i in range(k + 1, n):
-            # The entries below the pivot are not read after this step, so they need not be set to zero.
+            # The entries below the pivot are not used after this step, so they are not set to zero.
             factor = rows[i][k] / rows[k][k]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
     solution: list[Scalar] = []

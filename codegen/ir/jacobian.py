@@ -1,14 +1,15 @@
-"""Jacobians of expressions by elimination of vertices. The method is exact, and it is cheaper than computing
-one column after the other.
+"""Jacobians of expressions by elimination of vertices. The method is exact, and cheaper than computing one
+column after the other.
 
-The expressions form a graph whose edges are labelled with partial derivatives. When a vertex is eliminated,
-each incoming edge is joined to each outgoing edge: the product of the two labels is added to the label of the
-edge that connects the two other ends. When only the variables and the results are left, the labels of the
-edges between them are the Jacobian. The order of elimination determines the number of products. The vertex
-with the lowest cost is eliminated next. The cost of a vertex is the number of products, that is, the number
-of its incoming edges times the number of its outgoing edges (Markowitz's rule; Griewank and Walther,
-Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two special orders, which are seldom
-the cheapest.
+The expressions form a graph whose edges are labelled with partial derivatives. When a vertex v is eliminated,
+each edge from u to v is joined to each edge from v to w: the product of the two labels is added to the label
+of the edge from u to w. When only the variables and the results are left, the labels of the edges between
+them are the Jacobian.
+
+The order of elimination determines the number of products. The vertex with the lowest cost is eliminated
+next. The cost of a vertex is the number of its incoming edges times the number of its outgoing edges
+(Markowitz's rule; Griewank and Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation
+are two special orders, which are seldom the cheapest.
 """
 
 from __future__ import annotations
@@ -30,8 +31,8 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     >>> jacobian([x * y, x + 2 * y], ["x", "y"])
     ((y, x), (1, 2))
     """
-    # The dictionary maps the node number of each variable to its column. The columns of variables that no
-    # root reads stay zero.
+    # The dictionary maps the node number of each variable to its column. The columns of variables that occur
+    # in no root stay zero.
     space = roots[0].space
     columns = {space.sym(name).id: j for j, name in enumerate(symbols)}
     graph = _Graph(roots, columns)
@@ -45,11 +46,11 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
 
 
 class _Graph:
-    """The linearised expressions: ``before[v][u]`` and ``after[u][v]`` both hold the label of the edge from u
-    to v.
+    """The graph of the expressions. ``before[v][u]`` and ``after[u][v]`` both contain the label of the edge
+    from u to v.
 
-    Vertices are the ids of nodes that depend on a variable. Results are the vertices -1, -2, .... A node may
-    therefore be both a result and an argument of another node.
+    Inner vertices are the ids of nodes that depend on a variable. Results are the vertices -1, -2, .... A
+    node may therefore be both a result and an argument of another node.
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:
@@ -76,10 +77,10 @@ class _Graph:
         if u not in self.after:
             return
         old = self.before[v].get(u)
-        # Parallel edges are merged: the contributions of all paths to a derivative are added.
+        # Parallel edges are merged, because the contributions of all paths to a derivative are added.
         total = factor if old is None else old + factor
-        # An edge whose label has become zero must be removed. Otherwise the costs would count paths that
-        # contribute nothing.
+        # An edge with the label zero is removed. Otherwise the costs would count paths that contribute
+        # nothing.
         if total.is_zero:
             self.before[v].pop(u, None)
             self.after[u].pop(v, None)
@@ -87,20 +88,19 @@ class _Graph:
             self.before[v][u] = self.after[u][v] = total
 
     def _cost(self, v: int) -> int:
-        """Return the number of products in the elimination of v: the number of incoming edges times the
-        number of outgoing edges."""
+        """Return the number of products in the elimination of v: incoming edges times outgoing edges."""
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
-        """Eliminate every inner vertex, the cheapest first; among vertices of equal cost the vertex nearest
+        """Eliminate every inner vertex, the cheapest first. Among vertices of equal cost the vertex nearest
         to the results comes first.
         """
-        # The queue contains -v, so that among vertices of equal cost the vertex with the largest number comes
-        # first: it is nearest to the results.
+        # The queue contains -v. Among vertices of equal cost, the vertex with the largest number v therefore
+        # comes first, which is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
-        # A vertex may have several entries in the queue. The vertex is eliminated by the first entry whose
-        # cost is not too low; its other entries are skipped.
+        # A vertex may have several entries in the queue. The first entry whose cost is not too low eliminates
+        # the vertex, and its other entries are skipped.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)
@@ -117,13 +117,14 @@ class _Graph:
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Variables have no incoming edges and results no outgoing edges; neither may be eliminated.
+                # Variables have no incoming edges, and results have no outgoing edges. Variables and results
+                # are not eliminated.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 
     def _take_out(self, v: int) -> list[int]:
-        # The vertex is first removed from both tables, so that the loop below adds no edge that begins or
-        # ends at it.
+        # The vertex is first removed from both tables, so that the loop below adds no edge to or from this
+        # vertex.
         ins, outs = self.before.pop(v), self.after.pop(v)
         for u in ins:
             del self.after[u][v]
@@ -131,6 +132,6 @@ class _Graph:
             del self.before[w][v]
         for w, second in outs.items():
             for u, first in ins.items():
-                # The chain rule: dw/du gains dw/dv dv/du.
+                # By the chain rule, dw/du gains the term dw/dv dv/du.
                 self._add(u, w, second * first)
         return [*ins, *outs]

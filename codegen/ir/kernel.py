@@ -1,9 +1,9 @@
 """Kernels: a step as scalar assignments and loops that solve equations, ready for a printer.
 
 In a kernel each name is assigned once. A :class:`Loop` solves u = g(u) for its unknowns u. The values g(u)
-are called images. The loop repeats its body until the unknowns converge: it replaces the unknowns by their
-images, or corrects them by Newton's method. Statements after the loop may read values of the body, as
-computed in the last sweep. A :class:`Start` computes the first values of the unknowns of all loops, unless
+are called images. The loop repeats its body until the unknowns converge. Each sweep replaces the unknowns by
+their images, or corrects the unknowns by Newton's method. Statements after the loop may use values of the
+body from the last sweep. A :class:`Start` computes the first values of the unknowns of all loops, unless
 solutions of earlier steps are known. Apart from loops, a kernel has no branches that depend on data.
 """
 
@@ -22,44 +22,47 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The symbol for the duration of the last flow of a step. In all steps of a run except the last step, this
-flow and the first flow of the next step are joined to one flow. The symbol contains a dot, so it differs from
-every name in a scene."""
+"""The symbol for the duration of the last flow of a step. In every step of a run except the last step, the
+last flow and the first flow of the next step are joined to one flow. The symbol contains a dot, so it differs
+from every name in a scene.
+"""
 
 ELAPSED = "elapsed.h"
-"""The symbol for the total duration of the steps for which a deferred flow is applied: all steps of a run,
-but at most :data:`LONGEST` steps."""
+"""The symbol for the total duration of the steps for which one deferred flow is applied. These are all steps
+of a run, but at most :data:`LONGEST` steps.
+"""
 
 LONGEST = 256
 """The largest number of steps for which one deferred flow is applied. The limit bounds the angles of this
-flow, and so the rounding errors of the angles."""
+flow, and thus the rounding errors of the angles.
+"""
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
 """The names of the methods that solve implicit blocks."""
 
 SLOWEST = 2.0**-12
-"""The least value that is used as the contraction factor of a sweep. Near rounding level a smaller measured
-factor is unreliable, so it is replaced by this value."""
+"""The smallest contraction factor of a sweep that is trusted. Near rounding level a smaller measured factor
+is unreliable, so it is replaced by this value.
+"""
 
 UNIT = 2.0**-53
-"""Half the distance from 1 to the next larger double, which is the largest relative rounding error of a
-double."""
+"""Half the distance from 1 to the next larger double: the largest relative rounding error of a double."""
 
 LOST = 2.0**-47
-"""A change below this fraction of the largest number in a block of the state is of the size of rounding
-errors."""
+"""A change below this fraction of the largest number in a part of the state counts as a rounding error."""
 
 VARIATION = "variation"
-"""The name of the state field that holds a variation, that is, a derivative of the state."""
+"""The name of the part of the state that contains a variation, that is, a derivative of the state."""
 
 VARIED = "the variation of "
-"""The prefix of the labels of those loops that solve equations for a variation, a derivative of the state."""
+"""The prefix of the labels of loops that solve equations for a variation, a derivative of the state."""
 
 
 @dataclass(frozen=True)
 class Let:
-    """name = value; symbols in ``value`` are inputs, unknowns of an enclosing loop, or names assigned
-    before."""
+    """name = value. Symbols in ``value`` are inputs, unknowns of an enclosing loop, or names assigned
+    before.
+    """
 
     name: str
     value: Expr
@@ -67,16 +70,17 @@ class Let:
 
 @dataclass(frozen=True)
 class Newton:
-    """The matrix of Newton's method for u = g(u): ``matrix`` is 1 - g'(u), ``body`` computes its entries.
+    """Newton's method for u = g(u). ``matrix`` is 1 - g'(u), and ``body`` computes its entries.
 
     The matrix is reused in later sweeps and steps (:mod:`codegen.run.sweeps`). If ``leading`` is true, the
     matrix is expanded to leading order in h, and it is computed and inverted in each step. If ``inverted`` is
     true, ``matrix`` contains the entries of the inverse matrix.
 
     If ``residuals`` is true, the images of the loop are residuals, which are zero at the solution. The matrix
-    is then minus their derivative to first order in h, and its inverse is used for ``period`` steps.
-    ``changes`` contains the names of the last changes of the unknowns. Values of the body that are read after
-    the loop were computed before these changes, and may be corrected by them.
+    is then minus the derivative of the residuals to first order in h, and its inverse is used for ``period``
+    steps. ``changes`` contains the names of the last changes of the unknowns. Statements after the loop may
+    use values of the body. These values were computed before the last changes, and may be corrected by the
+    changes.
     """
 
     body: tuple[Let, ...]
@@ -90,34 +94,34 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps for which an inverse is used; 0 means that it is used as long as the loop
-        contracts.
+        """The number of steps for which an inverse is used, or 0 if it is used as long as the loop contracts.
 
-        The cost of computing the inverse of an n x n matrix is proportional to n^3. If the period is longer,
-        the inverse is computed in fewer steps. But it is then older and less accurate, so a step takes more
-        sweeps.
+        The cost of the inverse of an n x n matrix is proportional to n^3. With a longer period the inverse is
+        computed less often, but an older inverse is less accurate, so a step takes more sweeps.
         """
-        # For an n x n matrix, an inverse is used in about n/2 steps. Its cost of order n^3 therefore adds a
+        # For an n x n matrix, an inverse is used in about n/2 steps, so that its cost of order n^3 adds a
         # cost of order n^2 to each step.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
 @dataclass(frozen=True)
 class Loop:
-    """Solve the equations unknowns = images by iteration. ``body`` computes the images. The loop ends when
-    the changes of the unknowns are at rounding level.
+    """A loop that solves the equations unknowns = images by iteration.
 
-    ``label`` is the name of the block in messages and statistics, for example "stage 2". ``starts`` are
-    evaluated before the loop, and are empty if a :class:`Start` computes the first values. Without ``newton``
-    the change of the unknowns is images - unknowns. The last change is not applied, so that the last values
-    of the body were computed from the final unknowns. With ``newton`` the change is the inverse of
-    ``newton.matrix`` times images - unknowns, and the last change is applied too.
+    ``body`` computes the images. The loop ends when the changes of the unknowns are at rounding level.
+
+    ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
+    the first values of the unknowns. They are empty if a :class:`Start` computes the first values.
+
+    If ``newton`` is None, the change of the unknowns is images - unknowns. The last change is not applied, so
+    the last values of the body were computed from the final unknowns. Otherwise the change is the inverse of
+    ``newton.matrix`` times images - unknowns, and the last change is applied, too.
 
     The stopping rule (:mod:`codegen.run.stopping`) uses three numbers. ``tolerance`` is the largest change,
     in units of the largest unknown, at which the loop may end because the change no longer decreases.
     ``close`` is the largest change at which the loop may end because the measured rate of convergence
     predicts a small error. ``limit`` is the largest number of sweeps. ``only_unknowns_read`` is true if no
-    values of the body are read after the loop. The last change may then be larger.
+    values of the body are used after the loop. In this case the last change may be larger.
     """
 
     label: str
@@ -125,8 +129,8 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # The tolerance is 512 rounding units. One unit would be too small, because the rounding errors of all
-    # terms of a sweep change the unknowns.
+    # The tolerance is 512 rounding units. A single unit would be too small, because the rounding errors of
+    # all terms of a sweep change the unknowns.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -134,7 +138,7 @@ class Loop:
 
     @property
     def solver(self) -> str:
-        """The name of the method that solves the block."""
+        """The name of the method that solves the equations."""
         if self.newton is None:
             return FIXED_POINT
         return SIMPLIFIED_NEWTON if self.newton.leading else NEWTON
@@ -143,12 +147,12 @@ class Loop:
     def close(self) -> float:
         """The largest change of the unknowns at which the test of the rate of convergence may end the loop.
 
-        Values of the body that are read after the loop were computed before the last change. Their error is
-        about h L times this change, where L is the Lipschitz constant of the images. The rate of convergence
-        of simplified Newton is (h L)^2. If this rate is small enough to end the loop, h L is small, too, and
-        a larger last change is permitted.
+        Statements after the loop may use values of the body, which were computed before the last change. The
+        error of these values is about h L times this change, where L is the Lipschitz constant of the images.
+        The rate of convergence of simplified Newton is (h L)^2. If this rate is small enough to end the loop,
+        h L is small, too, and a larger last change is permitted.
         """
-        # If only the unknowns are read after the loop, only their error matters. It is the rate of
+        # If only the unknowns are used after the loop, only their error matters. This error is the rate of
         # convergence times the last change, so the last change may be larger.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
@@ -162,17 +166,17 @@ class Start:
 
     If no solutions of earlier steps are known, the unknowns are set to ``values``, which ``body`` computes.
     Otherwise the polynomial through the last solutions is extrapolated by one step. With the solutions u1,
-    u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. At most ``depth``
-    solutions are kept. The degree grows while the differences of the solutions decrease. The change of the
-    unknowns in the first sweep is an estimate of the error of the extrapolation. If this estimate exceeds
-    ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next step. The unknowns of
-    all loops of the kernel are extrapolated together.
+    u2, ... (latest first), the extrapolations of degree 0, 1 and 2 are u1, 2 u1 - u2 and 3 u1 - 3 u2 + u3. At
+    most ``depth`` solutions are stored. The degree grows while the differences of the solutions decrease. The
+    change of the unknowns in the first sweep is an estimate of the error of the extrapolation. If this
+    estimate exceeds ``ROUGH`` times the change of the unknowns in the step, all stored solutions except u1
+    are dropped. The unknowns of all loops of the kernel are extrapolated together.
 
     If the loops do not converge, earlier solutions are dropped. Then the step size is halved until the loops
     converge. The solution for a small step size provides the first values of the unknowns for a larger step
     size, until the whole step is solved (continuation in h). The search fails after ``TRIES`` step sizes. It
-    also fails if the loops do not converge for the next step size, although this step size is larger only by
-    the fraction ``SHORTEST``.
+    also fails if the loops do not converge although the step size has grown only by the fraction
+    ``SHORTEST``.
     """
 
     unknowns: tuple[str, ...]
@@ -194,8 +198,9 @@ class Start:
 
 @dataclass(frozen=True)
 class Field:
-    """A named block of scalars in the state, the input or the output: the names of its scalars in order, and
-    a description."""
+    """A named part of the state, the input or the output: the names of its scalars in order, and a
+    description.
+    """
 
     name: str
     symbols: tuple[str, ...]
@@ -207,10 +212,12 @@ class Deferred:
     """The flows that a run of several steps applies only once, before its first step or after its last step.
 
     A single step calls ``begin``, the kernel, and ``finish``. A run of several steps calls ``begin`` once,
-    the kernel once for each step, and ``finish`` once. The symbol :data:`LEAD` is ``last`` times h in a
-    single step and in the last step of a run, and ``later`` times h in all other steps. The symbol
-    :data:`ELAPSED` is the duration of the single step or of the whole run. A long run is divided into runs of
-    at most :data:`LONGEST` steps.
+    the kernel once for each step, and ``finish`` once. A long run is divided into runs of at most
+    :data:`LONGEST` steps.
+
+    The symbol :data:`LEAD` is the duration of the last flow of the kernel. It is ``last`` times h in a single
+    step and in the last step of a run, and ``later`` times h in all other steps. The symbol :data:`ELAPSED`
+    is the duration of the single step or of the whole run.
     """
 
     begin: Kernel | None
@@ -226,13 +233,14 @@ class Deferred:
 
 @dataclass(frozen=True)
 class Carried:
-    """The momentum m in the body frame, which a run keeps from step to step in place of the state's mu.
+    """The momentum m in the body frame, which a run carries from step to step in place of the space momentum
+    mu.
 
-    m = ``inward``(q, mu) and mu = ``outward``(q, m). The momentum begins at the index ``first`` of the state.
-    A single step computes m by ``inward``, calls the kernel with (q, m), which returns (q', m'), and ends
-    with mu' = mu + outward(q', m') - outward(q, m). A run of several steps computes m once, calls the kernel
-    once for each step, and computes mu' once. Rounding makes q slightly non-orthogonal, and this error then
-    affects only the change of the momentum.
+    The conversions are m = ``inward``(q, mu) and mu = ``outward``(q, m). The momentum begins at the index
+    ``first`` of the state. A single step computes m by ``inward`` and calls the kernel, which maps (q, m) to
+    (q', m'). The new space momentum is mu' = mu + outward(q', m') - outward(q, m). A run of several steps
+    computes m once, calls the kernel once for each step, and computes mu' once. Rounding makes q slightly
+    non-orthogonal. In the formula for mu' this error affects only the change of the momentum.
     """
 
     inward: Kernel
@@ -242,7 +250,9 @@ class Carried:
 
 @dataclass(frozen=True)
 class Sample:
-    """Run-time inputs at one time of the step: a symbol for each input, in the order of ``Kernel.inputs``."""
+    """The run-time inputs at one time of the step: one symbol for each input, in the order of
+    ``Kernel.inputs``.
+    """
 
     time: Expr
     symbols: tuple[str, ...]
@@ -253,7 +263,7 @@ class Estimate:
     """An error estimate: the new state minus an embedded solution of lower order, component by component.
 
     After one step from the same state, both solutions differ from the exact flow by O(h^order). ``errors``
-    are the components of the estimate. They are empty if the kernel computes with whole matrices.
+    contains the components of the estimate. It is empty if the kernel computes with whole matrices.
     """
 
     errors: tuple[Expr, ...]
@@ -262,20 +272,20 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Expansion:
-    """The Taylor polynomial of the solution at a state. A step evaluates it, and a run may choose the step
-    size h from its coefficients.
+    """The Taylor polynomial of the solution at a state. A step evaluates this polynomial, and a run may
+    choose the step size h from its coefficients.
 
     The outputs of ``coefficients`` are the coefficients 1, ..., ``degree`` of the state, one order after the
-    other. The polynomial may be in other coordinates than the state: ``enter`` computes these coordinates
-    from the state, and ``leave`` computes the new state from the old state and the new coordinates. If
-    nothing has to be computed, ``enter`` or ``leave`` is None.
+    other. The polynomial may be in other coordinates than the state. In this case ``enter`` computes these
+    coordinates from the state, and ``leave`` computes the new state from the old state and the new
+    coordinates. If nothing has to be computed, ``enter`` or ``leave`` is None.
 
-    With ``following`` the coefficients are computed in a loop over their order n
-    (:class:`codegen.ir.taylor_loop.OrderLoop`). ``coefficients`` has then two groups of outputs: values of
-    order 0 that all later orders read, and the coefficients of order 1. ``following`` has three groups of
-    outputs: the values a_n and the values b_n of the inner sums a_1 b_(n-1) + ... + a_(n-1) b_1, and the
-    coefficients of order n + 1. The number of inner sums is ``sums``. If ``controlled`` is true, emitted code
-    has a run with step control.
+    If ``following`` is given, a loop over the order n computes the coefficients
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). In this case ``coefficients`` has two groups of outputs:
+    values of order 0 that all later orders use, and the coefficients of order 1. ``following`` has three
+    groups of outputs: the values a_n and the values b_n of the inner sums a_1 b_(n-1) + ... + a_(n-1) b_1,
+    and the coefficients of order n + 1. The number of inner sums is ``sums``. If ``controlled`` is true,
+    emitted code has a run with step-size control.
     """
 
     degree: int
@@ -291,8 +301,10 @@ class Expansion:
 class Continuous:
     """A continuous extension of order ``order``: the solution at the time t + theta h is exp(sigma(theta)).y.
 
-    The outputs of ``coefficients`` are the coefficients of theta, ..., theta^``degree`` of sigma, one after
-    the other. ``moved`` computes exp(x).y from a state y that is followed by the coordinates x.
+    y is the state at the time t, and sigma is a polynomial in theta with values in the Lie algebra. The
+    outputs of ``coefficients`` are the coefficients of theta, ..., theta^``degree`` of sigma, one after the
+    other. The inputs of ``moved`` are a state y and the coordinates x of an algebra element. Its output is
+    exp(x).y.
     """
 
     coefficients: Kernel
@@ -303,9 +315,12 @@ class Continuous:
 
 @dataclass(frozen=True)
 class Observed:
-    """The request for a run to a given end time. The run writes the states at given output times, and finds
-    the zeros of event functions. The caller supplies these functions; ``events`` is their number. The
-    ``extension`` computes the states at output times. Without it, the run takes shorter steps."""
+    """The request for a run to a given end time.
+
+    The run writes the states at given output times, and finds the zeros of event functions. The caller
+    supplies ``events`` event functions. The ``extension`` computes the states at output times. If it is None,
+    the run takes shorter steps that end at the output times.
+    """
 
     events: int = 0
     extension: Continuous | None = None
@@ -313,11 +328,10 @@ class Observed:
 
 @dataclass(frozen=True)
 class Function:
-    """A function that a kernel calls in several places. It evaluates ``body`` and returns ``outputs``; it
-    reads only its ``inputs``.
+    """A function that a kernel calls in several places. It evaluates ``body`` and returns ``outputs``.
 
-    In expressions, a call of ``NAME.k`` returns the k-th result of the function called NAME. ``about`` is a
-    text that describes what the function computes.
+    The function depends only on its ``inputs``. In expressions, a call of ``NAME.k`` returns the result
+    number k of the function NAME. ``about`` describes the function in words.
     """
 
     name: str
@@ -329,18 +343,22 @@ class Function:
 
 @dataclass(frozen=True)
 class Kernel:
-    """One step: state fields, scalar inputs (h, t, run-time parameters), body, new state in field order.
+    """One step: the state, scalar inputs (h, t, run-time parameters), the statements, and the new state.
 
-    ``inputs`` are the names of the functions of time that the caller supplies, ``samples`` are the times at
-    which they are read. ``vary`` is the kernel of the variational equation: its state is the state of this
-    kernel followed by a variation, and its outputs are the variation of the new state. With ``substeps`` a
-    step consists of several parts. The kernel is then called once for each part, and h and t are the length
-    and the start of this part. ``outlined`` are functions that the expressions of the kernel call. With
-    ``carried`` the kernel reads and returns the momentum m of :class:`Carried` in place of mu. With
-    ``expansion`` or ``estimate``, emitted code can have a run with step control. A kernel without ``outputs``
-    evaluates the polynomial of its ``expansion``, or executes the step ``arrays``, the step ``sites`` of a
-    lattice, or the step ``modes`` on Fourier modes. With ``batch``, emitted code also has a function that
-    steps many independent systems, and with ``observed`` a run to a given end time.
+    - ``inputs`` are the names of functions of time that the caller supplies. ``samples`` are the times at
+      which these functions are evaluated.
+    - ``vary`` is the kernel of the variational equation. Its state is the state of this kernel followed by a
+      variation, and its outputs are the variation of the new state.
+    - ``substeps`` are the parts of a composed step. The kernel is called once for each part, and h and t are
+      the length and the start of the part.
+    - ``outlined`` are functions that the expressions of the kernel call.
+    - ``carried``: the kernel uses the momentum m of :class:`Carried` in place of mu.
+    - ``expansion`` or ``estimate``: emitted code can have a run with step-size control.
+    - ``batch``: emitted code also has a function that steps many independent systems.
+    - ``observed``: emitted code also has a run to a given end time.
+
+    A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or executes the step
+    ``arrays`` on large matrices, the step ``sites`` of a lattice, or the step ``modes`` on Fourier modes.
     """
 
     name: str
@@ -375,8 +393,9 @@ class Kernel:
 
     @property
     def start(self) -> Start | None:
-        """The Start of the kernel, which computes the first values of all unknowns; None if each loop has its
-        own starts."""
+        """The Start of the kernel, which computes the first values of all unknowns, or None if each loop has
+        its own starts.
+        """
         # A kernel has at most one Start, because it extrapolates the unknowns of all loops as one vector.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
@@ -399,7 +418,7 @@ class Kernel:
                 continue
             yield from (let.value for let in statement.body)
             # The roots of a Start are its values. The roots of a Loop are its starts, its images, and the
-            # entries of its Newton matrix, if any.
+            # entries of its Newton matrix, if there is one.
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
@@ -422,7 +441,9 @@ class Kernel:
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
     def used_scalars(self) -> tuple[str, ...]:
-        """Return the ``scalars`` that an expression of the kernel or of a deferred flow reads, in order."""
+        """Return those ``scalars`` that occur in an expression of the kernel or of a deferred flow, in
+        order.
+        """
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
             # Deferred flows are included, because their parameters are arguments of the step, too.
