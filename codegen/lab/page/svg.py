@@ -1,11 +1,12 @@
 """SVG elements of Matplotlib figures, with the colours and fonts of the page, in light and dark mode.
 
 Matplotlib draws with placeholder colours, which are then replaced by CSS variables of the page. Text is
-written as SVG text, not as outlines. The identifiers in the SVG are hashes that depend on the data and on the
-name of the figure. Therefore equal data gives equal bytes, and two figures of a page have different
-identifiers. The elements of a series have the attribute ``data-series``, and its entry in the legend has the
-attribute ``data-key``. By these attributes the script of the page shows and hides the series. Each marker has
-a title, which browsers show without a script.
+written as SVG text, not as outlines. The identifiers in the SVG are hashes of the data and of the name of the
+figure. Therefore equal data gives equal bytes, and two figures of a page have different identifiers.
+
+The elements of a series have the attribute ``data-series``, and the entry of the series in the legend has the
+attribute ``data-key``. The script of the page uses these attributes to show and hide the series. Each marker
+has a title, which browsers show without a script.
 """
 
 from __future__ import annotations
@@ -45,8 +46,8 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The value of each CSS variable (a colour or a list of fonts) in figures that are not part of a page. Such
-figures have a white background.
+"""The value of each CSS variable (a colour or a list of fonts) in figures that are not part of a page, and
+have a white background.
 """
 
 STYLE: dict[str, object] = {
@@ -140,7 +141,8 @@ def _titled(drawn: str, text: Text) -> str:
 
 
 def standalone(svg: str) -> str:
-    """Return an SVG element of this module as a complete document with fixed colours on white."""
+    """Return an SVG element of this module as a complete document with fixed colours on a white
+    background."""
     for variable, value in LIGHT.items():
         svg = svg.replace(variable, value)
     head = svg.index("</desc>") + len("</desc>")
@@ -151,7 +153,7 @@ def standalone(svg: str) -> str:
 
 
 def key(style: Style) -> Markup:
-    """Return a line with the marker of a series as a small SVG element, for the rows of tables."""
+    """Return a small SVG element for the rows of tables: a line with the marker of a series."""
     dash = f";stroke-dasharray:{' '.join(f'{1.4 * x:g}' for x in style.dash)}" if style.dash else ""
     fill = "var(--paper)" if style.hollow else style.colour
     return Markup(

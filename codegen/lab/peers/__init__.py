@@ -1,11 +1,10 @@
-"""Peers: other integrators, which are compared with emitted code. They solve the ambient equations of a
-scene.
+"""Peers: other integrators, which are compared with emitted code.
 
-A peer integrates y' = f(y).y in the coordinates of the state, with a compiled right-hand side if the library
-of the peer permits this. A peer whose name ends in *projected* projects the state onto the manifold after
-each step. LSODA has no projected variant, because it is a multistep method: its steps use past values, which
-are not projected. The time before the first step (compilation, Taylor recurrences) is set-up time and is
-reported separately, as for emitted code.
+A peer integrates y' = f(y).y in the coordinates of the state. If the library of the peer permits this, the
+right-hand side is compiled. A peer whose name ends in *projected* projects the state onto the manifold after
+each step. LSODA has no projected variant. It is a multistep method, and the past values that its steps use
+are not projected. The time before the first step, for example the time of compilation, is reported separately
+as set-up time, as for emitted code.
 """
 
 from __future__ import annotations
@@ -40,16 +39,16 @@ class Run(Protocol):
     """A function that runs a peer."""
 
     def __call__(self, spans: int = 1, /) -> Outcome:
-        """Integrate from the start of the span of the scene over ``spans`` times its length."""
+        """Integrate from the start of the span of the scene over ``spans`` times the length of the span."""
 
 
 @dataclass(frozen=True)
 class Prepared:
     """A peer that is prepared for one scene and for one tolerance or one number of steps.
 
-    ``run(n)`` integrates over n times the length of the span of the scene, by default over the span. It
+    ``run(n)`` integrates over n times the length of the span of the scene, by default over the span. ``run``
     raises :class:`PeerFailed` if the run does not reach the end. ``idle`` integrates over an empty interval,
-    to measure the overhead of a call; it is None if the overhead is negligible.
+    to measure the overhead of a call. ``idle`` is None if the overhead is negligible.
     """
 
     run: Run
@@ -92,7 +91,7 @@ PEERS = {
     "c-rk4-projected": ("compiled", ""),
 }
 """For each peer: the module in ``codegen.lab.peers`` that runs the peer, and the Python package that the peer
-needs ('' if it needs none).
+needs, or ''.
 """
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
@@ -103,7 +102,7 @@ GROUPS = {
     "c": ("c-dop853", "c-rk4-projected"),
     "all": tuple(PEERS),
 }
-"""For each name of a group of peers: the names of its members."""
+"""The names of the members of each group of peers."""
 
 
 def installed(name: str) -> bool:

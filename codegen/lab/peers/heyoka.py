@@ -47,7 +47,7 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    # The time of an empty run is used as the overhead of a call. For heyoka it is longer than the overhead,
-    # by about the time of one step. This matters little, because a run that is short is timed over several
+    # The time of an empty run is used as the overhead of a call. For heyoka this time exceeds the overhead by
+    # about the time of one step. The difference matters little, because short runs are timed over several
     # time spans.
     return Prepared(run, lambda: run(0))

@@ -1,8 +1,8 @@
 """Projection of a state onto its manifold. Users of general ODE solvers often project after each step.
 
-A rotation matrix g is replaced by g (3 - g^T g)/2, one Newton step towards the polar factor of g. If g has
-the small distance e from the orthogonal matrices, the distance after the step is O(e^2). A point on which a
-rotation group acts is scaled so that its distance from the origin has the initial value. Momenta do not
+A rotation matrix g is replaced by g (3 - g^T g)/2. This is one Newton step towards the polar factor of g. If
+the distance of g from the orthogonal matrices is e, the distance after the Newton step is O(e^2). If a
+rotation group acts on a point, the point is scaled to its initial distance from the origin. Momenta do not
 change.
 """
 
@@ -23,7 +23,7 @@ from codegen.scene.problem import Problem
 
 
 def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
-    """Return the projected state; raises :class:`SceneError` for a manifold without a projection."""
+    """Return the projected state. Raises :class:`SceneError` for a manifold without a projection."""
     result: list[Scalar] = []
     start = 0
     for block in scene.state:

@@ -1,4 +1,5 @@
-"""SciPy's solvers (DOP853, Radau, LSODA) in an explicit loop, in which each new state can be projected."""
+"""SciPy's solvers DOP853, Radau and LSODA, with an optional projection of each new state onto the
+manifold."""
 
 from __future__ import annotations
 

@@ -51,9 +51,10 @@ Points: TypeAlias = "tuple[Sequence[float] | numpy.ndarray, Sequence[float] | nu
 
 @dataclass
 class Canvas:
-    """A picture under construction. Series with equal labels are one series with one entry in the legend.
+    """A picture under construction. Series with equal labels count as one series with one entry in the
+    legend.
 
-    ``titled`` are the labels of series whose panel has the label as its title; the legend omits them.
+    ``titled`` contains the labels that are titles of panels. The legend omits these labels.
     """
 
     drawing: Drawn
@@ -72,9 +73,9 @@ class Canvas:
         width: float = 0.0,
         space: bool = False,
     ) -> Canvas:
-        """Return a canvas with ``count`` panels, each of them ``height`` inches high.
+        """Return a canvas with ``count`` panels of the given height in inches.
 
-        ``space`` makes panels with three axes.
+        If ``space`` is true, the panels have three axes.
         """
         columns = min(3 if count == 3 and columns > 1 else columns, count)
         rows = -(-count // columns)
@@ -133,7 +134,7 @@ class Canvas:
         self.titled.add(label)
 
     def number(self, label: str) -> int:
-        """Return the number of a series; a new label begins a new series."""
+        """Return the number of the series with this label. A new label begins a new series."""
         if label not in self.names:
             self.names.append(label)
             self.texts[len(self.names) - 1] = []
@@ -151,7 +152,7 @@ class Canvas:
 
 def styles(figure: Figure) -> dict[str, Style]:
     """Return the style of each run of a figure, by the name of the run. The style depends on the method of
-    the run. If several runs use the same method, it depends on the name of the run instead."""
+    the run, or on the name of the run if several runs use the same method."""
     runs = figure.runs
     chosen = Styles([run.method for run in runs])
     if len({run.method for run in runs}) == len(runs):
@@ -166,8 +167,8 @@ REFERENCE_STYLE = Style("var(--ink)", "")
 
 
 def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
-    """Return the indices of at most ``most`` points at equal distances. The points are moved by the fraction
-    ``shift`` of this distance.
+    """Return the indices of at most ``most`` of ``count`` points at equal distances. ``shift`` moves the
+    chosen points by this fraction of the distance.
 
     >>> marks(9, 0.5, 3), marks(2)
     ([1, 4, 7], [0, 1])

@@ -1,5 +1,7 @@
-"""Draws the largest deviation of a quantity up to each time, or in windows of time. A deviation is the
-difference from the initial value, or from the value along a reference run."""
+"""Draws the largest deviation of a quantity up to each time, or in windows of time.
+
+A deviation is the difference from the initial value, or from the value along a reference run.
+"""
 
 from __future__ import annotations
 
@@ -17,8 +19,7 @@ LEAST = 1e-17
 """The smallest deviation on the logarithmic axis. Smaller deviations are drawn at this value."""
 
 GROWS = 1.02
-"""The curve of the largest deviation so far has a new point when this deviation has grown by about this
-factor since the last point."""
+"""A curve has a new point when the largest deviation has grown by about this factor since the last point."""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:
@@ -41,8 +42,8 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 
 
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return a sequence of times, and for each time the largest deviation so far. If the figure has a window,
-    the largest deviation in the window that ends at this time is returned instead."""
+    """Return a sequence of times, and for each time the largest deviation up to this time. If the figure has
+    a window, return the largest deviation in the window that ends at each time."""
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)
     sizes = numpy.maximum(numpy.abs(values - start), LEAST)[1:]

@@ -56,7 +56,7 @@ def draw(figure: LatticeMeans, source: Source) -> Drawn:
 
 
 def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the times of a run and the means: one row for each time."""
+    """Return the times of a run, and an array of means with one row for each time."""
     problem = source.problem
     evaluate_means = means(problem, list(figure.quantities.values()))
     lattice = load_lattice(source.artifact(run))
@@ -119,8 +119,10 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
 
 def _formula(problem: Problem, quantity: Quantity) -> Any:
-    """Return the formula of a quantity; raise SceneError if the quantity is the name of an invariant. In a
-    scene with sites, an invariant is constant at every site, so its mean need not be drawn."""
+    """Return the formula of a quantity. Raise SceneError if the quantity is the name of an invariant.
+
+    In a scene with sites, an invariant is constant at every site, so its mean need not be drawn.
+    """
     if isinstance(quantity, str):
         raise SceneError(
             f"the name {quantity!r} in place of a formula", where=problem.name, expected="a sympy formula"

@@ -1,8 +1,7 @@
 """Draws the motion of a body that consists of bars as an SVG element with an animation.
 
-The animation is a list of keyframes in a style element; it needs no script. On paper, in a browser without
-animations, and in a browser that is set to reduced motion, the picture shows the bars at the first time, the
-curve of one point and the bars at a few later times.
+The animation is a list of keyframes in a style element, and needs no script. Without animation, for example
+on paper, the picture shows the bars at the first time and at a few later times, and the curve of one point.
 """
 
 from __future__ import annotations
@@ -38,11 +37,13 @@ FRAMES = 150
 
 @dataclass(frozen=True)
 class _Sheet:
-    """The map from points in space to points of the picture. ``frame`` is the matrix of the projection. The
-    upper left corner of the drawing has the projected coordinates (``left``, ``high``), and ``low`` is the
-    lowest projected coordinate. ``unit`` is the length in the picture of a vector of length one that is
-    parallel to the picture. ``top`` is the height of the space above the drawing, which contains the legend.
-    ``axis`` is the length of the coordinate axes in space."""
+    """The map from points in space to points of the picture.
+
+    ``frame`` is the matrix of the projection. The upper left corner of the drawing has the projected
+    coordinates (``left``, ``high``), and ``low`` is the lowest projected coordinate. ``unit`` is the scale: a
+    vector of length one that is parallel to the picture has the length ``unit`` in the picture. ``top`` is
+    the height of the legend above the drawing. ``axis`` is the length of the coordinate axes in space.
+    """
 
     frame: numpy.ndarray
     left: float
@@ -166,7 +167,7 @@ def _stills(bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]], times: Sequence
 
 
 def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> Iterator[str]:
-    """Yield a dot on the curve, and its number, for each time at which the bars are drawn."""
+    """Yield a numbered dot on the curve for each time at which the bars are drawn."""
     for number, k in enumerate(shown):
         x, y = trail[:, k]
         yield f'<circle cx="{_number(x)}" cy="{_number(y)}" r="2" style="fill:var(--ink)">'
@@ -184,8 +185,8 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
     """Return the SVG transform that moves a horizontal line to the position of a bar at one time.
 
     ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The line begins at the
-    origin. Its length is the greatest projected length of the bar at any time. With the unit ``px`` the text
-    has the form of CSS, otherwise that of the attribute ``transform``.
+    origin, and is as long as the longest projection of the bar over all times. With the unit ``px`` the
+    result is a CSS transform, otherwise a value of the SVG attribute ``transform``.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"

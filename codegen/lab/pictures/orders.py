@@ -1,4 +1,4 @@
-"""Draws errors against step sizes, with a line for each order."""
+"""Draws errors against step sizes, with a reference line for each order."""
 
 from __future__ import annotations
 
@@ -21,8 +21,10 @@ from codegen.scene.figure import Orders, Run
 
 
 def draw(figure: Orders, source: Source) -> Drawn:
-    """Return the picture. For each order p of the figure, a dashed line of slope p is drawn below the curve
-    whose slope is closest to p. At the largest step size, the line is at half the error of the curve.
+    """Return the picture.
+
+    For each order p of the figure, a dashed line of slope p is drawn below the curve whose slope is closest
+    to p. At the largest step size, the dashed line is at half the error of the curve.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
@@ -88,7 +90,7 @@ def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]
 
 
 def slope(points: Sequence[tuple[float, float]]) -> float:
-    """Return the median of the observed orders between neighbouring step sizes; 0 if there is none.
+    """Return the median of the observed orders between neighbouring step sizes, or 0 if there are none.
 
     >>> slope([(0.4, 16.0), (0.2, 4.0), (0.1, 1.0), (0.05, 1.0)])
     2.0

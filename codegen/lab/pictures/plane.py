@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MARGIN = 0.06
-"""Distance of the curves from the frame, as a fraction of the width or height of all curves, whichever is
-larger."""
+"""Distance of the curves from the frame, as a fraction of the larger of the width and the height of all
+curves."""
 
 
 def draw(figure: PlaneCurves, source: Source) -> Drawn:

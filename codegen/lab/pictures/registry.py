@@ -38,8 +38,8 @@ _registered: dict[type[Figure], Draw] = {}
 
 
 def register(kind: type[Figure], draw: Draw) -> None:
-    """Make ``draw`` the function that draws figures of a kind. For a built-in kind, it replaces the built-in
-    function."""
+    """Make ``draw`` the function that draws figures of a kind. ``draw`` also replaces the function of a
+    built-in kind."""
     _registered[kind] = draw
 
 
@@ -49,8 +49,8 @@ def unregister(kind: type[Figure]) -> None:
 
 
 def draw(figure: Figure, source: Source) -> Drawn:
-    """Return the picture of a figure. Raises SceneError if the kind of the figure is unknown, or if a run
-    does not have the properties that this kind of figure requires."""
+    """Return the picture of a figure. Raises SceneError if the kind of the figure is unknown, or if a run is
+    not suitable for this kind of figure."""
     for kind in type(figure).__mro__:
         if kind in _registered:
             return _registered[kind](figure, source)
@@ -64,7 +64,7 @@ def draw(figure: Figure, source: Source) -> Drawn:
 
 
 def find(problem: Problem, name: str) -> Figure:
-    """Return a figure of a scene by its name; raise UnknownName if there is none."""
+    """Return the figure of a scene with this name. Raise UnknownName if there is no such figure."""
     for figure in problem.figures:
         if figure.name == name:
             return figure

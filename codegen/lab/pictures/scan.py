@@ -18,7 +18,7 @@ from codegen.lab.pictures.source import Source, sweep_values
 from codegen.scene.figure import Run, Scan, Sweep
 
 DIGITS = 1e-8
-"""The error with which the best value of the parameter is computed, as a fraction of the range of the sweep.
+"""The tolerance for the best value of the parameter, as a fraction of the range of the sweep.
 """
 
 
@@ -53,7 +53,8 @@ def draw(figure: Scan, source: Source) -> Drawn:
 
 
 def error(source: Source, figure: Scan, run: Run, value: float) -> float:
-    """Return the distance of the final state from the end of the reference run; infinity if a step fails."""
+    """Return the distance of the final state from the end of the reference run, or infinity if a step
+    fails."""
     if figure.reference is None:
         raise ValueError("a scan needs a reference run")
     try:
@@ -75,8 +76,8 @@ def minimum(
 ) -> tuple[float, float]:
     """Return the value of the parameter with the least error, and this error.
 
-    ``values`` are the values of the sweep, and ``sizes`` are their errors. The search continues by Brent's
-    method between the two neighbours of the best of these values.
+    ``values`` are the values of the sweep, and ``sizes`` are their errors. Brent's method then searches
+    between the two neighbours of the best value of the sweep.
     """
     from scipy.optimize import minimize_scalar
 
