@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 MAX_COMPUTED = 5_000_000
-"""The expansion is computed only if the estimated number of terms is at most this number. It then needs about
-500 MB."""
+"""The expansion is computed only if the estimated number of terms is at most this number. The computation
+then needs at most about 500 MB."""
 
 MAX_TERMS = 500_000
-"""The expansion is returned only if it has at most this number of terms. Its text then has about 20 MB, and
-writing this text needs 1.5 GB of memory."""
+"""The expansion is returned only if it has at most this number of terms. With this number of terms, the text
+has about 20 MB, and writing the text needs 1.5 GB of memory."""
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:

@@ -4,7 +4,8 @@ One step of a method with step size h equals the flow, over time h, of a modifie
 + .... Let a(t) and b(t) be the coefficients of the step and of f~ for the tree t. Then a = sum_(j >= 1)
 (1/j!) L^(j-1) b, the exponential of b. The linear map L acts on coefficients c: (L c)(t) is the sum of
 b(subtree) c(rest) over all ways to cut one subtree off t (HLW IX.9.1). On ordered forests, see Lundervold and
-Munthe-Kaas, Contemp. Math. 539 (2011) 295.
+Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
+Integration*.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ class VectorField:
         return self._known[forest]
 
     def flow(self) -> Character:
-        """Return the exact flow of the field over time h as a character.
+        """Return the coefficients of the exact flow of the field over time h.
 
         >>> from orderconds.ring import QQ
         >>> f = VectorField(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))

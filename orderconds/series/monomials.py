@@ -1,5 +1,6 @@
-"""Products of graded generators. The generators are left-hand sides of order conditions. If these conditions
-hold, each product has the same value for the method as for the exact flow."""
+"""Products of left-hand sides of order conditions, called generators. Each generator has a degree, and the
+degree of a product is the sum of the degrees. If the conditions hold, a product has the same value for the
+method as for the exact flow."""
 
 from __future__ import annotations
 

@@ -75,8 +75,7 @@ def on_vector_space(word: str) -> dict[Forest, int]:
 
 
 def unordered(forest: Forest) -> Forest:
-    r"""Return the unordered forest of an ordered forest. The result consists of canonical trees in descending
-    order.
+    r"""Forget the order of branches and trees. The result consists of canonical trees in descending order.
 
     >>> unordered(b"\0\0\1")
     b'\x00\x01\x00'
@@ -164,7 +163,7 @@ def _symmetry(forest: Forest) -> int:
 @lru_cache(maxsize=1 << 12)
 def _applied(word: str, ordered: bool) -> Combination:
     """Return the operator of a word as a linear combination of products of derivatives. The last letter acts
-    first. ``ordered`` is true on a group. It is false on a vector space, where derivatives commute."""
+    first. ``ordered`` is true on a group, and false on a vector space, where derivatives commute."""
     result: dict[Operator, int] = defaultdict(int)
     if not word:
         return {(): 1}

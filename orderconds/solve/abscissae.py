@@ -1,15 +1,16 @@
 """Tableaux whose three abscissae are equal: c_i = chat_i = m_i.
 
-A stage of a variational method on a group has three abscissae: c_i for the position q, chat_i for the forces
-on the momentum, and m_i for the transport of the momentum by Ad* along the update:
+Stage i of a variational method on a Lie group has three abscissae. They are c_i for the position q, chat_i
+for the forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action):
 
     1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j.
 
-Here b_i is the weight of stage i, and beta_J^i is the coefficient of stage i in the J-th exponential of the
-update. For Crouch-Grossman methods, m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain
-sum_i b_i x_i z_i = 1/3 for any x and z among c, chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i
-(chat_i - m_i)^2 = 0. If the weights are positive, the three abscissae are equal. In practice, the three
-abscissae are also equal in solutions with negative weights.
+Here b_i is the weight of stage i, beta_J^i is the coefficient of stage i in the J-th exponential of the
+update, and y_J is the sum of all coefficients in this exponential. For Crouch-Grossman methods, m_i = b_1 +
+... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i x_i z_i = 1/3 for any x and z among c,
+chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i (chat_i - m_i)^2 = 0. If the weights are positive,
+the three abscissae are equal. In practice, the three abscissae are also equal in solutions with negative
+weights.
 
 Equal abscissae give two sets of linear equations for the stage coefficients a_ij: sum_j a_ij = m_i for each
 row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. The update determines the right-hand sides. As in
@@ -28,7 +29,7 @@ WHERE = "structure abscissae"
 
 
 def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
-    """Return formulas for m_1, ..., m_s in terms of the weights.
+    """Return formulas for the abscissae m_1, ..., m_s in terms of the weights.
 
     >>> crouch_grossman_times(["b1", "b2"])
     {'m1': '1/2*b1', 'm2': 'b1 + 1/2*b2'}
@@ -61,7 +62,7 @@ def _sum(row: Sequence[str]) -> str:
 
 
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
-    """Return formulas for those entries of A that the row sums m_i and the weighted column sums b_j (1 - m_j)
+    """Return formulas for the entries of A that the row sums m_i and the weighted column sums b_j (1 - m_j)
     determine.
 
     ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values.

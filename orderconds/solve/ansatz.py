@@ -28,7 +28,7 @@ class Ansatz:
 
     ``family`` is the label of the method family whose order conditions are solved. ``reduction`` names the
     theorem by which some of these conditions imply all others (:mod:`orderconds.proof.equations`). If
-    ``abelian`` is true, the conditions are those of the method on an abelian group. The principal error is
+    ``abelian`` is true, the conditions apply to the method on an abelian group. The principal error is
     computed for the family ``measured`` or, if ``measured`` is None, for ``family``. ``centre`` contains a
     value for each free coefficient. Random starts are near these values.
     """
@@ -69,7 +69,7 @@ class Ansatz:
         return proof.symbolic
 
     def method(self, values: Sequence[Element], ring: RootedRing) -> Method:
-        """Return the method in which the free coefficients have these values in ``ring``."""
+        """Return the method with the given values of the free coefficients, as elements of ``ring``."""
         symbolic = self._symbolic
         known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}
         return symbolic.method(ring, known)[0]
@@ -83,7 +83,7 @@ class Ansatz:
         return self.symbolic()
 
     def coefficients(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
-        """Return every coefficient that is not constant, in the order of ``cells``."""
+        """Return all coefficients that are not constant, in the order of ``cells``."""
         symbolic = self._symbolic
         known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}
         return [symbolic.number(name, ring, known) for name in self.cells]

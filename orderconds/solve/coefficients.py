@@ -16,8 +16,8 @@ Nodes = Mapping[str, Sequence[str]]
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Eliminate ``constraints`` and the constraints of the option ``--fix``. The latter may contain names of
-    nodes. Raises InputError for a constraint with an unknown name.
+    """Eliminate ``constraints`` and the constraints of the option ``--fix``. Constraints of ``--fix`` may
+    contain names of nodes. Raises InputError for a constraint with an unknown name.
 
     >>> from orderconds.solve.linear import Constraint, equality
     >>> from orderconds.solve.spec import Spec

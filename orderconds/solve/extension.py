@@ -6,10 +6,10 @@ and elementary weight sum_i b_i Phi_i(t). The extension has order q if sum_i bet
 for |t| = p, and = 0 for |t| != p. These equations are required for each p and for all trees with at most q
 nodes. For each p, they are a linear system, and its solution of least norm is used.
 
-Two cases are special. If the first stage value is f(y_0), beta_1 is chosen such that the derivative at theta
-= 0 is f(y_0). If, in addition, the last stage value is f(y_1) and q > 1, the derivative at theta = 1 is
-f(y_1). Finally, the coefficients of the highest powers of theta are changed such that b_i(1) = b_i. All
-changes belong to the kernel of the linear system.
+Let a step of y' = f(y) go from y_0 to y_1. If the first stage is y_0, beta_1 is instead chosen such that the
+derivative at theta = 0 is f(y_0). Finally, the coefficients of the highest powers of theta are changed such
+that b_i(1) = b_i. If, in addition, the first stage is y_0, the last stage is y_1 and q > 1, this change also
+makes the derivative at theta = 1 equal to f(y_1). All changes belong to the kernel of the linear system.
 """
 
 from __future__ import annotations

@@ -3,9 +3,9 @@
 Let F be the vector of residuals of the conditions. The principal error is the norm of a vector E. Let F' and
 E' be the Jacobians of F and E. Each step p solves the linearised conditions F + F' p = 0. Among their
 solutions, p minimises |E + E' p|^2 + damping |p|^2. A few iterations of
-:func:`orderconds.solve.least_squares.least_squares` then lead back to a solution of the conditions. This is
-sequential quadratic programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical Optimization*,
-Section 18.4).
+:func:`orderconds.solve.least_squares.least_squares` then lead back to a solution of the conditions. The
+method is sequential quadratic programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical
+Optimization*, Section 18.4).
 """
 
 from __future__ import annotations

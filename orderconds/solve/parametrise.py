@@ -1,5 +1,4 @@
-"""The ansatz of each kind of method in a search: names of coefficients, constraints, and text of the tableau
-file."""
+"""The ansatz of a search: names of coefficients, constraints, and the text of the tableau file."""
 
 from __future__ import annotations
 
@@ -225,8 +224,8 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
 ) -> list[Constraint]:
-    """Return constraints to the Gauss tableau (A, b). The exponents of stage i add up to row i of A, and the
-    exponents of the update add up to b."""
+    """Return the constraints that the exponents add up to the Gauss tableau (A, b). The exponents of stage i
+    add up to row i of A, and the exponents of the update add up to b."""
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
     constraints += [

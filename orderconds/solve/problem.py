@@ -53,15 +53,16 @@ class Problem:
 
     @cached_property
     def measured(self) -> Family:
-        """Return the family in which the principal error is measured."""
+        """Return the family whose conditions define the principal error."""
         return families.get(self.ansatz.measured or self.ansatz.family)
 
     @cached_property
     def conditions(self) -> tuple[OrderCondition, ...]:
         """Return the order conditions that are independent for the ansatz.
 
-        Conditions of even order are omitted for a symmetric method, because the order of a symmetric method
-        is even (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Theorem II.3.2).
+        If the parametrisation is symmetric and the order p of the search is even, the conditions of order p
+        are omitted, because the order of a symmetric method is even (Hairer, Lubich and Wanner, *Geometric
+        Numerical Integration*, Theorem II.3.2).
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order

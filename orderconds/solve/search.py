@@ -34,8 +34,8 @@ POLISHED = 1e-11
 """A point counts as a solution if the residual norm is below this number."""
 
 KEPT = 4
-"""Each batch returns at most this number of solutions, those with the lowest scores. The minimisation of the
-principal error starts only from these solutions.
+"""Each batch returns at most this number of solutions, in ascending order of the score. The minimisation of
+the principal error starts only from these solutions.
 """
 
 

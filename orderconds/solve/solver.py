@@ -40,7 +40,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Order:
-    """The options of a search, including the limits on its work."""
+    """The options of a search."""
 
     family: str
     order: int

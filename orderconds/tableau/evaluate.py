@@ -76,7 +76,8 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            # Evaluate unused numbers only now, after the ring is fixed. They must not enlarge the ring.
+            # Evaluate unused numbers only after the ring is fixed, because unused numbers must not enlarge
+            # the ring.
             evaluation.check_unused()
             return ring, _shared(values, lift)
         except DegreeError:

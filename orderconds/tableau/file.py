@@ -40,8 +40,8 @@ MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
 """A TOML file that contains one of these keys is treated as a tableau file."""
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
-"""Characters that ``source`` and ``bibtex`` must not contain. These are control characters except tab and
-newline, the line and paragraph separators of Unicode, and characters that change the direction of writing."""
+"""Characters that ``source`` and ``bibtex`` must not contain: control characters except tab and newline,
+Unicode separators of lines and paragraphs, and characters that change the direction of writing."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -102,9 +102,8 @@ def bytes_of(path: str | Path) -> bytes:
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Return True if a TOML file is to be treated as a tableau file. Such a file contains one of the keys
-    :data:`KEYS`. The result is also True for an unreadable file or invalid TOML, so that reading reports the
-    error.
+    """Return True if a TOML file contains one of the keys :data:`KEYS` of tableau files. The result is also
+    True for an unreadable file or invalid TOML, because a later attempt to read the file reports the error.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")

@@ -1,7 +1,7 @@
 """Properties of methods, such as symplecticity, as identities between coefficients.
 
-Each property is True or False. It is None if the coefficients are balls (intervals) that are too wide to
-decide.
+Each property is True, False or None. None means that the coefficients are balls (intervals) that are too wide
+to decide. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -154,9 +154,9 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Return True if a step of length -h undoes a step of length h (HLW V.3).
 
-    A composition of s pairs consists of steps alpha_i h of a basic method and beta_i h of its adjoint. It is
-    symmetric if alpha_{s+1-i} = beta_i. A splitting is symmetric if the list of its flows is a palindrome.
-    For Magnus methods, see :mod:`orderconds.tableau.reversal`.
+    A composition of s pairs consists of steps alpha_i h of a basic method and beta_i h of its adjoint. The
+    composition is symmetric if alpha_{s+1-i} = beta_i for all i. A splitting is symmetric if the list of its
+    flows is a palindrome. For Magnus methods, see :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

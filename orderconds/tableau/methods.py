@@ -1,7 +1,8 @@
 """The coefficients of a method as immutable data over one ring, and conversions between formats.
 
 In this module, stages are counted from 0. In files, stages are counted from 1. In a product of exponentials,
-the first row is the rightmost factor, which acts first.
+the first row is the rightmost factor, which acts first. HLW denotes Hairer, Lubich and Wanner, *Geometric
+Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -176,7 +177,7 @@ class Composition:
     """A composition of steps gamma_1 h, ..., gamma_s h of one basic method. The step gamma_1 h is applied
     first.
 
-    The value of ``base`` is ``"symmetric-2"``. It means that the basic method may be any symmetric method of
+    The only value of ``base``, ``"symmetric-2"``, means that the basic method may be any symmetric method of
     order 2. For the conversion to a Runge-Kutta method, the basic method is the implicit midpoint rule.
     """
 

@@ -74,7 +74,7 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield key, row
 
     def coefficients(self) -> Places:
-        """Yield the steps."""
+        """Yield the coefficients gamma, or alpha and beta, with their positions in the file."""
         for key, row in self._rows():
             yield from row_places(row, key)
 
@@ -121,7 +121,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             )
 
     def coefficients(self) -> Places:
-        """Yield the steps."""
+        """Yield the coefficients of the flows, with their positions in the file."""
         for k, (_, coefficient) in enumerate(self.step):
             yield f"step[{k + 1}]", coefficient
 

@@ -1,6 +1,7 @@
 """Splittings, compositions and Magnus methods: products of flows or of exponentials of Lie elements.
 
-Each product is stored as a sequence in which the first factor acts first.
+Each product is stored as a sequence in which the first factor acts first. HLW denotes Hairer, Lubich and
+Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations

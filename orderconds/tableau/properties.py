@@ -61,7 +61,7 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     """Return the equivalent scheme with two registers (2N), or the reason why there is none. Return None for
     a method that is neither a Runge-Kutta nor a commutator-free method.
 
-    Rounded decimals may be too wide intervals to decide. If the file has a table ``[proof]``, random numbers
+    For rounded decimals, the comparison may be undecided. If the file has a table ``[proof]``, random numbers
     then replace the decimals. If the method with random numbers is a 2N scheme, ``holds`` of the result is
     True.
 
@@ -132,8 +132,8 @@ def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     """Return the properties of a composition of midpoint rules.
 
-    A composition of midpoint rules is always symplectic and diagonally implicit. It is symmetric if its steps
-    form a palindrome.
+    A composition of midpoint rules is always symplectic and diagonally implicit. The composition is symmetric
+    if its steps form a palindrome.
     """
     gamma = method.gamma
     verdicts = {
@@ -146,8 +146,8 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
 
 
 def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:
-    """Return True if a method is first-same-as-last. The first stage is then the start value, and the last
-    stage equals the update."""
+    """Return True if a method is first-same-as-last: the first stage is the start value, and the last stage
+    is the update."""
     first = [x for row in method.from_start(method.stages[0]) for x in row]
     starts = all(ring.is_zero(x) is True for x in first)
     return method.s > 1 and starts and method.same_update(method.stages[-1], ring)

@@ -27,8 +27,8 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""Bits of a random number. A test of an identity of degree D fails with probability at most D / 2^128. D is
-far below 2^40, because the size of all intermediate values is limited."""
+"""Bits of a random number. A test of an identity of degree D gives a wrong result with probability at most D
+/ 2^128. D is far below 2^40, because the size of all intermediate values is limited."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """Errors that are raised if a random method cannot be evaluated: numbers grow too large, or a divisor is

@@ -151,7 +151,7 @@ defined under numbers (none)
 
     @staticmethod
     def loads(text: str, where: str = "<text>") -> Tableau:
-        """Return the tableau that a TOML text defines. Error messages call the text ``where``."""
+        """Return the tableau that a TOML text defines. Error messages name the text ``where``."""
         return loads(argument.text(text, "text", "TOML as a str"), where)
 
     @property
@@ -185,8 +185,8 @@ defined under numbers (none)
 
     @property
     def extension(self) -> Extension | None:
-        """The continuous extension of the file. It is None if the file has none, or if the coefficients were
-        changed after reading."""
+        """The continuous extension of the file. None if the file has no extension, or if the coefficients
+        were changed after reading."""
         return None if self.file is None else self.file.extension
 
     def _values(self, row: Row) -> tuple[Value, ...]:
@@ -305,7 +305,7 @@ def load(path: str | Path) -> Tableau:
 
 
 def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
-    """Return the tableau that a TOML text defines. Error messages call the text ``where``.
+    """Return the tableau that a TOML text defines. Error messages name the text ``where``.
 
     >>> loads('name = "euler"\\nfamily = "rk"\\nA = [[]]\\nb = ["1"]').method
     RungeKutta(A=((0,),), b=(1,))
@@ -374,4 +374,5 @@ def _flows(method: Method, ring: Ring) -> Method | None:
 
 
 READINGS: dict[str, Callable[[Method, Ring], Method | None]] = {"rk": _composed, "splitting": _flows}
-"""Functions that convert a method to a file format. They return None if there is no conversion."""
+"""For each file format, a function that converts a method to this format, or returns None if this is
+impossible."""

@@ -47,7 +47,7 @@ def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
 
 def sign(method: Magnus, ring: Ring) -> int | None:
     """Return the parity of the first exponent under the substitution A_i -> -A_{s+1-i}: -1 for odd, and 1 for
-    even. Return None if the parity is neither or undecided.
+    even. Return None if the exponent is neither odd nor even, or if the parity is undecided.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

@@ -245,8 +245,8 @@ def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
 
 def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
     """Return True if |R(iy)| <= 1 for all real y. For R = P/Q, let E be |Q(iy)|^2 - |P(iy)|^2 as a polynomial
-    in x = y^2. The result is True if E is zero. It is also True if E has a positive leading coefficient and
-    no positive zero of odd multiplicity.
+    in x = y^2. The result is True if E is zero, or if E has a positive leading coefficient and no positive
+    zero of odd multiplicity.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))

@@ -64,9 +64,9 @@ class TwoRegisters:
 
 @dataclass(frozen=True)
 class Rewriting:
-    """Whether a method is a 2N scheme (``holds``), with the 2N scheme (``scheme``). ``holds`` is None if
-    balls (intervals) are too wide to decide. If the method is not a 2N scheme, or if a rounded denominator
-    may be zero, ``scheme`` is None and ``reason`` is the reason."""
+    """The result of rewriting a method as a 2N scheme. ``holds`` states whether the method is a 2N scheme. It
+    is None if balls (intervals) are too wide to decide. ``scheme`` is the 2N scheme. If the method is not a
+    2N scheme, or if a rounded denominator may be zero, ``scheme`` is None and ``reason`` is the reason."""
 
     holds: Verdict
     scheme: TwoRegisters | None = None
@@ -140,7 +140,7 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"of k_{i + 1} is 0, but the coefficient of k_{i} is {ring.text(rows[m][i - 1])}"
             )
     # All denominators of A_i are zero. If ``above`` is empty, the increments from stage i on do not contain
-    # F_{i-1}. Then A_i is arbitrary; choose zero.
+    # F_{i-1}. Then A_i is arbitrary, and zero is chosen.
     return Rewriting(False, reason=above) if above else ring.zero
 
 

@@ -55,9 +55,9 @@ class Unknown(Struct, frozen=True):
 class Proof:
     """The table ``[proof]`` of a file: equations that the rounded decimals of the file solve approximately.
 
-    The equations are the conditions of the family ``conditions`` up to order ``order``. They are solved for
-    ``unknowns``. The decimals in ``pinned`` count as exact numbers. ``printed`` contains decimals as printed
-    in the source of the method.
+    The equations are the conditions of the family ``conditions`` up to order ``order``, and ``unknowns`` are
+    their unknowns. The decimals in ``pinned`` count as exact numbers. ``printed`` contains decimals as
+    printed in the source of the method.
     """
 
     conditions: str

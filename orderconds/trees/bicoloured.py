@@ -6,7 +6,8 @@ descending order.
 
 The encoding of :mod:`orderconds.trees.directed` is the same, except for the colour of the root. There each
 edge has a kind, 0 or 1, in place of the colour of its child. An edge to a white child has kind 1, because its
-coefficient ahat_ij belongs to the second tableau.
+coefficient ahat_ij belongs to the second tableau. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
+Integration*.
 """
 
 from __future__ import annotations
@@ -111,7 +112,7 @@ def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
 
 def moves(tree: BicolouredTree) -> Iterator[tuple[BicolouredTree, BicolouredTree, BicolouredTree]]:
     r"""Yield three trees for each edge at the root. The edge separates the tree into u, which contains the
-    root, and v. The third tree is the whole tree with the root moved across the edge to v.
+    root, and v. Yield u, v, and the whole tree with the root moved across the edge to v.
 
     >>> list(moves(b"\0\3"))
     [(b'\x00', b'\x01', b'\x01\x02')]

@@ -1,6 +1,7 @@
 """Numbers of trees from generating functions, independent of the enumeration of trees.
 
-The sequences are A000055, A000081, A000108, A000151 and A000238 of the OEIS.
+The sequences are A000055, A000081, A000108, A000151 and A000238 of the OEIS. HLW denotes Hairer, Lubich and
+Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -81,8 +82,8 @@ def essential_free_tree_count(vertices: int) -> int:
 def alternating_free_tree_count(vertices: int) -> int:
     """Return the number of free trees with two colours in which neighbours differ in colour.
 
-    Each uncoloured free tree has two such colourings. They are equal if a symmetry of the tree exchanges the
-    colours.
+    Each uncoloured free tree has two such colourings. The two colourings are equal if a symmetry of the tree
+    exchanges the colours.
 
     >>> [alternating_free_tree_count(n) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]

@@ -1,11 +1,11 @@
 """Rooted and free trees with directed edges: the trees of symplectic partitioned methods.
 
-An edge from parent i to child j has kind 0 and the coefficient a_ij if it points away from the root. It has
-kind 1 and the coefficient ahat_ij if it points to the root. If the root is moved from one end of an edge to
-the other end, the direction of the edge does not change, but the kind changes. Symplectic methods satisfy b_i
-ahat_ij = b_i b_j - b_j a_ji. Hence the elementary weights of the rooted trees before and after the move add
-up to a product of elementary weights of smaller trees. The order conditions are therefore indexed by free
-trees with directed edges.
+An edge joins a parent i and a child j. An edge that points away from the root has kind 0 and the coefficient
+a_ij. An edge that points to the root has kind 1 and the coefficient ahat_ij. If the root is moved from one
+end of an edge to the other end, the direction of the edge does not change, but the kind changes. Symplectic
+methods satisfy b_i ahat_ij = b_i b_j - b_j a_ji. Hence the elementary weights of the rooted trees before and
+after the move add up to a product of elementary weights of smaller trees. The order conditions are therefore
+indexed by free trees with directed edges.
 
 A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder, where ``kind`` is the kind of
 the edge to the parent. Branches are in descending order.
@@ -153,7 +153,7 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
     r"""Yield three trees for each edge at the root. The edge separates the tree into u, which contains the
-    root, and v. The third tree is the whole tree with the root moved across the edge to v.
+    root, and v. Yield u, v, and the whole tree with the root moved across the edge to v.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]

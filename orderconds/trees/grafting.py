@@ -7,7 +7,7 @@ in the direction F(u). Unordered trees with this product form the free pre-Lie a
 For ordered trees, F([t_1 ... t_k]) = X_1 ... X_k f, where f is the vector field, and X_l differentiates along
 the fixed element F(t_l) of the Lie algebra. A further derivative is an operator to the left of X_1. Hence
 ordered trees are grafted to the left of the existing branches (Munthe-Kaas and Wright, Found. Comput. Math. 8
-(2008) 227).
+(2008) 227). HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -58,8 +58,8 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
     r"""Attach each tree of ``word`` to a vertex of ``onto`` in all possible ways. Return all resulting
     forests, with repetitions.
 
-    Trees that are attached to the same vertex keep their order. They are placed to the left of the existing
-    branches of the vertex.
+    Trees that are attached to the same vertex keep their order. The existing branches of the vertex follow to
+    their right.
 
     >>> left_graft(b"\0", b"\0\1")
     (b'\x00\x01\x02', b'\x00\x01\x01')

@@ -2,7 +2,8 @@
 
 Roots have level 0, and a tree is a forest with one root. The type ``bytes`` is fast to hash and to compare,
 and a subtree is a slice of the sequence. Trees are printed in brackets. For example, ``.`` is one vertex, and
-``[..]`` is a root with two leaves. The trees of a forest are separated by spaces.
+``[..]`` is a root with two leaves. The trees of a forest are separated by spaces. HLW denotes Hairer, Lubich
+and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations

@@ -80,8 +80,8 @@ def _run_polynomial(s: int) -> UnivariatePolynomial:
 
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
-    """Return the coordinates of log(exp A exp B) for the bracketed Lyndon words ``words``. These are all
-    Lyndon words of one length, in ascending order. The coordinate of a word depends only on smaller words
+    """Return the coordinates of log(exp A exp B) for the bracketed Lyndon words ``words``. ``words`` contains
+    all Lyndon words of one length, in ascending order. The coordinate of a word depends only on smaller words
     with the same numbers of letters A and B."""
     coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}

@@ -37,8 +37,8 @@ def standard_factors(word: S, key: Key | None = None) -> tuple[S, S]:
 
 
 def standard_bracketing(word: Sequence[Letter], key: Key | None = None) -> Bracket:
-    """Return the standard bracketing of a Lyndon word: the bracket of the bracketings of its standard factors
-    (Reutenauer, Section 5.1).
+    """Bracket a Lyndon word recursively, by splitting the word into its standard factors (Reutenauer, Section
+    5.1).
 
     >>> standard_bracketing("AABB")
     ('A', (('A', 'B'), 'B'))
@@ -63,7 +63,7 @@ def expand(bracket: Bracket) -> Series:
 
 
 def backwards(series: Mapping[Word, Fraction]) -> Series:
-    """Reverse every word of a series. This converts between words whose first letter acts first and words
+    """Reverse every word of a series. Reversal converts between words whose first letter acts first and words
     that denote products.
 
     >>> backwards({("A", "B"): Fraction(1)})
