@@ -1,10 +1,9 @@
-"""The ambient equation of a scene with a field that is not smooth everywhere: smooth equations between
-events.
+"""Integrates a scene whose field is not smooth everywhere, with smooth equations between events.
 
 A selection is an operation with several cases, such as an absolute value or a table. The cases are called
 sides. While the same side of each selection applies, the field is smooth (:mod:`codegen.ir.smoothness`). The
 margin of a selection is a function that is positive while the present side applies. An event is a time at
-which a margin vanishes. There the integrator changes to the smooth field for the other side.
+which a margin vanishes. At an event the integrator changes to the smooth field for the other side.
 """
 
 from __future__ import annotations
@@ -27,32 +26,33 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""At an event, the case that applies in some operation (such as an absolute value) changes. To determine the
-cases after the event, the program evaluates the solution at the event time plus AHEAD. AHEAD is much longer
-than the error of the event time, and much shorter than every time scale of the solution.
+"""The time after an event at which the program determines the cases that apply after the event.
+
+At an event, the case of an operation such as an absolute value changes. AHEAD is much longer than the error
+of the event time, and much shorter than every time scale of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
-"""The times after an event at which the field before the event and the field after it are compared."""
+"""The times after an event at which the field before the event and the field after the event are compared."""
 
 VANISHING = 1e-30
 """A margin (a function that is positive while a case applies) counts as zero if its absolute value is less
 than VANISHING."""
 
 SUBSTEPS = 24
-"""The number of inner points of a step at which the program tests if the field leaves the present cases."""
+"""The number of inner points of a step at which the program tests whether the present cases still apply."""
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that is reported. If more derivatives are continuous, the
-number MOST is reported."""
+"""The largest number of continuous derivatives that is reported, even if more derivatives are continuous."""
 
 
 @dataclass(frozen=True)
 class PiecewiseField:
-    """The smooth fields of a scene. The field contains selections (operations with several cases), and there
-    is one smooth field for each combination of cases. ``compiled`` stores the compiled fields.
+    """The smooth fields of a scene whose field contains selections (operations with several cases).
+
+    There is one smooth field for each combination of cases. ``compiled`` stores the compiled fields.
     """
 
     scene: Problem
@@ -60,7 +60,7 @@ class PiecewiseField:
 
     @cached_property
     def roots(self) -> tuple[Expr, ...]:
-        """The components of f(y).y."""
+        """The components of the right-hand side f(y).y of the differential equation."""
         domain = ExprDomain()
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)
         return self.scene.velocity(domain, state, domain.space.sym(TIME))
@@ -71,8 +71,8 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return the smooth field for the given sides (one case of each selection) and the margins, as
-        functions of (state, t). The margin of a selection is positive while its given case applies."""
+        """Return the smooth field for ``sides`` (one case of each selection) and the margins, as functions of
+        (state, t). The margin of a selection is positive while its case in ``sides`` applies."""
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
             name, symbols = self.scene.name, self.scene.symbols
@@ -95,12 +95,12 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the sides after an event (the case of each selection that then applies), and the number of
-        continuous derivatives of the field at the event.
+        """Return the sides after an event (the cases that then apply), and the number of continuous
+        derivatives of the field at the event.
 
-        The number of continuous derivatives is -1 for a field that jumps. :class:`SceneError` is raised if
-        the field after the event points back to the side before the event. The solution would then stay on
-        the boundary between the two sides.
+        The number of continuous derivatives is -1 for a field that jumps. If the field after the event points
+        back to the side before the event, the solution would stay on the boundary between the two sides.
+        :class:`SceneError` is raised in this case.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -132,8 +132,9 @@ class Sided:
     """The smooth field for the present sides, as a function of (state, t), and the events up to the present
     time.
 
-    The sides are the cases of the selections (operations with several cases) that now apply. At an event,
-    they change. ``kinks`` contains the number of continuous derivatives of the field at each event.
+    The present sides are the cases of the selections (operations with several cases) that now apply. The
+    sides change at an event. ``kinks`` contains the number of continuous derivatives of the field at each
+    event.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -142,7 +143,7 @@ class Sided:
         self.points: list[tuple[Vector, Scalar]] = []
 
     def begin(self, y: Vector, t: Scalar, least: float) -> None:
-        """Begin the integration at (y, t); ``least`` is the length of the shortest step."""
+        """Begin the integration at (y, t). ``least`` is the length of the shortest step."""
         self.sides, self.least = self.fields.sides_at(y, t), least
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
@@ -155,9 +156,11 @@ class Sided:
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if a step leaves the present sides: a margin is negative. Margins are tested at the end
-        of the step, and at the last :data:`SUBSTEPS` points at which the field was evaluated in this step.
-        For a very short step only the end is tested.
+        """Return True if a margin becomes negative in a step. The present sides then do not apply to the
+        whole step.
+
+        Margins are tested at the end of the step, and at the last :data:`SUBSTEPS` points at which the field
+        was evaluated. For a very short step only the end is tested.
         """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):
@@ -165,9 +168,10 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Find the first event in a step: the first time at which a margin vanishes. Change to the field that
-        applies after the event, and return the time and the state of the event. Return None if a shorter step
-        must be tried.
+        """Find the first event in a step, that is, the first time at which a margin vanishes.
+
+        The function changes to the field that applies after the event, and returns the time and the state of
+        the event. The result is None if a shorter step must be tried.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
@@ -198,10 +202,10 @@ class Sided:
 
 
 def _root(margin: Callable[[Scalar], Scalar], low: Scalar, high: Scalar, length: Scalar) -> Scalar:
-    """Return the time at which a margin vanishes. At the time 0 the margin has the positive value ``low``,
-    at the time ``length`` the negative value ``high``.
+    """Return the time at which a margin vanishes, by the Illinois variant of the false position method.
 
-    The method is the Illinois variant of the false position method.
+    At the time 0 the margin has the positive value ``low``, and at the time ``length`` the negative value
+    ``high``.
     """
     a, b, moved = arb(0), length, 0
     for _ in range(MOST_SECANTS):

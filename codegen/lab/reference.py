@@ -1,10 +1,9 @@
-"""Reference solutions: Gragg-Bulirsch-Stoer extrapolation of the ambient equations of a scene, to 28 digits.
+"""Reference solutions of scenes to 28 digits, by Gragg-Bulirsch-Stoer extrapolation.
 
-The reference uses no Lie group: the modified midpoint rule is applied to y' = f(y).y in the coordinates of
-the state and extrapolated in the squared step (Hairer, Norsett and Wanner I, section II.9). Therefore an
-error in the code of a group exponential or of a method does not occur in the reference, and a comparison with
-the reference shows the error. Two runs of different order and tolerance must agree, and their distance is the
-stated uncertainty.
+The modified midpoint rule is applied to y' = f(y).y in the coordinates of the state, and extrapolated in the
+squared step size (Hairer, Norsett and Wanner I, section II.9). The reference uses no group exponential and no
+code of a method. Therefore a comparison with the reference shows errors in this code. Two runs of different
+order and tolerance must agree, and their distance is the stated uncertainty.
 """
 
 from __future__ import annotations
@@ -33,8 +32,8 @@ BITS = 200
 """Working precision of the balls in bits: a few digits more than :data:`DIGITS`."""
 
 RUNS = ((14, -33), (16, -36))
-"""Number of columns and decimal exponent of the tolerance: first for the run that checks the result, then for
-the run that computes the result.
+"""The number of columns of the extrapolation table and the decimal exponent of the tolerance, for two runs.
+The first run checks the result, and the second run computes the result.
 """
 
 AGREEMENT = 1e-28
@@ -45,8 +44,8 @@ LEAST_STEP = 1e-6
 and SceneError is raised."""
 
 MOST_STEPS = 10_000
-"""Largest number of extrapolation steps. If a scene needs more steps, SceneError is raised: the scene is too
-stiff or its span is too long.
+"""Largest number of extrapolation steps. SceneError is raised if a scene needs more steps, because the scene
+is too stiff or its span is too long.
 """
 
 
@@ -54,10 +53,10 @@ stiff or its span is too long.
 class Reference:
     """The state of a scene at the end of its span.
 
-    ``state`` contains mpmath numbers of :data:`DIGITS` digits in the order of ``scene.symbols``;
+    ``state`` contains mpmath numbers of :data:`DIGITS` digits in the order of ``scene.symbols``.
     ``uncertainty`` is the largest difference of a coordinate between two runs of different order and
-    tolerance. ``kinks`` has an entry for each point of the solution where the field is not smooth: the number
-    of continuous derivatives of the field at this point, or -1 if the field jumps.
+    tolerance. ``kinks`` has an entry for each point of the solution at which the field is not smooth. The
+    entry is the number of continuous derivatives of the field at this point, or -1 if the field jumps.
     """
 
     scene: str
@@ -86,11 +85,11 @@ class _Stored:
 def cached_reference(
     scene: Problem, cache: MeasurementCache | None = None, end: float = math.inf
 ) -> Reference:
-    """Return the reference of a scene from the cache; compute and store it if it is missing.
+    """Return the reference of a scene from the cache. If the cache does not contain the reference, compute
+    and store it.
 
-    The default of ``cache`` is the cache of this user. ``end`` is the latest time, on the clock
-    ``time.monotonic``, at which the computation must be finished. The function raises the same errors as
-    :func:`reference`, for example if the computation takes longer.
+    The default of ``cache`` is the cache of this user. ``end`` is the time at which the computation must be
+    finished, on the clock ``time.monotonic``. The function raises the same errors as :func:`reference`.
     """
 
     def compute() -> _Stored:
@@ -105,8 +104,8 @@ def cached_reference(
 
 
 def _key(scene: Problem) -> tuple[object, ...]:
-    """Return the data that determine a reference solution: field, constants, initial state, span,
-    settings.
+    """Return the data that determine a reference solution: the field with its constants, the initial state,
+    the span and the settings.
     """
     field = velocity(scene)
     start = scene.initial(PreciseDomain(0, DIGITS))
@@ -143,7 +142,7 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 
 def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
     """Make one run of the extrapolation method with step-size control. Return the final state and the kinks
-    (:class:`Reference`). ``finish`` is the latest permitted time of the clock ``time.monotonic``."""
+    (:class:`Reference`). The run must end before the time ``finish`` of the clock ``time.monotonic``."""
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
         piecewise = PiecewiseField(scene)
@@ -156,10 +155,10 @@ def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Ve
 def _integrate(
     scene: Problem, field: Evaluate | Sided, y: Vector, columns: int, tolerance: float, finish: float
 ) -> tuple[Vector, tuple[int, ...]]:
-    """Return the state at the end of the span, and the kinks (:class:`Reference`). The coordinates are balls
-    of radius zero.
+    """Return the state at the end of the span, and the kinks (:class:`Reference`).
 
-    ``finish`` is the latest permitted time of the clock ``time.monotonic``.
+    The coordinates are balls of radius zero. The run must end before the time ``finish`` of the clock
+    ``time.monotonic``.
     """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
@@ -219,8 +218,9 @@ def _extrapolate(
 ) -> tuple[Vector, float]:
     """Return the extrapolated state after one step, and an estimate of its error.
 
-    The state is the last entry of the extrapolation table. The estimate is the distance of this entry from
-    the previous entry of the same row. Raises ArithmeticError if the field cannot be evaluated at some stage.
+    The state is the last entry of the extrapolation table. The error estimate is the distance between this
+    entry and the previous entry of the same row. Raises ArithmeticError if the field cannot be evaluated at
+    some stage.
     """
     slope = field(y, t)
     row: list[Vector] = []

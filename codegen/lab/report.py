@@ -1,5 +1,6 @@
-"""The report: measure scenes, then write a page for each scene and an overview page. Each file is written
-atomically. Several scenes are measured at the same time, each in its own process.
+"""The report: measures scenes, and writes a page for each scene and an overview page.
+
+Each file is written atomically. Several scenes are measured at the same time, each in its own process.
 """
 
 from __future__ import annotations
@@ -31,10 +32,10 @@ from orderconds.processes import in_processes
 class Request:
     """A report as the user requests it.
 
-    It contains names: of scenes (by default the scenes of :data:`REPORT_SCENES`), of methods with equal
-    steps, of methods with step-size control (``adaptive``), of peers, of measurements (``parts``), and of the
-    effort. ``processes`` is the number of scenes that are measured at the same time, by default the number of
-    processors.
+    The request contains the names of the scenes (by default :data:`REPORT_SCENES`), of the methods with equal
+    steps, of the methods with step-size control (``adaptive``), of the peers, of the measurements
+    (``parts``), and of the effort. ``processes`` is the number of scenes that are measured at the same time,
+    by default the number of processors.
     """
 
     scenes: tuple[str, ...] = ()
@@ -79,10 +80,10 @@ class Request:
 
 @dataclass(frozen=True)
 class ScenePage:
-    """The results of one scene: the part of the overview, the lines for the terminal, the JSON, and ``held``,
-    which is True if all measurements succeeded and passed their checks.
+    """The results of one scene: the part of the overview, the lines for the terminal, and the JSON.
 
-    Worker processes return objects of this class, so the objects contain only plain data.
+    ``held`` is True if all measurements succeeded and passed their checks. Worker processes return objects of
+    this class, so the objects contain only plain data.
     """
 
     summary: Summary
@@ -120,7 +121,8 @@ def report(request: Request, directory: str | Path, progress: Progress) -> tuple
 
 
 def _page(job: tuple[Request, str, str], progress: Progress = str) -> ScenePage:
-    """Measure one scene and write its page. A job is the request, the name of the scene and the folder."""
+    """Measure one scene and write its page. ``job`` contains the request, the name of the scene and the
+    folder."""
     request, name, folder = job[0], job[1], Path(job[2])
     planned = replace(request.subject(name), cache=MeasurementCache(folder / FOLDER), progress=progress)
     results = measure_scene(planned, selected(request.parts))
@@ -153,5 +155,5 @@ def write_file(path: Path, text: str | None) -> Path:
 
 
 def read_scenes(names: Sequence[str], everything: bool) -> tuple[str, ...]:
-    """Return ``names``; if ``everything`` is True, return the names of all scenes of the gallery instead."""
+    """Return ``names``, or the names of all scenes of the gallery if ``everything`` is True."""
     return scenes.GALLERY if everything else tuple(names)

@@ -1,7 +1,7 @@
-"""Run a method over the span of a scene, with the interpreter or with an emitted module.
+"""Runs a method over the span of a scene, with the interpreter or with an emitted module.
 
-A :data:`Runner` computes the final state after a given number of steps. One convergence test therefore
-applies to the interpreter in any precision, to emitted Python and to emitted C.
+A :data:`Runner` computes the final state after a given number of steps. Therefore one convergence test
+applies to the interpreter with an arbitrary number of digits, to emitted Python and to emitted C.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class RunFailed(ArithmeticError):
 
 @dataclass
 class Interpreted:
-    """A runner that interprets the optimised step program with ``digits`` decimal digits; 16 digits mean
+    """A runner that interprets the optimised step program with ``digits`` decimal digits. 16 digits mean
     doubles.
     """
 
@@ -49,12 +49,12 @@ class Interpreted:
 
     @property
     def epsilon(self) -> float:
-        """The machine epsilon: 2^-52 for doubles, else 10^(1 - digits)."""
+        """The machine epsilon: 2^-52 for doubles, otherwise 10^(1 - digits)."""
         return 2.0**-52 if self.digits <= DOUBLE else 10.0 ** (1 - self.digits)
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test; a run of this length takes about ten seconds."""
+        """The largest number of steps in a convergence test. A run of this length takes about ten seconds."""
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
@@ -69,7 +69,8 @@ class Interpreted:
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
-        """Return the final state after ``steps`` equal steps over the span; may raise :class:`RunFailed`."""
+        """Return the final state after ``steps`` equal steps over the span. Raise :class:`RunFailed` if a
+        step fails."""
         start, end = self.problem.span
         h = (end - start) / steps if steps else end - start
         double = self.digits <= DOUBLE
@@ -104,7 +105,7 @@ def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
 
 @dataclass
 class Emitted:
-    """A runner that executes the emitted module of a compiled method: the module that ``orderconds emit``
+    """A runner that executes the emitted module of a compiled method, the module that ``orderconds emit``
     writes.
     """
 
@@ -116,7 +117,7 @@ class Emitted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test; a run of this length takes about one second."""
+        """The largest number of steps in a convergence test. A run of this length takes about one second."""
         return printers.target(self.target).most_steps
 
     @cached_property
@@ -131,8 +132,7 @@ class Emitted:
 
     @cached_property
     def observed(self) -> Emitted:
-        """A runner of the same step, emitted to a target that also returns the solutions of implicit
-        equations."""
+        """A runner of the same step for a target that also returns the solutions of implicit equations."""
         return Emitted(self.compiled, printers.observable().name, self.order)
 
     @cached_property
@@ -156,7 +156,7 @@ class Emitted:
 
 
 Runner = Interpreted | Emitted
-"""An object that runs one compiled method; it has ``target``, ``final``, ``epsilon`` and ``most_steps``."""
+"""An object that runs one compiled method, with ``target``, ``final``, ``epsilon`` and ``most_steps``."""
 
 
 def check_target(target: str, digits: int = DOUBLE) -> None:
@@ -177,11 +177,11 @@ def check_target(target: str, digits: int = DOUBLE) -> None:
 def runner(
     scene: Problem, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
 ) -> Runner:
-    """Return the runner for a target, or for ``interpreter``.
+    """Return the runner for a target, or the interpreter if ``target`` is ``interpreter``.
 
     More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
-    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and if ``digits`` is larger
-    than the precision of the target's numbers.
+    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and if ``digits`` is larger than
+    the precision of the target's numbers.
     """
     check_target(target, digits)
     compiled = compile_method(scene, method)

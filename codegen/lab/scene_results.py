@@ -37,15 +37,16 @@ class Measured:
         return not self.failure and self.measurement.holds(self.result)
 
     def section(self) -> Section | None:
-        """Return the body of the section; None if there is nothing to show."""
+        """Return the body of the section, or None if there is nothing to show."""
         return None if self.failure else self.measurement.section(self.result, self.subject)
 
     def verdict(self) -> str:
-        """Return one sentence that states the result; '' if there is no result."""
+        """Return one sentence that states the result, or '' if there is no result."""
         return "" if self.failure else self.measurement.verdict(self.result, self.subject)
 
     def overview(self) -> Section | None:
-        """Return the paragraph or table for the overview of all scenes; None if there is nothing to show."""
+        """Return the paragraph or table for the overview of all scenes, or None if there is nothing to
+        show."""
         return None if self.failure else self.measurement.overview(self.result, self.subject)
 
     def files(self) -> Mapping[str, str]:
@@ -81,7 +82,7 @@ class SceneResults:
         return all(m.holds for m in self.measured)
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data: one key for each measurement; the value is [] if the measurement was not
+        """Return plain data with one key for each measurement. The value is [] if the measurement was not
         selected.
         """
         measured = {m.name: m.as_json() for m in self.measured}

@@ -1,4 +1,4 @@
-"""The runs of a figure: emitted C, the states that the figure shows, and formulas of these states."""
+"""Makes the runs of a figure with emitted C, and evaluates formulas of the states that the figure shows."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Source:
         self._paths: dict[Run, Path] = {}
 
     def problem_of(self, run: Run) -> Problem:
-        """Return the scene of a run: the scene of the figure, or another scene that the run names."""
+        """Return the scene of a run, which is the scene of the figure or another scene that the run names."""
         if run.scene not in self._problems:
             own = run.scene == scenes.EXTENDED
             self._problems[run.scene] = extended(self.problem) if own else scenes.load(run.scene)
@@ -164,7 +164,7 @@ def formulas(problem: Problem, quantities: Sequence[Quantity]) -> ArrayFunction:
 
 
 def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:
-    """Return an invariant of a scene; raise SceneError for an unknown name."""
+    """Return the invariant of a scene with this name. Raise SceneError for an unknown name."""
     if name not in problem.invariants:
         raise SceneError(
             f"a figure shows the unknown quantity {name!r}",
@@ -182,7 +182,7 @@ def _key(run: Run) -> tuple[object, ...]:
 
 
 def sweep_values(run: Run) -> list[float]:
-    """Return the values of the parameter in the sweep of a run; [] if the run has no sweep."""
+    """Return the values of the parameter in the sweep of a run, or [] if the run has no sweep."""
     sweep = run.sweep
     if sweep is None:
         return []

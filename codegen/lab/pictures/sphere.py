@@ -64,7 +64,8 @@ def draw(figure: SphereCurves, source: Source) -> Drawn:
 
 
 def projection(azimuth: float, elevation: float) -> numpy.ndarray:
-    """Return the matrix that maps a point to (right, up, towards the eye); the angles are in degrees.
+    """Return the matrix that maps a point to its coordinates (right, up, towards the eye). Angles are in
+    degrees.
 
     >>> projection(0.0, 0.0).round(12).tolist()
     [[-0.0, 1.0, 0.0], [-0.0, -0.0, 1.0], [1.0, 0.0, 0.0]]
@@ -114,8 +115,7 @@ def _sphere(axes: Axes, radius: float, frame: numpy.ndarray, names: tuple[str, s
         end = frame @ (radius * numpy.eye(3)[k])
         axes.plot([end[0], 1.12 * end[0]], [end[1], 1.12 * end[1]], color=MUTED, linewidth=0.6, zorder=1)
         at = (1.2 * end[0], 1.2 * end[1])
-        # A box in the colour of the page is drawn behind each label, so that the outline of the sphere does
-        # not cross the label.
+        # A box in the colour of the page behind each label hides the outline of the sphere there.
         behind = {"facecolor": PLACEHOLDERS["var(--paper)"], "edgecolor": "none", "pad": 0.8}
         axes.annotate(name, at, color=MUTED, fontsize=8, ha="center", va="center", bbox=behind, zorder=4)
     axes.set_aspect("equal")

@@ -1,5 +1,7 @@
-"""Draws quantities against time. If there is a reference run, its first quantity is drawn as well, or is
-subtracted from all quantities."""
+"""Draws quantities against time.
+
+If there is a reference run, its first quantity is also drawn, or is subtracted from all quantities.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,7 @@ ONE, SEVERAL = 3.4, 1.7
 
 
 def draw(figure: TimeSeries, source: Source) -> Drawn:
-    """Return the picture. Each run has a panel; each quantity has a colour, a dash and a marker."""
+    """Return the picture. Each run has a panel, and each quantity has a colour, a dash and a marker."""
     runs, reference = figure.runs, figure.reference
     canvas = Canvas.of(len(runs), 1, ONE if len(runs) == 1 else SEVERAL, width=WIDE)
     numbers: dict[str, dict[str, list[float]]] = {}

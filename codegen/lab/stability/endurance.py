@@ -15,7 +15,7 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The longest CPU time of a run in seconds. A slower method makes fewer steps; the number of steps is
+"""The longest CPU time of a run in seconds. A slow method makes fewer steps, and the number of steps is
 reported.
 """
 
@@ -26,12 +26,14 @@ TRIAL = 1000
 class Endurance:
     """A run of ``steps`` steps.
 
-    For a run forward, ``defect`` is the distance of the final state from the manifold; it is None if the
+    For a run forward, ``defect`` is the distance of the final state from the manifold, or None if the
     manifold is a vector space. For a run forward and back, ``returned`` is the distance of the final state
-    from the initial state. ``failure`` is the status message if the run stopped early. A run forward passes
-    the test in two cases: it stopped with a status message, or its final state is finite and rounding errors
-    can explain ``defect`` if it is not None. A run forward and back passes if it stopped with a status
-    message or if ``returned`` is finite, because only symmetric methods return to the initial state.
+    from the initial state. ``failure`` is the status message if the run stopped early.
+
+    A run that stopped with a status message passes the test. A complete run forward passes if its final state
+    is finite and rounding errors can explain ``defect``. A complete run forward and back passes if
+    ``returned`` is finite. The size of ``returned`` is not tested, because only symmetric methods return to
+    the initial state.
     """
 
     name: str
@@ -61,7 +63,7 @@ class Endurance:
 
 
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
-    """Return two runs with steps of a hundredth of the span: one forward, one forward and back. If one of
+    """Make two runs with steps of a hundredth of the span: one forward, and one forward and back. If one of
     the first :data:`TRIAL` steps fails, return one run with the status message."""
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100
