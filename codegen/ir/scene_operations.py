@@ -12,8 +12,9 @@ from codegen.ir.values import Coefficient
 
 @dataclass(frozen=True)
 class OfScene(OfGroup):
-    """An operation that evaluates the scene's formulas; if ``timed`` is true, the last argument is the
-    time."""
+    """An operation that evaluates formulas of the scene. If ``timed`` is true, the last argument is the
+    time.
+    """
 
     timed: bool = False
 
@@ -32,7 +33,7 @@ class OfScene(OfGroup):
 
 @dataclass(frozen=True)
 class Field(OfScene):
-    """The vector field f(y), or f(y, t)."""
+    """The vector field f(y), or f(y, t) if ``timed`` is true."""
 
     name = "field"
     evaluates_scene = True
@@ -45,7 +46,7 @@ class Field(OfScene):
 
 @dataclass(frozen=True)
 class HamiltonianDerivatives(OfScene):
-    """The derivatives of the Hamiltonian, xi = D_2 H and n = -(D_1 H).q^-1, at (q, mu), or at (q, mu, t)."""
+    """The derivatives xi = D_2 H and n = -(D_1 H).q^-1 of the Hamiltonian at (q, mu), or at (q, mu, t)."""
 
     name = "hamilton"
     evaluates_scene = True
@@ -58,9 +59,9 @@ class HamiltonianDerivatives(OfScene):
 
 @dataclass(frozen=True)
 class BodyVelocity(OfScene):
-    """W(q, P), the velocity in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
+    """The velocity W(q, P) in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
 
-    # Velocity and force are separate operations, so that passes can remove one of them and keep the other.
+    # Velocity and force are separate operations, so that compiler passes can remove one of them.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -70,8 +71,10 @@ class BodyVelocity(OfScene):
 
 @dataclass(frozen=True)
 class BodyForce(OfScene):
-    """N(q, P), the force in the body frame. Together with a :class:`BodyVelocity` it counts as one
-    evaluation."""
+    """The force N(q, P) in the body frame, where P = Ad*_q mu.
+
+    A force together with a :class:`BodyVelocity` counts as one evaluation.
+    """
 
     name = "force"
     evaluates_scene = True
@@ -103,8 +106,10 @@ class Energy(OfGroup):
 
 @dataclass(frozen=True)
 class Differential(OfGroup):
-    """The differential R*_y dH of the energy at y: its pairing with an element e of the Lie algebra is d/deps
-    H(exp(eps e).y) at eps = 0."""
+    """The differential R*_y dH of the energy at y.
+
+    Its pairing with an element e of the Lie algebra is d/deps H(exp(eps e).y) at eps = 0.
+    """
 
     name = "differential"
     evaluates_scene = True
@@ -114,11 +119,14 @@ class Differential(OfGroup):
 
 @dataclass(frozen=True)
 class Secant(OfGroup):
-    """A discrete gradient for the arguments g, x, H0, H1: among all covectors whose pairing with x is H1 -
-    H0, the covector nearest to g. For x = 0 it is g."""
+    """A discrete gradient for the arguments g, x, H0, H1.
 
-    # The formula contains a quotient that is 0/0 at x = 0 and must be set to 0 there, so the whole formula is
-    # one operation.
+    The result is the covector nearest to g among all covectors whose pairing with x is H1 - H0. For x = 0 the
+    result is g.
+    """
+
+    # The whole formula is one operation, because it contains a quotient that is 0/0 at x = 0 and must be set
+    # to 0 there.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -126,10 +134,13 @@ class Secant(OfGroup):
 
 @dataclass(frozen=True)
 class Bivector(OfGroup):
-    """omega_y(alpha, .), the bivector at y applied to a covector alpha. If alpha is the differential of H at
-    y, the result is f(y)."""
+    """The bivector omega at the point y, applied to a covector alpha: omega_y(alpha, .).
 
-    # The result is linear in the covector alpha, so passes may move a factor of alpha out of the operation.
+    If alpha is the differential of H at y, the result is the field f(y).
+    """
+
+    # The result is linear in the covector alpha, so compiler passes may move a factor of alpha out of the
+    # operation.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A
@@ -138,8 +149,10 @@ class Bivector(OfGroup):
 
 @dataclass(frozen=True)
 class TaylorStep(Operation):
-    """The Taylor polynomial of the solution that begins at y, evaluated after the time h. If ``timed`` is
-    true, the arguments are y and t."""
+    """The Taylor polynomial of the solution that begins at y, evaluated after the time h.
+
+    If ``timed`` is true, the arguments are y and t.
+    """
 
     degree: int
     timed: bool = False
@@ -156,7 +169,7 @@ class TaylorStep(Operation):
         return P + R if self.timed else P, P
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Return the value of the polynomial, which the scene computes."""
         return problem.apply(domain, self.name, self.degree, args)
 
 
@@ -172,8 +185,11 @@ class CayleyElement(OfGroup):
 
 @dataclass(frozen=True)
 class Sandwich(OfGroup):
-    """The product x y x of matrices or of quaternions. For a quadratic group the product is in the Lie
-    algebra if x and y are in the Lie algebra."""
+    """The product x y x of matrices or of quaternions.
+
+    For a group defined by a quadratic equation, such as g^T g = 1, x y x is in the Lie algebra for all x and
+    y in the Lie algebra.
+    """
 
     linear_in_last = True
     name = "sandwich"
@@ -194,7 +210,8 @@ class ToOrbit(OfGroup):
 class FlowOf(Operation):
     """The exact flow of a part of the Hamiltonian for a fixed duration.
 
-    With ``timed`` the part depends on t: the last argument is the time, which is constant during the flow.
+    If ``timed`` is true, the part depends on t. The last argument is then the time, which is constant during
+    the flow.
     """
 
     part: str
@@ -218,14 +235,16 @@ class FlowOf(Operation):
         return G + D + (R if self.timed else NONE), G + D
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Return the state after the flow."""
         return problem.flow(domain, self.part, self.duration.evaluate(domain), args)
 
 
 @dataclass(frozen=True)
 class SiteFlowOf(Operation):
-    """The exact flow of a part of a lattice for a fixed duration. It moves all sites, so it has no value for
-    a single site."""
+    """The exact flow of a part of a lattice for a fixed duration.
+
+    The flow moves all sites, so it has no value for a single site.
+    """
 
     part: str
     duration: Coefficient
@@ -252,7 +271,9 @@ class SiteFlowOf(Operation):
 
 @dataclass(frozen=True)
 class FlowFor(Operation):
-    """The exact flow of a part; the last argument is the duration, which is computed at run time."""
+    """The exact flow of a part of the Hamiltonian. The last argument is the duration, which is computed at
+    run time.
+    """
 
     part: str
     timed: bool = False
@@ -269,11 +290,13 @@ class FlowFor(Operation):
         return G + D + (R if self.timed else NONE) + R, G + D
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
-        # The duration is the last argument, so that state and time have the same positions as in FlowOf.
+        """Return the state after the flow."""
+        # The duration is the last argument, so that the state and the time have the same positions as in
+        # FlowOf.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 
 
-# A fixed duration is part of the operation, so two flows of one part for the same duration are equal
-# operations, and passes can recognise them. Only a duration that is computed at run time is an argument.
+# A fixed duration is part of the operation. Two flows of one part with the same duration are then equal
+# operations, which compiler passes can recognise. Only a duration that is computed at run time is an
+# argument.
 FLOWS = (FlowOf, FlowFor)

@@ -1,9 +1,9 @@
 """Functions that select one of several formulas by a comparison, in every domain.
 
-``choose(x, a, b)`` is a for x > 0, b for x <= 0, and NaN if x is NaN. Every comparison and every
-condition in a formula is written with calls of this function. ``fabs`` is the absolute value, and a
-:class:`codegen.ir.table.PiecewisePolynomial` selects a polynomial. At points where a selection changes, the
-formulas are not smooth, and a domain of power series raises an error.
+``choose(x, a, b)`` is a for x > 0, b for x <= 0, and NaN if x is NaN. Every comparison and every condition in
+a formula becomes a call of this function. ``fabs`` is the absolute value, and a
+:class:`codegen.ir.table.PiecewisePolynomial` selects a polynomial. Where a selection changes, the formulas
+may not be smooth, and a domain of power series raises an error.
 """
 
 from __future__ import annotations
@@ -18,8 +18,7 @@ if TYPE_CHECKING:
 CHOOSE, ABSOLUTE = "choose", "fabs"
 
 SELECTING = (CHOOSE, ABSOLUTE)
-"""The functions that select a formula and have a fixed name. Tables also select a formula, but are not in
-this list."""
+"""The selecting functions with a fixed name. Tables also select a formula, but their names are not fixed."""
 
 
 class Kink(ArithmeticError):
@@ -32,8 +31,11 @@ def selects(function: str) -> bool:
 
 
 def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign) -> Scalar:
-    """Return the value of a function for which :func:`selects` is true. If ``sign`` returns None, for example
-    for a NaN, the first argument is returned."""
+    """Return the value of a selecting function.
+
+    ``sign`` returns the sign of a scalar. If it returns None, for example for a NaN, the first argument is
+    returned.
+    """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
         return function.value(domain, x, sign)
@@ -46,7 +48,7 @@ def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign
 
 
 def sign_of_number(x: Scalar) -> int | None:
-    """Return the sign of a real number; None for a NaN or a complex number."""
+    """Return the sign of a real number, or None for a NaN or a complex number."""
     try:
         return 1 if x > 0 else -1 if x < 0 else 0 if x == 0 else None
     except TypeError:  # Complex numbers, such as mpmath roots of negative numbers, have no order.

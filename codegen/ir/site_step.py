@@ -1,7 +1,7 @@
-"""Steps of lattices: a sequence of sweeps over all sites, between which values are stored in arrays.
+"""Steps of lattices: a sequence of sweeps over all sites, with values stored in arrays between the sweeps.
 
-A sweep computes the same formulas at each site. Its formulas read numbers of the site itself, and numbers of
-neighbours that earlier sweeps have stored for all sites. The number of sites is known at run time only.
+A sweep is a loop that computes the same formulas at each site. The formulas use numbers of the site itself,
+and numbers of neighbours that earlier sweeps have stored. The number of sites is known only at run time.
 """
 
 from __future__ import annotations
@@ -18,10 +18,11 @@ if TYPE_CHECKING:
 
 STATE, WORK, RESULT = "state", "work", "result"
 """The arrays of a step: the old state, the workspace, and the new state. Row k of an array contains number k
-of every site."""
+of every site.
+"""
 
 OWN = -1
-"""The neighbour number of the site itself."""
+"""The value of ``neighbour`` that denotes the site itself."""
 
 BYTES = 8
 """The number of bytes of a double."""
@@ -37,9 +38,11 @@ class Row:
 
 @dataclass(frozen=True)
 class Load:
-    """A number that a sweep reads: ``symbol`` is its symbol in the formulas, and ``row`` the row that
-    contains it. The number belongs to the site itself if ``neighbour`` is :data:`OWN`, else to the neighbour
-    whose offset has the index ``neighbour``."""
+    """A number that a sweep reads, with its ``symbol`` in the formulas and the ``row`` that contains it.
+
+    The number belongs to the site itself if ``neighbour`` is :data:`OWN`, otherwise to the neighbour whose
+    offset has the index ``neighbour``.
+    """
 
     symbol: str
     row: Row
@@ -48,16 +51,19 @@ class Load:
 
 @dataclass(frozen=True)
 class Sweep:
-    """One loop over all sites: output k of ``kernel`` is stored in row k of ``stores``.
+    """One loop over all sites. Output number k of ``kernel`` is stored in row number k of ``stores``.
 
     ``about`` names the operations of the program in the sweep. If a neighbour lies outside the lattice,
     output k of ``outside`` replaces the number that load k of ``read_outside`` would read there. ``outside``
-    is None if nothing has to be replaced, as in a periodic lattice. A sweep over pairs of neighbours has an
-    ``axis``. For such a sweep, neighbour 0 is the other site of the pair, and the second half of ``stores``
-    belongs to this other site. For a sweep that ends an iteration for the equations u = g(u), ``unknowns``
-    are the symbols of the unknowns u. The first outputs of its kernel are the images g(u), which replace the
-    unknowns. Such a sweep also stores two numbers for each site, in the rows ``measured``: the largest change
-    of an unknown, and the largest absolute value of an unknown.
+    is None if nothing has to be replaced, as in a periodic lattice.
+
+    A sweep over pairs of neighbours has an ``axis``. For such a sweep, neighbour 0 is the other site of the
+    pair, and the second half of ``stores`` belongs to the other site.
+
+    Some sweeps end one iteration for the equations u = g(u). For these sweeps, ``unknowns`` are the symbols
+    of the unknowns u, and the first outputs of the kernel are the images g(u), which replace the unknowns.
+    The rows ``measured`` then receive two numbers for each site: the largest change of an unknown, and the
+    largest absolute value of an unknown.
     """
 
     about: str
@@ -95,11 +101,13 @@ class SiteNewton:
     """The matrix of Newton's method for the equations of a chain, to first order in h.
 
     The matrix is block-tridiagonal. For each site, ``kernel`` computes three blocks of ``size`` rows and
-    columns: the derivatives with respect to the unknowns of the left neighbour, of the site, and of the right
-    neighbour. ``loads`` are the numbers that the kernel reads. In an open chain the symbol exists[k] is 1 if
-    neighbour k exists, and 0 otherwise. The blocks of one site are adjacent in the workspace, from the row
-    ``matrix`` on. The residuals are in ``size`` rows, from the row ``residual`` on. A periodic chain needs
-    ``size`` columns for the last site, from the row ``border`` on.
+    columns. They are the derivatives with respect to the unknowns of the left neighbour, of the site, and of
+    the right neighbour. ``loads`` are the numbers that the kernel reads. In an open chain the symbol
+    exists[k] is 1 if neighbour k exists, and 0 otherwise.
+
+    In the workspace, the blocks of one site begin at the row ``matrix``. The residuals are in ``size`` rows
+    that begin at the row ``residual``. A periodic chain also needs ``size`` columns for the last site, which
+    begin at the row ``border``.
     """
 
     kernel: Kernel
@@ -111,36 +119,42 @@ class SiteNewton:
     matrix: int
 
     def moved_once(self, periodic: bool) -> tuple[int, int]:
-        """Return the numbers that a step reads and writes for each site to compute and factor the matrix."""
+        """Return how many numbers a step reads and writes for each site to compute and factor the matrix."""
         n = self.size
         read, written = len({load.row for load in self.loads}) + 3 * n * n, 6 * n * n
         if periodic:
-            # Each of the n columns for the last site is a right-hand side.
+            # Each of the n columns for the last site is an additional right-hand side.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written
 
     def moved_in_a_sweep(self, periodic: bool) -> tuple[int, int]:
-        """Return the numbers that a sweep reads and writes for each site to solve for the residuals and to
-        correct the unknowns."""
+        """Return how many numbers a sweep reads and writes for each site to solve for the correction and to
+        apply it.
+        """
         n = self.size
         read, written = self._substituted()
         read, written = read + 2 * n, written + n
         return (read + n * n + n, written + n) if periodic else (read, written)
 
     def _substituted(self) -> tuple[int, int]:
-        """Return the numbers that forward and back substitution read and write for each site: all blocks
-        once, and the right-hand side in both loops."""
+        """Return how many numbers forward and back substitution read and write for each site.
+
+        They read all blocks once, and the right-hand side in both loops.
+        """
         n = self.size
         return 3 * n * n + 2 * n, 2 * n
 
 
 @dataclass(frozen=True)
 class SiteBlock:
-    """Equations u = g(u) for unknowns at all sites. The sweeps with the indices ``first`` to ``last`` compute
-    the images g(u) and replace the unknowns by them. If ``newton`` is given, these sweeps store the residuals
-    g(u) - u instead, and Newton's method changes the unknowns. The sweeps are repeated until the unknowns of
-    all sites converge. Sweeps before ``first`` store the first values of the unknowns."""
+    """Equations u = g(u) for unknowns at all sites.
+
+    The sweeps with the indices ``first`` to ``last`` compute the images g(u) and replace the unknowns by the
+    images. If ``newton`` is given, these sweeps store the residuals g(u) - u instead, and Newton's method
+    changes the unknowns. The sweeps are repeated until the unknowns of all sites converge. Sweeps before
+    ``first`` store the first values of the unknowns.
+    """
 
     label: str
     unknowns: tuple[str, ...]
@@ -151,9 +165,11 @@ class SiteBlock:
 
 @dataclass(frozen=True)
 class SiteFlow:
-    """One flow of a splitting step. ``sweep`` is the index of the sweep that computes it, and ``duration`` is
-    in units of h. In a sweep over pairs, ``colour`` (0 or 1) selects the pairs: it is the parity of the index
-    of the first site of each pair."""
+    """One flow of a splitting step.
+
+    ``sweep`` is the index of the sweep that computes the flow, and ``duration`` is in units of h. In a sweep
+    over pairs, ``colour`` (0 or 1) is the parity of the index of the first site of each pair.
+    """
 
     sweep: int
     colour: int
@@ -165,7 +181,7 @@ class SiteStep:
     """One step of a lattice: sweeps in order, and the number of ``rows`` in which they store values.
 
     If there are ``flows``, the step executes the sweeps of these flows, one after the other. The sweeps of
-    the first and of the last flow visit every site. The first sweep reads the old state; all other sweeps
+    the first and of the last flow visit every site. The first sweep reads the old state, and all other sweeps
     change the new state in place. ``blocks`` are the equations of an implicit method, in order.
     """
 
@@ -211,18 +227,20 @@ class SiteStep:
 
     @property
     def moved_once(self) -> tuple[int, int]:
-        """The numbers that a step reads and writes for each site outside of the iterations."""
+        """The numbers of values that a step reads and writes for each site outside of the iterations."""
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
         return _added([traffic(self.unrepeated), *matrices])
 
     def moved_in_a_sweep(self, block: SiteBlock) -> tuple[int, int]:
-        """Return the numbers that one iteration of a block reads and writes for each site."""
+        """Return how many numbers one iteration of a block reads and writes for each site."""
         newton = [] if block.newton is None else [block.newton.moved_in_a_sweep(self.periodic)]
         return _added([traffic(self.repeated(block)), *newton])
 
     def numbers_moved(self, sweeps: Sequence[float]) -> float:
-        """Return the number of numbers that a step reads and writes for each site. ``sweeps`` contains the
-        number of repetitions of each block."""
+        """Return how many numbers a step moves to or from memory for each site.
+
+        ``sweeps`` contains the number of iterations of each block.
+        """
         repeated = (n * sum(self.moved_in_a_sweep(b)) for n, b in zip(sweeps, self.blocks, strict=True))
         return sum(self.moved_once) + sum(repeated)
 
@@ -253,9 +271,11 @@ class SiteStep:
 
 
 def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
-    """Return the numbers of doubles that sweeps read and write for each site. A number that a sweep reads at
-    several sites is counted once, because the other reads find it in the cache. The numbers that describe an
-    iteration are read once more, for their maxima over all sites."""
+    """Return how many doubles sweeps read and write for each site.
+
+    A number that a sweep reads at several sites is counted once, because the other reads find the number in
+    the cache. The numbers that measure an iteration are read once more, for their maxima over all sites.
+    """
     listed = list(sweeps)
     # A sweep over pairs is counted in the same way, because its pairs contain each site at most once.
     read = sum(len(sweep.rows_read) + len(sweep.measured) for sweep in listed)

@@ -1,9 +1,10 @@
 """The selections in formulas: where a field is not smooth, and the smooth field on one side.
 
-A selection is a node of :mod:`codegen.ir.selection`. A *side* of a selection is the number of one of the
-formulas that it can select. For ``choose`` and ``fabs`` the side is 1 if the argument is positive, else 0.
-For a table the side is the index of an interval. If the sides of all selections are fixed, the formulas are
-smooth, and can be evaluated beyond the region in which the selections have these sides.
+A selection is a call that selects one of several formulas (:mod:`codegen.ir.selection`). The *side* of a
+selection is the number of the selected formula. For ``choose`` and ``fabs`` the side is 1 if the argument is
+positive, else 0. For a table the side is the index of an interval. If the sides of all selections are fixed,
+the formulas are smooth. They can then be evaluated beyond the region in which the selections have these
+sides.
 """
 
 from __future__ import annotations
@@ -22,15 +23,15 @@ Sides = tuple[int, ...]
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
-    """Return the selections in expressions. A selection inside an argument of another selection comes
-    first."""
+    """Return the selections in expressions. Selections in arguments of another selection come first."""
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
 
 
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
-    """Return the expressions ``roots`` in which each selection is replaced by the formula of its given side,
-    and expressions called margins. ``nodes`` are the selections, and ``sides`` their sides. Where all margins
-    are positive, the selections have these sides.
+    """Return the expressions ``roots`` on given sides of their selections, and expressions called margins.
+
+    ``nodes`` are the selections, and ``sides`` their sides. Each selection is replaced by the formula of its
+    side. Where all margins are positive, the selections have these sides.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -53,8 +54,9 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return the formula that a selection uses on one side, and the margins, which are positive on this
-    side."""
+    """Return the formula that a selection uses on one side, and its margins, which are positive on this
+    side.
+    """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
         knots = function.knots
@@ -70,7 +72,7 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
 
 
 def features(roots: Sequence[Expr]) -> str:
-    """Return a text that lists the selections in expressions; an empty text if there are none.
+    """Return a text that lists the selections in expressions, or an empty text if there are none.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space()
@@ -98,7 +100,9 @@ SHOWN = 3
 
 
 def _argument(node: Expr) -> str:
-    """Return the text of an argument, without a minus sign: x = 0 and -x = 0 are the same condition."""
+    """Return the text of an argument without a minus sign, because x = 0 and -x = 0 are the same
+    condition.
+    """
     x = node.args[0]
     if x.op == "neg":
         (x,) = x.args

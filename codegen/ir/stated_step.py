@@ -1,5 +1,4 @@
-"""The operation of step programs for a stated step y -> M y, where the scene contains a formula for the
-matrix M."""
+"""The operation for a step y -> M y, where the scene states the matrix M as a formula."""
 
 from __future__ import annotations
 
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StatedStep(Operation):
-    """The point M y for the matrix M of a stated step; the arguments are y and the time t."""
+    """The point M y for the matrix M of a step stated by the scene. The arguments are y and the time t."""
 
     step: str
     takes, gives = P + R, P
@@ -29,7 +28,7 @@ class StatedStep(Operation):
         return f"{self.name}({self.step})"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Return M y."""
         y, t = args
         scene = cast("Problem", problem)
         return (scene.stated_step(domain, self.step, y, t),)

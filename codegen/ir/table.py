@@ -1,8 +1,8 @@
 """Piecewise polynomials of one variable, which are defined by tables of numbers in formulas.
 
 Expressions call a piecewise polynomial like any named function, for example ``sin``. The object that serves
-as the name also contains the data, so expressions and domains need no further kind of node. The name is a
-digest of the data: equal tables have equal names.
+as the name also contains the data, so expressions and domains need no further kind of node. The name contains
+a digest of the data, so equal tables have equal names.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ PREFIX = "table_"
 
 
 class PiecewisePolynomial(str):
-    """A piecewise polynomial; between knots[k - 1] and knots[k] it is sum_j rows[k][j] (x - bases[k])^j.
+    """A piecewise polynomial: between knots[k - 1] and knots[k] it is sum_j rows[k][j] (x - bases[k])^j.
 
     The numbers ``knots`` increase. There is one row more than there are knots, because the first and the last
-    interval are unbounded. The value at a knot is the value of the polynomial above the knot. The string
-    value of the object is its name in emitted code.
+    interval are unbounded. At a knot, the polynomial above the knot is used. The string value of the object
+    is its name in emitted code.
 
     >>> zero, one = Fraction(0), Fraction(1)
     >>> ramp = PiecewisePolynomial((zero,), (zero, zero), ((zero,), (zero, one)))
@@ -47,9 +47,10 @@ class PiecewisePolynomial(str):
         bases: tuple[Fraction, ...],
         rows: tuple[tuple[Fraction, ...], ...],
     ) -> PiecewisePolynomial:
-        """Return the piecewise polynomial. All rows are extended by zeros to the same length, which is at
-        least two."""
-        # Each row has at least two columns, so that the value at NaN is NaN: c_0 + c_1 NaN.
+        """Return the piecewise polynomial, with all rows extended by zeros to the same length of at least
+        two.
+        """
+        # Each row has at least two entries, so that the value c_0 + c_1 NaN at NaN is NaN.
         width = max(2, *map(len, rows))
         rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
         content = ";".join(",".join(map(str, row)) for row in (knots, bases, *rows))
@@ -62,17 +63,19 @@ class PiecewisePolynomial(str):
 
     @property
     def degree(self) -> int:
-        """The degree: the highest power that has a non-zero coefficient in some row."""
+        """The degree: the highest power with a non-zero coefficient in a row."""
         return max((j for row in self.rows for j, c in enumerate(row) if c), default=0)
 
     def derivative(self) -> PiecewisePolynomial:
-        """Return the derivative; at a knot, it is the derivative from above."""
+        """Return the derivative. At a knot, the result is the derivative from above."""
         rows = tuple(tuple(j * c for j, c in enumerate(row))[1:] for row in self.rows)
         return PiecewisePolynomial(self.knots, self.bases, rows)
 
     def value(self, domain: Domain, x: Scalar, sign: Sign) -> Scalar:
-        """Return the value at x in any domain. ``sign`` compares x with the knots; if it returns None, for
-        example for a NaN, x itself is returned."""
+        """Return the value at x in any domain.
+
+        ``sign`` compares x with the knots. If it returns None, for example for a NaN, x itself is returned.
+        """
         first, last = 0, len(self.knots)
         while first < last:
             middle = (first + last) // 2

@@ -1,4 +1,4 @@
-"""Forward differentiation along one direction: a tangent costs a small multiple of the cost of the value."""
+"""Forward differentiation along one direction. A tangent costs a small multiple of the cost of the value."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from codegen.ir.vector_calls import component
 def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ...]:
     """Return the derivatives of roots along one direction.
 
-    ``seeds`` maps symbols to their rates of change; all other symbols are constant.
+    ``seeds`` maps symbols to their derivatives along this direction. All other symbols are constant.
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a function has no derivative.
 
     >>> from codegen.ir.expr import Space
@@ -21,8 +21,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
     ((y * dx), 0)
     """
     known: dict[int, Expr] = {}
-    # The tangents of all results of a vector function are computed together; this table stores them until
-    # their nodes are visited.
+    # The tangents of all results of a vector function are computed together. This table stores the tangents
+    # until their nodes are visited.
     together: dict[tuple[str, tuple[int, ...]], tuple[Expr, ...]] = {}
     for node in walk(roots):
         # A symbol without a seed is constant.
@@ -31,8 +31,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 known[node.id] = seeds[node.payload]
             continue
         moving = [(k, known[a.id]) for k, a in enumerate(node.args) if a.id in known]
-        # If a node depends on no symbol with a seed, its tangent is exactly zero, and the table has no entry
-        # for it.
+        # The tangent of a node that depends on no symbol with a seed is zero, and has no entry in the table.
         if not moving:
             continue
         result = component(node.payload) if node.op == "call" else None
@@ -44,16 +43,16 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 together[key] = function.tangent(node.args, rates)
             known[node.id] = together[key][index]
             continue
-        # ``partials`` raises an error for a function without a derivative. It is not called for constant
-        # nodes, so such functions may occur in constant expressions.
+        # ``partials`` raises an error for a function without a derivative. Constant nodes are skipped above,
+        # so such functions may occur in constant expressions.
         slopes = partials(node)
         total = node.space.zero
-        # All seeds together are one direction, so the chain rule takes only one product for each argument
-        # that is not constant.
+        # The seeds form a single direction, so the chain rule needs only one product for each argument that
+        # is not constant.
         for k, rate in moving:
             total = total + slopes[k] * rate
-        # Terms may cancel. A zero is not entered in the table, so that all nodes that have this node as an
-        # argument treat the argument as constant.
+        # Terms may cancel. A zero is not entered in the table, so that later nodes treat this node as
+        # constant.
         if not total.is_zero:
             known[node.id] = total
     return tuple(known.get(root.id, root.space.zero) for root in roots)

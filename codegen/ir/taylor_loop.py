@@ -1,9 +1,9 @@
 """The recurrence of Taylor coefficients as a loop over their order, for fields whose unrolled code is long.
 
-Coefficient n of the product of two series a and b is a_0 b_n + a_n b_0 plus the inner sum, which is the sum
-of a_j b_{n-j} over 0 < j < n. Inner sums contain only coefficients of lower orders. The loop first computes
-the inner sums of all operations, and then coefficient n of one expression after the other. The same code is
-executed for every order n.
+Coefficient n of the product of two series a and b is a_0 b_n + a_n b_0 plus the inner sum. The inner sum is
+the sum of a_j b_{n-j} over 0 < j < n. Inner sums contain only coefficients of lower orders. The loop first
+computes the inner sums of all operations, and then coefficient n of one expression after the other. The same
+code is executed for every order n.
 """
 
 from __future__ import annotations
@@ -39,19 +39,20 @@ ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
 """The symbols of n, 1/n, 1/(n + 1), and of coefficient n of the time, in the code of order n."""
 
 PROBED = 3
-"""The number of Taylor coefficients that are computed before the loop. A series is treated as constant in
-time if these coefficients, except coefficient 0, are all None."""
+"""The number of Taylor coefficients that are computed before the loop. A series counts as constant in time if
+these coefficients, except coefficient 0, are all None.
+"""
 
 
 @dataclass(frozen=True)
 class OrderLoop:
-    """The code that computes order 0, and the code that computes every other order n.
+    """The code for order 0, and the code for every other order n.
 
-    ``first`` are the values of order 0 that the code of order n reads as the symbols ``names``. ``start`` are
-    the coefficients of order 1 of the coordinates, and ``following`` are their coefficients of order n + 1.
-    The code of order n reads the coefficients n of the coordinates as the symbols ``coordinates``, and the
-    inner sums as the symbols ``sums``. Inner sum k is formed from the coefficients of two series; ``left[k]``
-    and ``right[k]`` are the coefficients n of these series.
+    The code of order n contains three groups of symbols: ``names`` for values of order 0, ``coordinates`` for
+    the coefficients n of the coordinates, and ``sums`` for the inner sums. ``first`` are the values of order
+    0. ``start`` are the coefficients of order 1 of the coordinates, and ``following`` their coefficients of
+    order n + 1. Inner sum k is formed from the coefficients of two series, and ``left[k]`` and ``right[k]``
+    are the coefficients n of these series.
     """
 
     names: tuple[str, ...]
@@ -65,8 +66,10 @@ class OrderLoop:
 
 
 def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
-    """Return the loop that computes the coefficients of a recurrence. The scalars of the recurrence must be
-    expressions of ``space``, and its scale must be 1."""
+    """Return the loop that computes the coefficients of a recurrence.
+
+    The scalars of the recurrence must be expressions of ``space``, and its scale must be 1.
+    """
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     scale = space.sym(NEXT)
@@ -75,8 +78,8 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
         x = work.of(slope)
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
-    # The list ``work.pairs`` grows in this loop: a sine in a derivative needs the series of the cosine, which
-    # needs further sums.
+    # The list ``work.pairs`` grows in this loop. For example, a sine in a derivative needs the series of the
+    # cosine, which needs further sums.
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
@@ -94,7 +97,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
 
 def coordinate_names(count: int) -> tuple[str, ...]:
-    """Return, for each coordinate, the symbol of its coefficient n."""
+    """Return the symbols of the coefficients n of the coordinates."""
     return tuple(f"coefficient.{i}" for i in range(count))
 
 
@@ -105,8 +108,11 @@ def _known(x: Expr | None) -> Expr:
 
 @dataclass
 class _Loop:
-    """Computes coefficient n of each series. ``pairs`` are the pairs of series whose inner sums are needed,
-    and ``first`` are the values of order 0 that the code of order n reads."""
+    """Computes coefficient n of each series.
+
+    ``pairs`` are the pairs of series whose inner sums are needed. ``first`` are the values of order 0 that
+    the code of order n needs.
+    """
 
     recurrence: Recurrence
     space: Space
@@ -123,7 +129,7 @@ class _Loop:
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
-        """Return coefficient n of a series; None if the series is constant in time."""
+        """Return coefficient n of a series, or None if the series is constant in time."""
         waiting = [root]
         while waiting:
             series = waiting[-1]
@@ -143,8 +149,9 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return the symbol with which the code of order n reads the value ``x`` of order 0. If ``x`` is a
-        number, it is returned unchanged."""
+        """Return the symbol for the value ``x`` of order 0 in the code of order n. A number is returned
+        unchanged.
+        """
         if x.op == "const":
             return x
         if x.id not in self.positions:
@@ -153,7 +160,7 @@ class _Loop:
         return self.space.sym(f"first.{self.positions[x.id]}")
 
     def inner(self, a: Series, b: Series) -> Expr:
-        """Return the symbol of the inner sum of a and b, which is the sum of a_j b_{n-j} over 0 < j < n."""
+        """Return the symbol for the inner sum of a and b, the sum of a_j b_{n-j} over 0 < j < n."""
         key = min(id(a), id(b)), max(id(a), id(b))
         if key not in self.places:
             self.places[key] = len(self.pairs)
@@ -169,8 +176,9 @@ class _Loop:
         return self.inner(a, b) + (self.value(a.term(0)) * y + x * self.value(b.term(0)))
 
     def beyond(self, a: Series, b: Series) -> Expr:
-        """Return the sum of a_j b_{n-j} over 0 < j <= n. It does not contain coefficient n of b, which may be
-        unknown."""
+        """Return the sum of a_j b_{n-j} over 0 < j <= n, which does not contain the unknown coefficient n of
+        b.
+        """
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
     def built(self, series: Series) -> Expr:
@@ -201,15 +209,16 @@ class _Loop:
                 return self.function(series)
 
     def function(self, series: Series) -> Expr:
-        """Return coefficient n of a series that is not a result of arithmetic, for example of a root, a power
-        or a sine."""
+        """Return coefficient n of a series that is not a result of arithmetic, such as a root, a power or a
+        sine.
+        """
         space = self.space
         match series:
             case Root(a=a):
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # The recurrence of p = a^e is written such that only the slopes j a_j have the factor 1/n:
-                # sum_j (e j - (n - j)) a_j p_{n-j}/n = sum_j ((e + 1) j/n - 1) a_j p_{n-j}.
+                # In the recurrence of p = a^e only the slopes j a_j have the factor 1/n: sum_j (e j - (n -
+                # j)) a_j p_{n-j}/n = sum_j ((e + 1) j/n - 1) a_j p_{n-j}.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -237,7 +246,7 @@ class _Loop:
 
 
 def _operands(series: Series) -> Sequence[Series]:
-    """Return the series whose coefficients n are needed to compute coefficient n of a series."""
+    """Return the series whose coefficients n are needed for coefficient n of the given series."""
     match series:
         case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
             return a, b

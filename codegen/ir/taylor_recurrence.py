@@ -1,8 +1,9 @@
 """Taylor coefficients of the solution of y' = F(y, t): the series of the expressions of F.
 
-Each product of two series costs a convolution. To save convolutions, a product of powers of the same
-expression is written as one power, for example x sqrt(x) as x^(3/2). Quotients and roots of powers are
-treated in the same way, and numeric factors are moved out of products.
+A recurrence computes the coefficients of the series of all expressions in F. Each product of two series costs
+a convolution. To save convolutions, a product of powers of the same expression is written as one power, for
+example x sqrt(x) as x^(3/2). Quotients and roots of powers are treated in the same way, and numeric factors
+are moved out of products.
 """
 
 from __future__ import annotations
@@ -46,8 +47,9 @@ TIME = "t"
 
 @dataclass
 class _Builder:
-    """The series of all expressions of one recurrence; ``values`` are the values of the symbols that are
-    constant in time."""
+    """The series of all expressions of one recurrence. ``values`` are the values of the symbols that are
+    constant in time.
+    """
 
     domain: Domain
     series: dict[str, Series]
@@ -82,8 +84,10 @@ class _Builder:
         return node.args
 
     def monomial(self, root: Expr) -> tuple[Number, Expr, Fraction]:
-        """Return (c, x, e) such that ``root`` equals c x^e, for a number c, an expression x and a rational
-        exponent e."""
+        """Return (c, x, e) such that ``root`` equals c x^e.
+
+        c is a number, x an expression, and e a rational exponent.
+        """
         for node in walk([root], lambda n: n.id in self.monomials):
             if node.id not in self.monomials:
                 self.monomials[node.id] = self._monomial(node)
@@ -119,12 +123,11 @@ class _Builder:
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # Powers with positive integer exponents are computed by products, because the coefficients of
-        # products need no division by x.
+        # Powers with positive integer exponents are computed by products, which need no division by x.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:
-        """Return the series of a node; the series of its operands must already exist."""
+        """Return the series of a node. The series of its operands must already exist."""
         domain = self.domain
         number, base, exponent = self.monomial(node)
         if base is not node:
@@ -173,8 +176,10 @@ class _Builder:
         return a if number.is_one else Multiple(self.domain, number, a)
 
     def power(self, a: Series, base: Expr, exponent: Fraction) -> Series:
-        """Return the series of base^exponent, where ``a`` is the series of ``base``. Equal powers of one
-        expression share one series."""
+        """Return the series of base^exponent, where ``a`` is the series of ``base``.
+
+        Equal powers of one expression share one series.
+        """
         if exponent == 1:
             return a
         key = "power", base.id, exponent
@@ -190,7 +195,7 @@ class _Builder:
         return self.shared[key]
 
     def integer_power(self, a: Series, n: int) -> Series:
-        """Return a^n by squaring from the leading bit."""
+        """Return a^n by repeated squaring from the leading bit of n."""
         result = a
         for bit in bin(n)[3:]:
             result = Square(self.domain, result)
@@ -200,7 +205,10 @@ class _Builder:
 
     def function(self, name: str, argument: Expr, a: Series) -> Series:
         """Return the series of the function ``name`` of ``argument``, where ``a`` is the series of
-        ``argument``. SceneError is raised if no recurrence is known for the function."""
+        ``argument``.
+
+        SceneError is raised if no recurrence is known for the function.
+        """
         key = name, argument.id, Fraction(1)
         if key in self.shared:
             return self.shared[key]
@@ -211,8 +219,8 @@ class _Builder:
             case "log":
                 self.shared[key] = Logarithm(domain, a)
             case "sin" | "cos":
-                # The recurrence of the sine contains coefficients of the cosine, and the recurrence of the
-                # cosine contains coefficients of the sine. Both series are therefore created together.
+                # The recurrence of the sine contains coefficients of the cosine, and vice versa. Both series
+                # are therefore created together.
                 sine, cosine = (
                     Circular(domain, "sin", a, slope, False),
                     Circular(domain, "cos", a, slope, True),
@@ -248,11 +256,11 @@ class _Builder:
 
 
 class Recurrence:
-    """The series, in powers of s, of the coordinates of the solution y(t + s scale) and of their derivatives.
+    """The series, in powers of s, of the solution y(t + s scale) and of its derivative.
 
-    ``roots`` are the derivatives of the coordinates called ``symbols``; ``values`` are the values of all
-    other symbols, including the time ``t``. Each derivative is stored as a pair: a numeric factor, and a
-    series without this factor.
+    ``roots`` are the derivatives of the coordinates ``symbols``. ``values`` are the values of all other
+    symbols, including the time ``t``. Each derivative is stored as a pair: a numeric factor, and a series
+    without this factor.
     """
 
     def __init__(
@@ -272,8 +280,10 @@ class Recurrence:
         self.slopes = [_apart(builder.of(root)) for root in roots]
 
     def extend(self, degree: int) -> list[list[Coefficient]]:
-        """Return, for each coordinate, the coefficients 0, ..., degree. A coefficient that is zero for all
-        states is None."""
+        """Return the coefficients 0, ..., degree of each coordinate.
+
+        A coefficient that is zero for all states is None.
+        """
         for n in range(len(self.coordinates[0].terms) - 1, degree):
             factors: dict[object, Scalar] = {}
             new = []

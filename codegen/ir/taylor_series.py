@@ -1,11 +1,10 @@
 """Taylor series in the time, each with the recurrence of its coefficients.
 
-The coefficients of each elementary operation satisfy a recurrence. Sums are formed term by term, products and
-squares by Cauchy's convolution. The recurrences of quotients, constant powers, exponentials, logarithms and
-pairs of sine and cosine follow from an algebraic or differential equation that the result satisfies (R. E.
-Moore, *Interval Analysis*, 1966, chapter 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99,
-section 2). The coefficients are scalars of a domain: over expressions, the recurrences become straight-line
-code.
+The coefficients of each elementary operation satisfy a recurrence. Sums are computed term by term, products
+and squares by Cauchy's convolution. The recurrences of quotients, constant powers, exponentials, logarithms
+and pairs of sine and cosine follow from an algebraic or differential equation for the result (R. E. Moore,
+*Interval Analysis*, 1966, chapter 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 2).
+The coefficients are scalars of a domain. If they are expressions, the recurrences become straight-line code.
 
 Coefficients that are zero for all states are None, and terms that contain them are omitted. A convolution
 with a constant or with the time therefore has at most two terms for each coefficient.
@@ -31,8 +30,9 @@ Coefficient: TypeAlias = Scalar
 
 
 class Series(ABC):
-    """The Taylor coefficients of one expression. ``terms`` contains the coefficients that have been
-    computed or given so far."""
+    """The Taylor coefficients of one expression. ``terms`` contains the coefficients that are known so
+    far.
+    """
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
@@ -40,8 +40,10 @@ class Series(ABC):
 
     @abstractmethod
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n, given the coefficients 0, ..., n of the arguments and the coefficients 0,
-        ..., n - 1 of this series."""
+        """Return coefficient n of this series.
+
+        The coefficients 0, ..., n of the arguments and 0, ..., n - 1 of this series are known.
+        """
 
     def term(self, n: int) -> Coefficient:
         """Return coefficient n."""
@@ -51,8 +53,9 @@ class Series(ABC):
 
 
 class Given(Series):
-    """A series whose coefficients are given or appended by the caller: a constant, the time, or a
-    coordinate."""
+    """A series with given coefficients: a constant, the time, or a coordinate. The caller may append
+    coefficients.
+    """
 
     def __init__(self, domain: Domain, *terms: Scalar, closed: bool = True) -> None:
         super().__init__(domain)
@@ -60,8 +63,10 @@ class Given(Series):
         self.closed = closed
 
     def following(self, n: int) -> Coefficient:
-        """Return None, because all coefficients that were not given are zero. If ``closed`` is false, the
-        caller must append coefficient n first."""
+        """Return None, because all coefficients that were not given are zero.
+
+        If ``closed`` is false, the caller must append coefficient n first.
+        """
         assert self.closed, f"coefficient {n} is not known yet"
         return None
 
@@ -180,8 +185,9 @@ class Square(Series):
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_j a_j a_{n-j}. The products a_j a_{n-j} and a_{n-j} a_j are computed once and
-        doubled."""
+        """Return sum_j a_j a_{n-j}. Equal products a_j a_{n-j} and a_{n-j} a_j are computed once and
+        doubled.
+        """
         return _square(self.domain, self.a, n)
 
 
@@ -231,8 +237,10 @@ class Logarithm(Series):
 
 
 class Antiderivative(Series):
-    """The series f(a) for a function f of the mathematical library. It is computed from f(a)' = r a', where
-    the series r is ``rate``."""
+    """The series f(a) for a function f of the mathematical library.
+
+    The coefficients follow from f(a)' = r a', where the series r is ``rate``.
+    """
 
     rate: Series
 
@@ -248,8 +256,10 @@ class Antiderivative(Series):
 
 
 class Circular(Series):
-    """The sine or the cosine of a series a, according to ``name``. ``other`` is the cosine of a if this
-    series is the sine, and the sine of a if this series is the cosine."""
+    """The sine or the cosine of a series a, according to ``name``.
+
+    ``other`` is the cosine of a if this series is the sine, and the sine of a if this series is the cosine.
+    """
 
     other: Circular
 
@@ -258,8 +268,10 @@ class Circular(Series):
         self.name, self.a, self.slope, self.minus = name, a, slope, minus
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n: for n > 0, sum_{0<j<=n} j a_j o_{n-j}/n with the coefficients o of ``other``,
-        or minus this sum for the cosine."""
+        """Return coefficient n: for n > 0, sum_{0<j<=n} j a_j o_{n-j}/n, or minus this sum for the cosine.
+
+        o_k are the coefficients of ``other``.
+        """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
         mean = _mean(self.domain, self.slope, self.other, n)
@@ -285,15 +297,14 @@ class Angle(Series):
 
 
 class Chosen(Series):
-    """The series a if the series ``test`` is positive at the beginning of the step, otherwise the series
-    b."""
+    """The series a if ``test`` is positive at the beginning of the step, otherwise the series b."""
 
     def __init__(self, domain: Domain, test: Series, a: Series, b: Series) -> None:
         super().__init__(domain)
         self.test, self.a, self.b = test, a, b
 
     def following(self, n: int) -> Coefficient:
-        """Return a_n or b_n, as the sign of ``test`` decides; None if a_n and b_n are None."""
+        """Return a_n or b_n, depending on the sign of ``test``, or None if a_n and b_n are None."""
         a, b = self.a.term(n), self.b.term(n)
         if a is None and b is None:
             return None
@@ -309,14 +320,16 @@ class Start(Series):
         self.a, self.function = a, function
 
     def following(self, n: int) -> Coefficient:
-        """Return f(a_0), and None for all further coefficients."""
+        """Return f(a_0) for n = 0, and None for all other n."""
         return self.function(self.a.term(0)) if n == 0 else None
 
 
 def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
-    """Return the series of f(a) for the piecewise polynomial f of a table: the polynomial of the interval
-    that contains a_0 is used."""
-    # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum. Horner's rule takes one product of series for
+    """Return the series of f(a) for the piecewise polynomial f of a table.
+
+    The polynomial of the interval that contains a_0 is used.
+    """
+    # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum. Horner's rule needs one product of series for
     # each power.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
@@ -342,7 +355,7 @@ def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
 
 
 def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
-    """Return the sum of a_j a_{n-j} over first <= j <= n - first. Two equal products are computed once."""
+    """Return the sum of a_j a_{n-j} over first <= j <= n - first. Equal products are computed once."""
     pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
     twice = _scaled(domain, Number.rational(2), pairs)
     middle = a.term(n // 2) if n % 2 == 0 and n // 2 >= first else None
@@ -356,8 +369,7 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 
 
 def _late_last(n: int, indices: range) -> list[int]:
-    """Return ``indices``, sorted such that the products a_j b_{n-j} that contain the newest coefficients come
-    last.
+    """Sort the ``indices`` such that the products a_j b_{n-j} with the newest coefficients come last.
 
     A processor can then compute the first products of a sum before the newest coefficients are known.
     """
@@ -381,7 +393,7 @@ def _subtract(a: Coefficient, b: Coefficient) -> Coefficient:
 
 
 def multiplied(a: Coefficient, b: Coefficient) -> Coefficient:
-    """Return a b; None if a or b is None."""
+    """Return a b, or None if a or b is None."""
     return None if a is None or b is None else a * b
 
 

@@ -1,5 +1,4 @@
-"""The operation of step programs that advances u, the momentum conjugate to the time, for a linear step y ->
-M(t) y."""
+"""The operation that advances the momentum u conjugate to the time, for a linear step y -> M(t) y."""
 
 from __future__ import annotations
 
@@ -21,9 +20,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeMomentum(Operation):
-    """The point (Y, u + Y^T J Y'/2), where Y' is the derivative of Y with respect to t for fixed y and h, and
-    Y^T J Y' = Q.P' - P.Q' for Y = (Q, P).
+    """The point (Y, u + Y^T J Y'/2) after a linear step from (y, u), where u is the momentum conjugate to the
+    time.
 
+    Y' is the derivative of Y with respect to t for fixed y and h, and Y^T J Y' = Q.P' - P.Q' for Y = (Q, P).
     The arguments are the points (y, u) and (Y, u) before and after the step, and the time t. ``step`` is the
     program that computes (Y, u) from the inputs (y, u) and t. If the domain consists of expressions, Y is
     differentiated directly. In all other domains, ``step`` is first evaluated with symbols. The resulting
@@ -36,7 +36,7 @@ class TimeMomentum(Operation):
     noun = "momentum{s} of the time"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``; both consist of scalars of ``domain``."""
+        """Return the point with the new momentum."""
         start, end, t = args
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)

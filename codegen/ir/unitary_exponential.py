@@ -1,13 +1,14 @@
 """The exponential of a matrix of su(3) by the Cayley-Hamilton theorem.
 
-Let X = i H with a Hermitian 3 x 3 matrix H of trace zero. Then H^3 = p H + q, where p = tr(H^2)/2, q = det H.
-Hence each polynomial of H, and so exp X, is a combination of 1, H and H^2 with coefficients that depend on p
-and q only. The formulas for these coefficients in terms of the eigenvalues of H divide by differences of
-eigenvalues. Here the coefficients are computed without a division, by Horner's rule for the Taylor polynomial
-modulo H^3 - p H - q, which is accurate for equal eigenvalues, too (M. Luescher, SU(3) matrix functions, notes
-of openQCD). H is first halved s times, until the bound 2 (p/3)^(1/2) of its eigenvalues is small, and the
-result is squared s times. The squares are computed as products of matrices and not from p and q. For a large
-matrix the rounding error of q would change exp X by much more than the rounding errors of the entries of X.
+Let X = i H with a Hermitian 3 x 3 matrix H of trace zero. Then H^3 = p H + q, where p = tr(H^2)/2 and q = det
+H. Hence exp X is a combination of 1, H and H^2 with coefficients that depend only on p and q. The formulas
+for these coefficients in terms of the eigenvalues of H divide by differences of eigenvalues. Here the
+coefficients are computed by Horner's rule for the Taylor polynomial modulo H^3 - p H - q. This method has no
+divisions and is accurate for equal eigenvalues, too (M. Luescher, SU(3) matrix functions, notes of openQCD).
+
+H is first halved s times, until the bound 2 (p/3)^(1/2) of its eigenvalues is small, and the result is
+squared s times. The squares are products of matrices and are not computed from p and q. For a large matrix
+the rounding error of q would change exp X by much more than the rounding errors of the entries of X.
 
 The arguments are the eight coordinates of X. Let E_jk be the matrix with the entry 1 at (j, k) and zeros
 elsewhere. For each j < k, row by row, there are two coordinates: the coefficients of E_jk - E_kj and of i
@@ -33,14 +34,17 @@ T = TypeVar("T")
 
 ROWS, COORDINATES = 3, 8
 SIZE = ROWS * ROWS
-"""The number of entries; the results are the real parts of the entries, then the imaginary parts."""
+"""The number of entries of the matrix. The results are the real parts of the entries, then the imaginary
+parts.
+"""
 
 PLACES = ((0, 1), (0, 2), (1, 2))
 """The places (j, k) above the diagonal, in the order of the coordinates."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices. With it, exp X is computed in many digits and over power series,
-and the derivatives of exp X are computed."""
+"""The exponential of real 6 x 6 matrices. It gives the derivatives of exp X, and exp X in many digits and
+over power series.
+"""
 
 
 def most_squarings(bits: int) -> int:
@@ -78,12 +82,13 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The number of operations for a polynomial of degree 12, without squarings."""
+        """The number of operations for a polynomial of degree 12 without squarings."""
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the derivative of the results, computed as the derivative of the exponential
-        :data:`GENERAL`."""
+        :data:`GENERAL`.
+        """
         zero = args[0].space.zero
         both = (*embedded(args, zero), *embedded(rates, zero))
         general = MatrixExponential(2 * ROWS, 1)
@@ -91,7 +96,7 @@ class SpecialUnitaryExponential(VectorFunction):
         return first_columns(slopes[GENERAL.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return the unit matrix if all coordinates are zero; otherwise None."""
+        """Return the unit matrix if all coordinates are zero, otherwise None."""
         if not all(x.is_zero for x in args):
             return None
         space = args[0].space
@@ -106,13 +111,15 @@ class SpecialUnitaryExponential(VectorFunction):
         return first_columns(GENERAL.in_digits(context, digits, embedded(args, context.mpf(0))))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential if the coordinates are power series without constant terms."""
+        """Return the exponential for coordinates that are power series without constant terms."""
         return first_columns(GENERAL.over_series(ring, embedded(args, ring.zero)))
 
 
 def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
-    """Return the real 6 x 6 matrix with the block rows (A, -B) and (B, A), for the matrix X = A + i B with
-    the coordinates ``x``."""
+    """Return the real 6 x 6 matrix with the block rows (A, -B) and (B, A).
+
+    X = A + i B is the matrix with the coordinates ``x``.
+    """
     width = 2 * ROWS
     result = [zero] * width**2
 
@@ -131,14 +138,17 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
 
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
     """Return the entries of A, then those of B, from the real matrix with the block rows (A, -B) and (B,
-    A)."""
+    A).
+    """
     width = 2 * ROWS
     return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
 
 
 def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
-    """Return the exponential of the matrix with the coordinates ``x``. All results are NaN if fewer than
-    three digits might be correct."""
+    """Return the exponential of the matrix with the coordinates ``x``.
+
+    All results are NaN if fewer than three digits might be correct.
+    """
     scale, squarings, norm = _halvings(_bound(x))
     total = _polynomial([a * scale for a in x], norm)
     for _ in range(squarings):
@@ -149,7 +159,7 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
 
 
 def _bound(x: Sequence[float]) -> float:
-    """Return 2 (p/3)^(1/2), where p = tr(H^2)/2: a bound of the absolute eigenvalues of H."""
+    """Return the bound 2 (p/3)^(1/2) of the absolute eigenvalues of H, where p = tr(H^2)/2."""
     return math.sqrt(1.3333333333333333 * half_trace(x))
 
 
@@ -199,8 +209,11 @@ def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Sequence[Any]) -> list[Any]:
-    """Return the matrix (u_0 + u_1 H + u_2 H^2) + i (v_0 + v_1 H + v_2 H^2): the real parts of all entries,
-    then the imaginary parts. i H has the coordinates ``x``, and ``square`` is H^2."""
+    """Return the matrix (u_0 + u_1 H + u_2 H^2) + i (v_0 + v_1 H + v_2 H^2).
+
+    The result contains the real parts of all entries, then the imaginary parts. i H has the coordinates
+    ``x``, and ``square`` is H^2.
+    """
     real, imaginary = [None] * SIZE, [None] * SIZE
     for j, h in enumerate((x[6], x[7] - x[6], -x[7])):
         real[(ROWS + 1) * j] = (u[2] * square[j] + u[1] * h) + u[0]
@@ -217,8 +230,10 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
 
 
 def _polynomial(y: list[float], norm: float) -> list[float]:
-    """Return the Taylor polynomial of the exponential for the coordinates ``y``. The degree is the least one
-    that is accurate for matrices of norm at most ``norm``."""
+    """Return the Taylor polynomial of the exponential for the coordinates ``y``.
+
+    The degree is the smallest one that is accurate for matrices of norm at most ``norm``.
+    """
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     p, q = half_trace(y), determinant(y)

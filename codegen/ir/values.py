@@ -1,4 +1,4 @@
-"""Values of step programs: their kinds, their names, and the coefficients in linear combinations of them."""
+"""Values of step programs: their kinds, their names, and coefficients of linear combinations."""
 
 from __future__ import annotations
 
@@ -9,11 +9,14 @@ from codegen.ir.domain import Domain, Scalar
 from codegen.ir.number import Number
 
 
-# The dual of the algebra is a separate kind, because Ad and Ad* differ, and because a pairing needs an
-# element of each space.
+# The dual of the algebra is a separate kind, because Ad and Ad* differ, and because a pairing has one
+# argument from each of the two spaces.
 class Kind(StrEnum):
-    """The space that contains a value: the real numbers, the Lie algebra (``Alg``), its dual, the group, or
-    the manifold on which the group acts (``Point``)."""
+    """The space that contains a value.
+
+    The spaces are the real numbers, the Lie algebra (``Alg``), its dual, the group, and the manifold on which
+    the group acts (``Point``).
+    """
 
     REAL = "Real"
     ALG = "Alg"
@@ -24,7 +27,7 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True)
 class Var:
-    """A named value; names are unique within a program."""
+    """A named value. Names are unique within a program."""
 
     name: str
     kind: Kind

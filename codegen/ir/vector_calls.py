@@ -34,7 +34,7 @@ _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 @cache
 def vector_function(name: str) -> VectorFunction | None:
-    """Return the vector function called ``name``; None if there is no such function.
+    """Return the vector function called ``name``, or None if there is no such function.
 
     >>> vector_function("expm3_d1"), vector_function("sin")
     (MatrixExponential(n=3, level=1), None)
@@ -50,7 +50,7 @@ def vector_function(name: str) -> VectorFunction | None:
 
 
 def named(name: str) -> VectorFunction:
-    """Return the vector function called ``name``; raise ValueError if there is no such function."""
+    """Return the vector function called ``name``. ValueError is raised if there is no such function."""
     function = vector_function(name)
     if function is None:
         raise ValueError(f"unknown vector function {name}")
@@ -59,8 +59,9 @@ def named(name: str) -> VectorFunction:
 
 @cache
 def component(payload: str) -> tuple[VectorFunction, int] | None:
-    """Return the vector function and the index of its result for a call node with the name ``payload``. None
-    is returned if the name is not of the form NAME.INDEX with the name of a vector function.
+    """Return the vector function and the index of its result for a call node with the name ``payload``.
+
+    The result is None if the name is not of the form NAME.INDEX with the name of a vector function.
 
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)
@@ -71,8 +72,10 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
 
 
 def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
-    """Return the derivative of result ``index`` of ``function`` with respect to the argument with the index
-    ``argument``. ``node`` is a call of the function."""
+    """Return the derivative of result ``index`` of ``function`` with respect to argument number ``argument``.
+
+    ``node`` is a call of the function.
+    """
     # The derivatives of all results of a call are computed together.
     key = function.name, tuple(a.id for a in node.args), argument
     known = node.space.derivatives
