@@ -1,4 +1,4 @@
-"""Order conditions for a fixed number of stages, written out as polynomials without sums over indices."""
+"""Order conditions for a fixed number of stages, as polynomials without sums over indices."""
 
 from __future__ import annotations
 

@@ -108,9 +108,8 @@ def solve(
 ) -> SearchResult:
     """Find a method of ``family`` with this number of stages and order, and prove its order.
 
-    The arguments are the options of ``orderconds solve``. For example, ``fix`` contains equations such as
-    ``"a21=1/2"``. Contradictory constraints raise InputError. ``report`` is called with each line of text
-    about the progress.
+    The arguments are the options of ``orderconds solve``. ``fix`` contains equations such as ``"a21=1/2"``.
+    Contradictory constraints raise InputError. ``report`` is called with each line about the progress.
 
     >>> solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"]).tableau.b
     (Fraction(1, 2), Fraction(1, 2))
