@@ -1,7 +1,8 @@
 """Vector functions: functions of arrays whose result is an array, for example the matrix exponential.
 
-In expressions, result k is a node: the call of the function ``NAME.k``, whose arguments are all scalars of
-the arrays (:mod:`codegen.ir.vector_calls`). Nodes with the same arguments share one call in emitted code.
+In expressions, result number k is a call of the function ``NAME.k`` with all scalars of the arrays as
+arguments (:mod:`codegen.ir.vector_calls`). The calls for different results with the same arguments become one
+call in emitted code.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class VectorFunction(ABC):
-    """A function of arrays of scalars with ``size`` results; ``n`` is the number of rows of its matrices."""
+    """A function of arrays of scalars with ``size`` results. ``n`` is the number of rows of its matrices."""
 
     n: int
 
@@ -32,7 +33,7 @@ class VectorFunction(ABC):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the arrays of arguments; by default there is one array, as long as the result."""
+        """The lengths of the arrays of arguments. By default there is one array, as long as the result."""
         return (self.size,)
 
     @property
@@ -42,7 +43,7 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of the results if the arguments change at these rates."""
+        """Return the derivative of the results, where ``rates`` are the derivatives of the arguments."""
 
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
         """Return the derivatives of the results with respect to the argument with the index ``argument``."""
@@ -51,13 +52,16 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return expressions that replace the results of a call with these arguments; None if the call is
-        not replaced."""
+        """Return expressions that replace the results of a call with these arguments, or None if the call is
+        not replaced.
+        """
 
     @abstractmethod
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the results in doubles, computed by the same operations as in emitted code. A result without
-        correct digits is NaN."""
+        """Return the results in doubles, computed by the same operations as in emitted code.
+
+        A result without correct digits is NaN.
+        """
 
     @abstractmethod
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

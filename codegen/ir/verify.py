@@ -1,5 +1,4 @@
-"""The program verifier. It runs after every pass and checks types, single assignment, and definition before
-use."""
+"""The program verifier. After every pass it checks types, single assignment, and definition before use."""
 
 from __future__ import annotations
 
@@ -8,18 +7,19 @@ from codegen.ir.values import Kind, Var
 
 
 class IllFormed(AssertionError):
-    """The error for a program that breaks a rule of :mod:`codegen.ir.program`. It is an error of the
-    compiler, not of the user."""
+    """The error for a program that breaks a rule of :mod:`codegen.ir.program`. The cause is the compiler, not
+    the user.
+    """
 
 
 def verify(program: Program) -> Program:
-    """Return the program unchanged, or raise :class:`IllFormed` naming the first statement that is wrong."""
+    """Return the program unchanged. :class:`IllFormed` is raised with the first wrong statement."""
     _Verifier(program).run()
     return program
 
 
 class _Verifier:
-    """The check of one program, statement by statement in order of execution."""
+    """The check of one program, statement by statement in the order of execution."""
 
     def __init__(self, program: Program) -> None:
         self.program = program
@@ -27,7 +27,7 @@ class _Verifier:
         self.names: set[str] = set()
 
     def run(self) -> None:
-        """Check the whole program; raise :class:`IllFormed` for the first rule that it breaks."""
+        """Check the whole program. :class:`IllFormed` is raised for the first broken rule."""
         # Inputs, body and outputs are checked in the order of execution, so that a use before the definition
         # is found.
         for var in self.program.inputs:
@@ -42,22 +42,21 @@ class _Verifier:
             self.use(var, f"output {name}")
             if name.startswith(POWERS) and var.kind is Kind.ALG:
                 continue
-            # The output with the embedded solution has another name than the input y, but must have the same
-            # kind.
+            # The embedded solution has another name than the input y, but it must have the same kind.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(f"{self.program.name}: output {name} replaces no input of kind {var.kind}")
 
     def define(self, var: Var, at: str | Assign) -> None:
-        """Record a definition; raise :class:`IllFormed` for a name that is already defined."""
-        # The test compares names, not variables: two variables with the same name and different kinds would
-        # have the same identifier in emitted code.
+        """Record a definition. :class:`IllFormed` is raised if the name is already defined."""
+        # The test compares names, because two variables with the same name and different kinds would have the
+        # same identifier in emitted code.
         if var.name in self.names:
             raise IllFormed(f"{self.program.name}: {var.name} is assigned twice, at {_place(at)}")
         self.names.add(var.name)
         self.defined.add(var)
 
     def use(self, var: Var, at: str | Assign) -> None:
-        """Raise :class:`IllFormed` for a value that is not defined yet."""
+        """Raise :class:`IllFormed` if a value is not defined yet."""
         if var not in self.defined:
             what = f"{var.name}: {var.kind} is used before it is defined"
             raise IllFormed(f"{self.program.name}: {what}, at {_place(at)}")
@@ -72,13 +71,12 @@ class _Verifier:
             self.define(target, assign)
 
     def block(self, block: Solve) -> None:
-        """Check one block. Its body may read the unknowns of the block."""
-        # The shape is checked first, because the k-th start and the k-th image belong to the k-th unknown.
+        """Check one block of equations. Its body may read the unknowns of the block."""
+        # The shape is checked first, because start k and image k belong to unknown k.
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # Starts are checked before the unknowns are recorded as defined, because starts must not depend on
-        # unknowns.
+        # Starts must not depend on unknowns, so they are checked before the unknowns are recorded as defined.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
@@ -91,8 +89,9 @@ class _Verifier:
 
 
 def _place(at: str | Assign) -> str:
-    """Return the text of the statement in which a rule is broken. It is formed only for errors, because
-    printing long numbers is slow."""
+    """Return the text of the statement that breaks a rule. Printing long numbers is slow, so the text is
+    created only for errors.
+    """
     return at.text() if isinstance(at, Assign) else at
 
 

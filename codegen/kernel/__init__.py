@@ -1,1 +1,1 @@
-"""The backend: a step program becomes a kernel of scheduled scalar statements."""
+"""The backend, which translates a step program to a kernel of scheduled scalar statements."""

@@ -1,5 +1,6 @@
 """The translation of step programs to kernels that compute with whole matrices
-(:mod:`codegen.ir.array_step`)."""
+(:mod:`codegen.ir.array_step`).
+"""
 
 from __future__ import annotations
 
@@ -43,8 +44,9 @@ STATE, NEW, BASIS, GRAM, ERROR = "state", "new state", "basis", "gram", "error"
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error, with the message ``what``, for a method whose step cannot be computed by loops over
-    arrays."""
+    """Return the error for a method whose step cannot be computed by loops over arrays. ``what`` is the
+    message.
+    """
     hint = "use an explicit method of the family rkmk, cf or cg, for example rkmk:rk4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
@@ -60,10 +62,11 @@ class ArrayMethod:
 
 
 def array_method(scene: Problem, method: Method) -> ArrayMethod:
-    """Return the compiled method. The passes depend neither on the field nor on the size of the matrices, so
-    they are verified on a scene on the sphere.
+    """Return the compiled method.
 
-    MethodError is raised for a method that has no kernel (:func:`array_kernel`).
+    The compiler passes depend neither on the field nor on the size of the matrices. Therefore they are
+    verified on a small scene on the sphere. MethodError is raised for a method that has no kernel
+    (:func:`array_kernel`).
     """
     return compiled(scene, method, _model(not scene.autonomous), array_kernel, refused)
 
@@ -90,8 +93,7 @@ def compiled(
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a scene on the sphere, on which the passes of a program are verified. Its field has no
-    symmetries."""
+    """Return a scene on the sphere on which compiler passes are verified. Its field has no symmetries."""
     from sympy import Matrix as Column
     from sympy import Rational, Symbol, symbols
 
@@ -105,8 +107,8 @@ def _model(timed: bool) -> Problem:
 def array_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of an explicit program on a scene whose field is given by formulas of matrices.
 
-    MethodError is raised for implicit stages and for operations that have no formula for elements of the form
-    B S B^T, where B is the basis and S the core.
+    MethodError is raised for implicit stages, and for operations that have no formula for elements B S B^T of
+    the algebra with the basis B and a core S.
     """
     assert scene.matrices is not None
     step = _Builder(program, scene, scene.matrices).step()
@@ -120,8 +122,9 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass
 class _Builder:
-    """Collects the statements of one step; :mod:`codegen.ir.array_step` explains the words basis, core and
-    displacement."""
+    """Collects the statements of one step. :mod:`codegen.ir.array_step` defines basis, core and
+    displacement.
+    """
 
     program: Program
     scene: Problem
@@ -168,7 +171,7 @@ class _Builder:
         if new is None or lower is None:
             return ArrayStep(self.argument, body, result)
         # The estimate is the basis times the difference of the two displacements. The difference of the two
-        # points themselves would lose digits.
+        # points would lose digits.
         rows = max(new.rows, lower.rows)
         difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
         terms = (Term(self.one, new), Term(-self.one, lower))
@@ -193,7 +196,7 @@ class _Builder:
                 self.cores[target] = self.inverse(
                     target.name, self.cores[args[0]], self.cores[args[1]], order
                 )
-            # A group element is always a single exponential exp(B S B^T), and is represented by the core S.
+            # Each group element is a single exponential exp(B S B^T), represented by the core S.
             case Exp():
                 self.cores[target] = self.cores[args[0]]
             case Act() | ActExp():
@@ -210,15 +213,17 @@ class _Builder:
         return target
 
     def displaced(self, target: Matrix, displacement: Matrix | None) -> None:
-        """Append target = X_0 + B D, where X_0 is the old state, B the basis and D the displacement. If the
-        displacement is None, append target = X_0."""
+        """Append target = X_0 + B D, or target = X_0 if ``displacement`` is None.
+
+        X_0 is the old state, B the basis, and D the ``displacement``.
+        """
         self.sum(target, (self.one, self.argument))
         if displacement is not None:
             columns = self.basis.part(0, 0, self.matrices.rows, displacement.rows)
             self.body.append(Multiplication(target, columns, displacement, added=True))
 
     def evaluated(self, target: Var, point: Var, *time: Var) -> Matrix:
-        """Append the evaluation of the field at ``point``; return the core of the result."""
+        """Append the evaluation of the field at ``point``, and return the core of the result."""
         n, k, name = self.matrices.rows, self.k, target.name
         displacement, x = self.points[point], self.argument
         if displacement is not None:
@@ -240,8 +245,11 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append the core S = E C^T - C E^T and return it. E contains the unit vectors ``first``, ...,
-        ``first`` + k - 1, and X = B C is the point with the given displacement."""
+        """Append the core S = E C^T - C E^T, and return S.
+
+        E contains the unit vectors ``first``, ..., ``first`` + k - 1. C belongs to the point X = B C with the
+        given displacement.
+        """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
@@ -255,7 +263,8 @@ class _Builder:
 
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
         """Return ``statement`` with the symbols of the time and of the parameters replaced by their
-        values."""
+        values.
+        """
         values = {**self.scene.scalars(self.domain, t)}
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 
@@ -281,14 +290,17 @@ class _Builder:
                 return statement
 
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
-        """Append a linear combination of cores, and return it. The result has the size of the largest
-        core."""
+        """Append a linear combination of cores, and return the result, which has the size of the largest
+        core.
+        """
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append the core of the bracket of the elements with the cores x and y: N - N^T with N = x G y,
-        where G is the Gram matrix. Return this core."""
+        """Append the core of the bracket of the elements with the cores x and y, and return this core.
+
+        The core is N - N^T with N = x G y, where G is the Gram matrix.
+        """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
         self.body.append(Multiplication(product, x, right))
@@ -299,7 +311,7 @@ class _Builder:
         return core
 
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
-        """Append dexp^{-1}_x y, truncated after ``order`` brackets; return its core."""
+        """Append dexp^{-1}_x y, truncated after ``order`` brackets, and return its core."""
         terms, power = [(self.one, y)], y
         for k in range(1, last_term(order) + 1):
             power = self.bracket(f"{name} bracket {k}", x, power)
@@ -309,8 +321,10 @@ class _Builder:
         return self.combination(name, terms)
 
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
-        """Append the action of the exponential with the core ``core`` on the point with the displacement
-        ``start``; return the displacement of the new point."""
+        """Append the action of an exponential on a point, and return the displacement of the new point.
+
+        ``core`` is the core of the exponential, and ``start`` the displacement of the point.
+        """
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)
         self.body.append(Move(target, core, self.gram, start))

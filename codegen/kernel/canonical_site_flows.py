@@ -1,7 +1,7 @@
-"""From splittings of a Hamiltonian lattice to sweeps.
+"""The translation of splitting steps of a Hamiltonian lattice to sweeps, which are loops over all sites.
 
-Flows that move each site without its neighbours form one sweep if they follow one another in a step. The
-state is then read and written once for all of them. A kick changes only momenta, and reads only the group
+Some flows move each site independently of its neighbours. Successive flows of this kind form one sweep, which
+reads and writes the state once for all of them. A kick changes only momenta, and depends only on the group
 elements q of neighbours. Therefore the sweep of a kick can overwrite the state.
 """
 
@@ -27,14 +27,17 @@ Timed = tuple[str, Flow, Number]
 """A flow with its name and its duration."""
 
 COPY = "the state is copied"
-"""The description of a sweep that copies the state. A step must begin with a sweep over all sites, which
-reads the old state. It must end with a sweep over all sites, which tests whether the new state is finite. A
-copy is added where a flow of pairs or a kick would be first or last."""
+"""The description of a sweep that copies the state. The first sweep of a step must visit all sites, because
+it reads the old state. The last sweep must also visit all sites, because it tests whether the new state is
+finite. A copy is added where a flow of pairs or a kick would be first or last.
+"""
 
 
 def canonical_kernel(scene: Problem, label: str, word: Sequence[tuple[Summand, Number]]) -> Kernel:
-    """Return the kernel of a splitting of a Hamiltonian lattice. ``word`` lists the flows of a step with
-    their durations."""
+    """Return the kernel of a splitting step of a Hamiltonian lattice.
+
+    ``word`` lists the flows of the step with their durations.
+    """
     listed = [(name, flow, duration) for summand, duration in word for name, flow in summand.flows]
     sweeps: list[Sweep] = []
     index: dict[tuple[object, ...], int] = {}
@@ -42,7 +45,7 @@ def canonical_kernel(scene: Problem, label: str, word: Sequence[tuple[Summand, N
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
         # A run is a sequence of flows that form one sweep. In the sweep, all durations are multiples of the
-        # first duration, so runs with the same flows and the same multiples share a sweep.
+        # first duration, so runs with the same flows and the same multiples share one sweep.
         first = run[0][2]
         ratios = [(name, flow, duration / first) for name, flow, duration in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -54,8 +57,9 @@ def canonical_kernel(scene: Problem, label: str, word: Sequence[tuple[Summand, N
 
 
 def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteFlow]) -> Kernel:
-    """Return the kernel of a step that consists of these flows; copies of the state are added where the step
-    needs them."""
+    """Return the kernel of a step that consists of the given flows. Copies of the state are added where
+    necessary.
+    """
     assert scene.sites is not None
     ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
     if ends:
@@ -71,8 +75,10 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
 
 
 def _over_sites(sweep: Sweep) -> bool:
-    """Return True if a sweep visits every site and reads no neighbours; only such a sweep may be first or
-    last in a step."""
+    """Return True if a sweep visits every site and reads no neighbours.
+
+    Only such a sweep may be first or last in a step.
+    """
     return sweep.axis == OWN and not sweep.neighbours
 
 
@@ -86,8 +92,7 @@ def _copy(scene: Problem, label: str) -> Sweep:
 
 
 def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
-    """Return the sweep for flows of single sites. In the kernel of the sweep, h is the duration of the first
-    flow."""
+    """Return the sweep for flows of single sites. In its kernel, h is the duration of the first flow."""
     ends = _moved(scene, SharedArguments(), run)
     loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))
     stores = tuple(Row(RESULT, k) for k in range(len(scene.symbols)))
@@ -95,7 +100,7 @@ def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 
 
 def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
-    """Return the sweep for a kick. In the kernel of the sweep, h is the duration of the kick."""
+    """Return the sweep for a kick. In its kernel, h is the duration of the kick."""
     sites = scene.sites
     assert sites is not None
     domain = SharedArguments()
@@ -120,7 +125,8 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 
 def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> list[Expr]:
     """Return the coordinates of a site after the flows of ``run``, as functions of its coordinates before
-    these flows."""
+    them.
+    """
     assert scene.sites is not None
     group, size = scene.group.require(Coadjoint), len(scene.state[0].symbols)
     fixed = {s: domain.space.sym(s) for s in scene.sites.names} | scene.scalars(domain)
@@ -134,7 +140,9 @@ def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> lis
 
 
 def _scheduled(scene: Problem, label: str, ends: list[Expr]) -> Kernel:
-    """Return the kernel that computes expressions from the numbers of a site and of its neighbours."""
+    """Return the kernel that computes the expressions ``ends`` from the numbers of a site and of its
+    neighbours.
+    """
     assert scene.sites is not None
     symbols = (*scene.symbols, *scene.sites.names)
     taken = {*symbols, *scene.runtime, "h", TIME}

@@ -1,9 +1,10 @@
 """The frame of the momentum, space or body, in a kernel and in the run that calls the kernel.
 
-The program computes with the momentum in one frame. The arguments and results of emitted code contain the
-momentum in the same frame or in the other frame. If the program uses the body frame and the emitted code the
-space frame, a run transforms the momentum once at its beginning and once at its end
-(:class:`codegen.ir.kernel.Carried`). A ``whole`` kernel transforms the momentum in each step instead.
+The step program computes with the momentum in one frame. The arguments and results of emitted code contain
+the momentum in the same frame or in the other frame. If the program uses the body frame and the emitted code
+the space frame, a run transforms the momentum once at its beginning and once at its end
+(:class:`codegen.ir.kernel.Carried`). A kernel with the option ``whole`` transforms the momentum in each step
+instead.
 """
 
 from __future__ import annotations
@@ -31,33 +32,35 @@ class Frames:
 
     @property
     def _alike(self) -> bool:
-        """True if the step program and the emitted code represent momenta in the same frame."""
-        # If the program and the emitted code use the same frame, the momentum needs no transformation.
+        """True if the step program and the emitted code use the same frame for momenta."""
+        # In this case the momentum needs no transformation.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
     def _size(self) -> int:
-        """The number of coordinates of the group element q. In the state, they precede the momentum."""
+        """The number of coordinates of the group element q, which precede the momentum in the state."""
         group = self.scene.body_group or self.scene.group
         return int(group.size)
 
     def begin(self, domain: ExprDomain, state: State) -> State:
-        """Return the program's initial state, computed from the kernel's state."""
+        """Return the initial state of the program, computed from the state of the kernel."""
         if self._alike:
             return state
         q, mu = state[: self._size], state[self._size :]
         if self.scene.body_group is not None:
-            # The state contains the momentum in the body frame, but the program uses the space frame. The map
+            # The state contains the momentum in the body frame, but the program uses the space frame.
             # Ad*_{q^-1} transforms the momentum to the space frame.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
-        # If the kernel is not ``whole``, the run has transformed the momentum before the first step.
+        # If ``whole`` is false, the run has transformed the momentum before the first step.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Return the kernel's new state, computed from the new state of the program; ``start`` is the
-        program's initial state, which ``begin`` computed from ``state``."""
-        # The embedded solution is converted by this function, too. For a method without an embedded
-        # solution, ``new`` is then empty.
+        """Return the new state of the kernel, computed from the new state of the program.
+
+        ``start`` is the initial state of the program, which ``begin`` computed from ``state``.
+        """
+        # This function also converts the embedded solution. For a method without an embedded solution,
+        # ``new`` is then empty.
         if self._alike or not new:
             return new
         q = new[: self._size]
@@ -65,14 +68,13 @@ class Frames:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
         if not self.whole:
             return new
-        # Only the increment of the momentum is transformed back. Because of rounding errors q is not exactly
-        # orthogonal, so a transformation of the whole momentum by q would change the length of the momentum
-        # in each step.
+        # Only the increment of the momentum is transformed back. Rounding errors make q slightly
+        # non-orthogonal, so a transformation of the whole momentum by q would change its length in each step.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 
     def fields(self) -> tuple[Field, ...]:
-        """Return the fields of the state in emitted code."""
+        """Return the parts of the state in emitted code, with descriptions."""
         group, symbols = self.scene.body_group, self.scene.symbols
         if group is None:
             return tuple(Field(b.name, b.symbols, _meaning(b.kind, self.scene)) for b in self.scene.state)
@@ -83,8 +85,9 @@ class Frames:
         )
 
     def carried(self, domain: ExprDomain) -> Carried | None:
-        """Return the kernels that transform the momentum at the beginning and at the end of a run; None if a
-        run does not transform it.
+        """Return the kernels that transform the momentum at the beginning and at the end of a run.
+
+        The result is None if a run does not transform the momentum.
         """
         # A run transforms nothing if the state contains momenta in the body frame, or if each step transforms
         # the momenta.

@@ -1,9 +1,9 @@
-"""The choice among variants of a group: all variants are compiled, and the kernel with the shortest estimated
+"""The choice among variants of a group. All variants are compiled, and the kernel with the shortest estimated
 time of a step is used.
 
-The variants differ in how they update a rotation matrix: they rotate all three columns, or rotate two columns
-and compute the third column as the cross product of these two. Which variant is fastest depends on the
-columns that the scene reads.
+The variants update a rotation matrix in different ways. Either they rotate all three columns, or they rotate
+two columns and compute the third column as the cross product of these two. Which variant is fastest depends
+on the columns that the scene uses.
 """
 
 from __future__ import annotations
@@ -22,41 +22,43 @@ from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, t
 from codegen.scene.problem import Problem
 
 CALL = 10
-"""The cost of a function call, in arithmetic operations. The number was chosen with
+"""The cost of a function call, in units of one arithmetic operation. The number was chosen with
 ``benchmarks/emitted.py``.
 
-The value 20 in place of 10 changes no emitted file. The value 5 changes the files of five explicit methods.
-To repeat this comparison, edit the value and run ``orderconds regenerate --check``."""
+The value 20 changes no emitted file. The value 5 changes the files of five explicit methods. To repeat this
+comparison, edit the value and run ``orderconds regenerate --check``.
+"""
 
 WIDTH = 8
 """The number of independent operations that a processor completes during one addition.
 
-The number was chosen with ``benchmarks/emitted.py``. The value 16 in place of 8 changes no emitted file. The
-value 4 changes the files of ``rkmk:rk4`` on free_rigid_body and of one splitting. The comparison is repeated
-as for :data:`CALL`."""
+The number was chosen with ``benchmarks/emitted.py``. The value 16 changes no emitted file. The value 4
+changes the files of ``rkmk:rk4`` on free_rigid_body and of one splitting. To repeat this comparison, edit the
+value and run ``orderconds regenerate --check``.
+"""
 
 
 def fastest(program: Program, scene: Problem) -> Kernel:
-    """Return a program's kernel for the variant of the group with the shortest estimated time of a step.
+    """Return the kernel of a program for the variant of the group with the shortest estimated time of a step.
 
     Variants are compared only for explicit programs that contain flows or integrate a field on T*G.
     """
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # If the program has no flows and the group is no cotangent bundle, all variants of the group give the
-    # same kernel. Therefore only two orders of the products with constant factors are compared.
+    # Without flows, and if the group is not a cotangent bundle, all variants of the group give the same
+    # kernel. Therefore only two orders of the products with constant factors are compared.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # If flows are deferred, each step computes only the core, which consists of the other flows. Therefore
-    # cores are compared. In a scene with run-time inputs no flows are deferred, because the inputs must be
-    # sampled in every step.
+    # If a run applies some flows only at its beginning and its end (deferred flows), each step computes only
+    # the core, which consists of the other flows. Therefore cores are compared. In a scene with run-time
+    # inputs no flows are deferred, because the inputs must be sampled in every step.
     parted = None if scene.inputs else part(program, scene)
     core = program if parted is None else parted.core
-    # The shortest variant depends on subexpressions that the group's formulas share with the scene, so all
-    # variants are compiled.
+    # The variant with the shortest time depends on subexpressions that the formulas of the group share with
+    # the scene, so all variants are compiled.
     candidates: list[tuple[Kernel, Problem, int]] = []
-    # Each variant is compiled twice. In one kernel only the order of products and assignments is changed; in
+    # Each variant is compiled twice. In one kernel only the order of products and assignments is changed. In
     # the other kernel the critical path is also shortened.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
@@ -69,16 +71,18 @@ def fastest(program: Program, scene: Problem) -> Kernel:
 
 
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:
-    """Return the kernel whose step has the shortest estimated time. If some of the kernels contain outlined
-    functions, only these kernels are compared."""
-    # The time of a step that is long enough for outlining is limited by the instruction cache, not by
-    # latency.
+    """Return the kernel whose step has the shortest estimated time.
+
+    If some kernels contain outlined functions, only these kernels are compared.
+    """
+    # A step that is long enough for outlined functions is limited by the instruction cache, not by latency.
     return min([kernel for kernel in kernels if kernel.outlined] or kernels, key=time)
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
     """Return the estimated time of a step, in units of an addition, and the number of operations of the step.
-    Of two kernels with equal times, the kernel with fewer operations is used.
+
+    If two kernels have equal times, the kernel with fewer operations is used.
     """
     nodes = walk(kernel.expressions())
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)

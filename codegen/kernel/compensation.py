@@ -3,9 +3,11 @@
 In a step y1 = y0 + d, the rounding error of the sum is as large as the last bit of y0, even if d is small.
 Compensation stores this rounding error, called the carry, and adds it to the increment d of the next step:
 with s = d + carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining errors are the rounding errors of d,
-which are smaller by the factor d/y0. A step exp(x) y0 of a group action also has an increment: it is y0 +
-(exp(x) - 1) y0, and the entries of exp(x) - 1 are computed without cancellation. The formulas of the
-increments are derived from the compiled step of any method.
+which are smaller by the factor d/y0.
+
+The increment of a step exp(x) y0 of a group action is (exp(x) - 1) y0, and the entries of exp(x) - 1 are
+computed without cancellation. The formulas of the increments are derived from the compiled step, for all
+methods.
 """
 
 from __future__ import annotations
@@ -28,10 +30,9 @@ Statement = Let | Start | Loop
 def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
     """Return the kernel with an extended state: the coordinates, then one carry for each coordinate.
 
-    All carries are zero initially.
-
-    Raises :class:`MethodError` if the new value of some coordinate is not the old value plus an increment,
-    and for a step by loops over arrays.
+    A carry is the stored rounding error of a coordinate. All carries are zero initially. :class:`MethodError`
+    is raised if the new value of a coordinate is not the old value plus an increment, and for a step by loops
+    over arrays.
     """
     if kernel.arrays is not None:
         raise MethodError(
@@ -40,7 +41,8 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
             expected="a scene with a formula for each coordinate",
             hint="leave out --compensate",
         )
-    if kernel.deferred is not None:  # The step must be complete: no flow may be deferred to the next step.
+    # The step must be complete, without flows that are deferred to the next step.
+    if kernel.deferred is not None:
         kernel = to_kernel(program, problem)
     if kernel.carried is not None:
         solvers = {loop.label: loop.solver for loop in kernel.loops}
@@ -49,8 +51,9 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
 
 
 def with_carries(kernel: Kernel) -> Kernel:
-    """Return a kernel with a carry for each coordinate. The function raises the same errors as
-    :func:`compensated`.
+    """Return a kernel with a carry, the stored rounding error, for each coordinate.
+
+    The function raises the same errors as :func:`compensated`.
     """
     space = kernel.outputs[0].space
     increments = Increments(kernel)
@@ -106,8 +109,8 @@ _EMPTY = Kernel("", (), (), (), ())
 
 
 class Increments:
-    """Computes the differences e - x and f - 1 without cancellation of leading digits, for expressions e and
-    f and a symbol x.
+    """Computes e - x and f - 1 without cancellation of leading digits, for expressions e and f and a symbol
+    x.
 
     This is possible only if e has the form x + increment, or f the form 1 + increment.
     """
@@ -119,7 +122,7 @@ class Increments:
         self.factors: dict[int, Expr | None] = {}
 
     def of(self, e: Expr, name: str) -> Expr | None:
-        """Return e minus the symbol ``name``; None if e does not have the form symbol + increment."""
+        """Return e minus the symbol ``name``, or None if e does not have the form symbol + increment."""
         key = (e.id, name)
         if key not in self.increments:
             self.increments[key] = self._of(e, name)
@@ -144,7 +147,7 @@ class Increments:
         return None
 
     def less_one(self, f: Expr) -> Expr | None:
-        """Return f - 1; None if f does not have the form 1 + increment."""
+        """Return f - 1, or None if f does not have the form 1 + increment."""
         if f.id not in self.factors:
             self.factors[f.id] = self._less_one(f)
         return self.factors[f.id]
