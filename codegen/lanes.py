@@ -1,9 +1,9 @@
-"""Batches: one emitted module integrates many independent systems, each with its own state, parameters and
-inputs.
+"""Batches: one emitted module integrates many independent systems.
 
-A batch of N systems is an array of N states, one in each row. Emitted C stores a batch as a structure of
-arrays: row k of an array of shape (size, N) contains component k of each state. An array of shape (N, size)
-in Fortran order has the same layout in memory, so it is passed to C without a copy.
+Each system has its own state, parameters and inputs. A batch of N systems is an array of N states, one in
+each row. Emitted C stores a batch as a structure of arrays: row k of an array of shape (size, N) contains
+component k of each state. An array of shape (N, size) in Fortran order has the same layout in memory. It is
+passed to C without a copy.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     """Return states as a new array of shape (size, N) with contiguous rows, in the format ``real`` of a
     module (``double`` or ``float``).
 
-    ``states`` must be an array of N states of ``size`` real numbers, N >= 1, or a tuple of arrays, one for
-    each part of the states, such as q and mu. For any other argument, ValueError is raised.
+    ``states`` must be an array of N >= 1 states with ``size`` real numbers each, or a tuple of arrays, one
+    for each part of the states, such as q and mu. For all other arguments, ValueError is raised.
 
     >>> columns([[1, 2, 3], [4, 5, 6]], 3, "double").tolist()
     [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]

@@ -36,11 +36,11 @@ class Lattice(ArrayModule, ABC):
     def run(self, states: object, h: float, steps: int, t: float = 0.0, **parameters: object) -> LatticeRun:
         """Return the states of all sites after ``steps`` steps of size h from time t.
 
-        ``states`` has the shape (n1, ..., nd, size): one state for each site of the lattice. If a step fails,
-        no error is raised: the result contains the status and the states before this step. ValueError is
-        raised for an array of another shape, for states that are not finite, and for a lattice that is too
-        small. TypeError is raised for other types and for unknown parameters, and InputError if there is not
-        enough memory.
+        ``states`` has the shape (n1, ..., nd, size), with one state for each site of the lattice. If a step
+        fails, the result contains the status and the states before this step, and no error is raised.
+        ValueError is raised for an array of another shape, for states that are not finite, and for a lattice
+        that is too small. TypeError is raised for other types and for unknown parameters, and InputError if
+        there is not enough memory.
         """
         import numpy as np
 
@@ -94,11 +94,12 @@ class Lattice(ArrayModule, ABC):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
-        """Make steps in place; return the status and the number of completed steps.
+        """Make steps in place. Return the status and the number of completed steps.
 
-        The arguments are those of the emitted function: ``table`` is an array of shape (size, n1, ..., nd) or
-        (size, n1 ... nd), ``moment`` contains t, h and the number of steps, ``values`` are the run-time
-        parameters, and ``work`` is the workspace. The arguments are not tested.
+        ``shape`` contains the numbers of sites n1, ..., nd. ``table`` is an array of shape (size, n1, ...,
+        nd), or an array of shape (size, n) where n is the number of all sites. ``moment`` contains t, h and
+        the number of steps. ``values`` are the run-time parameters, and ``work`` is the workspace. The
+        arguments are not tested.
         """
 
 

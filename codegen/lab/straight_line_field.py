@@ -1,8 +1,8 @@
-"""The ambient equation y' = f(y).y of a scene as straight-line code, for reference solutions and peers.
+"""The equation y' = f(y).y of a scene as straight-line code, for reference solutions and peers.
 
 The right-hand side is evaluated with symbolic expressions. Every distinct expression becomes one assignment,
-so that common subexpressions are computed once. The assignments can be returned as a Python function for any
-type of numbers (floats, balls, arrays of another library) or as the body of a C function.
+so that common subexpressions are computed once. The code can be used as a Python function for several types
+of numbers, such as floats, balls and arrays, or as the body of a C function.
 """
 
 from __future__ import annotations
@@ -60,9 +60,7 @@ class StraightLine:
 
 
 def velocity(scene: Problem) -> StraightLine:
-    """Return the right-hand side of the ambient equation of a scene for the default values of its
-    parameters.
-    """
+    """Return the right-hand side f(y).y of the equation of a scene, for the default values of the parameters."""
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
     roots = scene.velocity(domain, state, domain.space.sym(TIME))
@@ -72,8 +70,8 @@ def velocity(scene: Problem) -> StraightLine:
 def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) -> StraightLine:
     """Return expressions in the symbols of a state and the time as straight-line code.
 
-    ``name`` is the name of the scene. ``symbols`` are the symbols of the state; in the code the first of them
-    is y[0], the second y[1], and so on.
+    ``name`` is the name of the scene. ``symbols`` are the symbols of the state, which the code calls y[0],
+    y[1], and so on.
     """
     constants: list[Number] = []
     names: dict[int, str] = {}
@@ -106,7 +104,7 @@ def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) ->
 
 
 def _multiplied(text: str) -> str:
-    """Return the text of a power as a product; return any other text unchanged.
+    """Return the text of a power as a product. Return all other texts unchanged.
 
     C has no power operator, and the power of a ball that contains zero is NaN in python-flint.
     """

@@ -28,8 +28,10 @@ from orderconds.errors import InputError
 T = TypeVar("T")
 
 MANY = 8
-"""A report on more than MANY scenes makes shorter searches and omits the measurement of the growth of
-rounding errors. A report on the whole gallery then takes less than twenty minutes on two cores.
+"""A report on more than MANY scenes makes shorter searches, and does not measure the growth of rounding
+errors.
+
+In this way a report on the whole gallery takes less than twenty minutes on two cores.
 """
 
 
@@ -38,10 +40,10 @@ class Effort:
     """The extent of the measurements.
 
     ``budget`` is the CPU time in seconds that one run may take when the cost is measured. ``steps`` is the
-    number of steps of a long run. Each flag adds a measurement. ``back``: after each long run, the method
-    runs back to the initial state. ``rounding``: growth of rounding errors. ``stiff``: stiff variants of the
-    scene. ``endurance``: runs of ten million steps. ``search`` is the time in seconds of the search for the
-    fastest methods of the library.
+    number of steps of a long run. Four flags add measurements. With ``back``, the method runs back to the
+    initial state after each long run. With ``rounding``, the growth of rounding errors is measured. With
+    ``stiff``, stiff variants of the scene are tested. With ``endurance``, runs of ten million steps are made.
+    ``search`` is the time in seconds of the search for the fastest methods of the library.
     """
 
     budget: float
@@ -58,8 +60,8 @@ class Effort:
 
         If there are more than :data:`MANY` scenes, all searches together take MANY times the time of one
         search. The growth of rounding errors is then measured only if endurance runs are made. ``processes``
-        is the number of scenes that are measured at the same time. If it is greater than one, a search uses
-        one processor instead of all processors, so the time of a search is multiplied by ``processes``.
+        is the number of scenes that are measured at the same time. With several processes, a search uses one
+        processor instead of all processors, so the time of a search is multiplied by ``processes``.
 
         >>> few, many = USUAL.shared(4), USUAL.shared(16)
         >>> few == USUAL, many.search, many.rounding, USUAL.shared(16, processes=2).search
@@ -120,11 +122,11 @@ class MethodResults(Generic[T]):
 
 @dataclass
 class Subject:
-    """One scene with the methods to measure; the input of every measurement.
+    """One scene with the methods to measure on it. Every measurement has a subject as its input.
 
-    ``name`` is the text with which the user named the scene. ``adaptive`` are the methods that run with
-    step-size control. ``results`` contains the results of measurements by name, so a measurement can use the
-    result of another measurement. ``named`` is True if the user named the methods.
+    ``name`` is the name of the scene as the user wrote it. ``adaptive`` are the methods that run with
+    step-size control. ``results`` contains the results of measurements by name, so that a measurement can use
+    the result of another measurement. ``named`` is True if the user named the methods.
     """
 
     name: str
@@ -149,7 +151,7 @@ class Subject:
 
     @property
     def exact(self) -> Reference:
-        """The reference solution; raises :class:`codegen.errors.SceneError` if there is no reference
+        """The reference solution. Raises :class:`codegen.errors.SceneError` if there is no reference
         solution.
         """
         if isinstance(self.exact_or_reason, str):

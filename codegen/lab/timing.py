@@ -1,12 +1,12 @@
 """The CPU time of a call: the least time of several batches of repeated calls in one process.
 
-Other processes can only increase a measured time. The least time is therefore the best estimate, whereas a
-mean time depends on the load of the machine. A call from Python takes some time before the first step. The
-program measures this overhead with a run of zero steps and subtracts it, so that short and long runs can be
+Other processes can only increase a measured time. Therefore the least time is the best estimate. A mean time
+would depend on the load of the machine. A call from Python takes some time before the first step. The program
+measures this overhead with a run of zero steps and subtracts the overhead, so that short and long runs can be
 compared.
 
-The function :func:`span_times` times every run of a comparison of efficiency: runs of emitted methods, with
-equal steps or with step-size control, and runs of the integrators of other software.
+The function :func:`span_times` times all runs that are compared: runs of emitted methods, with equal steps or
+with step-size control, and runs of the integrators of other software.
 """
 
 from __future__ import annotations
@@ -34,25 +34,26 @@ steps or RESOLVED seconds. The overhead of a call is about a hundredth of RESOLV
 
 CONFIRMED, MOST = 0.03, 21
 """The least time of all batches counts as confirmed if some other batch takes at most (1 + CONFIRMED) times
-as long. Otherwise further batches are run; the total number of batches is at most MOST.
+as long. Otherwise further batches are run, at most MOST batches in all.
 """
 
 SHORT = 1e-3
-"""A run that takes less than SHORT seconds is measured again if its time without the overhead of the call is
-too uncertain (:data:`RESOLUTION`)."""
+"""A run of less than SHORT seconds is measured again if its time without the overhead of the call is too
+uncertain (:data:`RESOLUTION`)."""
 
 RESOLUTION = 0.1
-"""The time of a run without the overhead is resolved if its uncertainty is at most this fraction of the time.
+"""The largest accepted uncertainty of the time of a run without the overhead, as a fraction of the time.
+
 The uncertainty is the difference of the two fastest batches of the run, plus the difference of the two
 fastest batches of the overhead.
 """
 
 AGAIN = 3
-"""The largest number of repeated measurements of a run whose time is not resolved."""
+"""The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""If the time of a run without the overhead is less than LEAST_SHARE times the time with the overhead, it is
-replaced by this bound. Therefore no run has the time zero.
+"""The time of a run without the overhead counts as at least LEAST_SHARE times the time with the overhead.
+Therefore no run has the time zero.
 """
 
 
@@ -92,11 +93,12 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
 
 
 def spans(run: Callable[[int], object], steps: int) -> int:
-    """Return the number of time spans over which a run is timed; the run has ``steps`` steps for each span.
+    """Return the number of time spans over which a run is timed.
 
-    ``run(n)`` runs over n spans. The number of spans is doubled while the run takes less than
-    :data:`RESOLVED` seconds. It is not doubled if the longer run would have more than :data:`LEAST_STEPS`
-    steps, or if the longer run fails, for example because the solution does not exist at later times.
+    ``run(n)`` runs over n spans, with ``steps`` steps for each span. The number of spans is doubled while the
+    run takes less than :data:`RESOLVED` seconds. The number is not doubled if the longer run would have more
+    than :data:`LEAST_STEPS` steps, or if the longer run fails. For example, the solution may not exist at
+    later times.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -148,12 +150,11 @@ class Overhead:
 def span_times(
     run: Callable[[int], int], overhead: Overhead, batch: float = BATCH, batches: int = BATCHES
 ) -> list[float]:
-    """Return the CPU seconds of a run over one time span, without the overhead of a call: one value for each
-    batch, in increasing order.
+    """Return the CPU seconds of a run over one time span, without the overhead of a call.
 
-    ``run(n)`` runs over n time spans and returns the number of steps. A short run is timed over several time
-    spans (:func:`spans`), and its time is multiplied by the fraction of the steps that belong to one time
-    span.
+    The result contains one value for each batch, in increasing order. ``run(n)`` runs over n time spans and
+    returns the number of steps. A short run is timed over several time spans (:func:`spans`). Its time is
+    multiplied by the fraction of the steps that belong to one time span.
     """
     steps = run(1)
     count = spans(run, steps)
@@ -182,8 +183,8 @@ def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list
 
 
 def spread(times: Sequence[float]) -> float | None:
-    """Return the relative spread s of sorted times: three quarters of them are at most (1 + s) t, where t is
-    the smallest time. The result is None if the smallest time is zero.
+    """Return the relative spread s of sorted times. Three quarters of the times are at most (1 + s) t, where
+    t is the smallest time. The result is None if the smallest time is zero.
 
     >>> spread((1.0, 1.25, 1.5, 9.0)), spread((0.0, 1.0))
     (0.5, None)
@@ -203,8 +204,8 @@ def _batch(call: Callable[[], object], calls: int) -> float:
 
 
 def timings(run: Callable[[int], object], steps: Sequence[int], batch: float = BATCH) -> tuple[Timing, ...]:
-    """Return, for each n of ``steps``, the CPU time of ``run(n)`` minus that of ``run(0)``, a run of zero
-    steps. A negative difference is replaced by zero."""
+    """Return, for each n of ``steps``, the CPU time of ``run(n)`` minus the CPU time of ``run(0)``, a run of
+    zero steps. A negative difference is replaced by zero."""
     overhead = cost(lambda: run(0), batch)
 
     def timing(n: int) -> Timing:

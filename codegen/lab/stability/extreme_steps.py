@@ -1,9 +1,9 @@
 """Single steps on extreme input: emitted code is compared with the interpreter in 60 digits.
 
 The result of a step is compared with the exact result and with probes. A probe is a step in 60 digits with
-simulated rounding errors: the input, the result of every operation of the step program, and both sides of the
-equations of an implicit step are changed by one rounding error. The difference between the probes and the
-exact result shows the number of digits that the input *determines*.
+simulated rounding errors. The input, the result of every operation of the step program, and both sides of
+implicit equations are changed by one rounding error. The difference between the probes and the exact result
+shows the number of digits that the input *determines*.
 
 - A result is *accurate* if it has at least :data:`LEAST` correct digits and rounding explains its error.
 - A result is *undetermined* if rounding explains its error but fewer digits are correct. For example, a
@@ -11,14 +11,14 @@ exact result shows the number of digits that the input *determines*.
 - A result is *wrong* if it is finite and rounding does not explain its error.
 
 Correct digits are counted separately for each block of the state, such as a group element or a momentum. They
-are relative to the size of the block before or after the step, whichever is larger. Numbers below the
-smallest normal double count as zero.
+are relative to the larger of the sizes of the block before and after the step. Numbers below the smallest
+normal double count as zero.
 
-The equations of a long implicit step have several solutions. If fixed-point iteration converges in the
-interpreter, the exact result is computed from its solution. Otherwise Newton's method in 60 digits starts
-from the solution that emitted code has computed. All targets use the same algorithm, so the solution is read
-from a target that returns the solved unknowns. Newton's method then converges to a nearby solution, or fails
-if there is no nearby solution.
+The equations of a long implicit step can have several solutions. If fixed-point iteration converges in the
+interpreter, the exact result is computed from the solution of the iteration. Otherwise Newton's method in 60
+digits starts from the solution that emitted code has computed. Newton's method then converges to a nearby
+solution, or fails if there is no nearby solution. The solution of the emitted code is read from a target that
+returns the solved unknowns, because all targets use the same algorithm.
 """
 
 from __future__ import annotations
@@ -51,11 +51,11 @@ if TYPE_CHECKING:
 DIGITS = 60
 EPSILON = 2.0**-53
 TINY = 2.0**-1022
-"""The smallest normal double; results below TINY count as zero."""
+"""The smallest normal double. Results below TINY count as zero."""
 
 ROUNDINGS = 256.0
-"""Let c be the change of the result of a step if every input and every operation is rounded once. Rounding
-explains the error of the step if the error is at most ROUNDINGS times c.
+"""Rounding explains the error of a step if the error is at most ROUNDINGS times the change of the result that
+is caused by one rounding error in every input and every operation.
 """
 
 LEAST = 3
@@ -69,8 +69,8 @@ interpreter.
 """
 
 PATIENCE = 100
-"""The largest number of fixed-point iterations for a step of usual size. If they do not converge, Newton's
-method is used.
+"""The largest number of fixed-point iterations for a step of usual size. If the iteration does not converge,
+Newton's method is used.
 """
 
 ACCURATE, WRONG = "accurate", "WRONG"
@@ -94,10 +94,11 @@ class Case:
 
 @dataclass(frozen=True)
 class Answer:
-    """The verdict on a step from extreme input: ``accurate``, a status message, ``undetermined``, ``WRONG``.
+    """The verdict on a step with extreme input: ``accurate``, a status message, ``undetermined`` or
+    ``WRONG``.
 
     ``error`` is the largest relative error of a block of the state. ``determined`` is the number of digits
-    that the input determines. Both are None if the step has no result.
+    that the input determines. ``error`` and ``determined`` are None if the step has no result.
     """
 
     case: Case
@@ -106,8 +107,8 @@ class Answer:
     determined: float | None = None
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data. If the state consists of zeros, the number of determined digits is infinite.
-        JSON has no infinity, so the number is then null.
+        """Return plain data, which can be written as JSON. If the state consists of zeros, the number of
+        determined digits is infinite. JSON has no infinity, so infinity becomes None.
         """
         digits = self.determined
         return {
@@ -163,7 +164,7 @@ def _firsts(compiled: Compiled) -> list[int]:
 
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
     """Return the state in which momenta, points on which rotations act, and elements of abelian groups are
-    multiplied by ``scale``. The result is None if the state has no such part or if a number overflows.
+    multiplied by ``scale``. The result is None if there is nothing to multiply or if a number overflows.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:
@@ -178,8 +179,8 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
-    """Return |f(y)| for the given state y: if the group consists of rotations, this is the angle of rotation
-    per unit of time."""
+    """Return |f(y)| for the state y. If the group consists of rotations, |f(y)| is the angle of rotation per
+    unit of time."""
     field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
     (value,) = field.apply(domain, "field", None, (tuple(state), t))
@@ -241,8 +242,8 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
     """Return the state after the step in 60 digits, and the states after the probes, which are steps with
     simulated rounding errors.
 
-    The equations of a long step contain differences of numbers of the size of h^2. These differences have
-    fewer correct digits than the numbers, so Newton's method solves these equations in more than 60 digits.
+    The equations of a long step contain differences of numbers as large as h^2. The differences have fewer
+    correct digits than the numbers. Therefore Newton's method solves these equations in more than 60 digits.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -268,10 +269,10 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
 
 
 def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
-    """Make one step with emitted code. Return the solutions of its implicit equations: one list of numbers
-    for each block of equations, in the order in which the blocks are solved.
+    """Make one step with emitted code, and return the solutions of its implicit equations.
 
-    The result is None if the step fails or has no implicit equations.
+    The result contains one list of numbers for each block of equations, in the order in which the blocks are
+    solved. The result is None if the step fails or has no implicit equations.
     """
     widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
     if not widths:
@@ -289,9 +290,9 @@ class Rounding(BallDomain):
     """Arithmetic with many digits that changes the result of every operation by one rounding error of a
     double.
 
-    Two rounding errors are added to the right-hand side of every equation: the first is relative to this
-    right-hand side, the second is relative to the right-hand side of the next equation. The signs of all
-    errors are random, but they do not change during a step, so that the equations remain smooth.
+    Two rounding errors are added to the right-hand side of every equation. The first error is relative to
+    this right-hand side, and the second error is relative to the right-hand side of the next equation. The
+    signs of all errors are random. They do not change during a step, so that the equations remain smooth.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -341,10 +342,11 @@ def precise_step(
     """Return the state after one step of the program as mpmath numbers with many digits.
 
     ``limit`` is the largest number of iterations for implicit equations. If ``newton`` is False, only
-    fixed-point iteration is used. ``near``, if given, contains the start values of Newton's method for each
-    block of implicit equations, and the call replaces them by the solutions, as mpmath numbers. ``probe`` is
-    the seed of the random rounding errors that are added to each operation; if ``probe`` is None, none are
-    added. ArithmeticError or ValueError is raised if a number of the step is not a finite real number.
+    fixed-point iteration is used. ``near`` may contain the starting values of Newton's method for each block
+    of implicit equations. The function then replaces these values by the solutions, as mpmath numbers.
+    ``probe`` is the seed of the random rounding errors that are added to each operation, or None for a step
+    without rounding errors. ArithmeticError or ValueError is raised if a number of the step is not a finite
+    real number.
     """
     domain = BallDomain(h, digits) if probe is None else Rounding(h, digits, probe)
     context = mpmath_context(digits)

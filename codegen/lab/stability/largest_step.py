@@ -1,10 +1,9 @@
-"""The largest usable step of a method on a scene, by bisection, and the reason why longer steps are not
-usable.
+"""The largest usable step of a method on a scene, and the reason why longer steps are not usable.
 
-A number of equal steps over the span is usable if no step fails and the final error is below a tenth of the
-state's size. If the scene conserves an energy, the energy must also change by at most a tenth of its size. If
-n is the smallest usable number of steps, the reported reason says why n - 1 steps are not usable: a solver
-failed, a number was not finite, the energy changed too much, or the error was too large.
+A number of equal steps over the span is usable if no step fails and the final error is at most a tenth of the
+size of the state. If the scene conserves an energy, the energy must also change by at most a tenth of its
+size. Bisection finds the smallest usable number n of steps. The reason states why n - 1 steps are not usable.
+For example, a solver failed, or the error was too large.
 """
 
 from __future__ import annotations
@@ -27,11 +26,11 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """The smallest usable number of steps over the span, the step size, and the reason why one step less is
+    """The smallest usable number of steps over the span, the step size, and the reason why one step fewer is
     not enough.
 
-    If no number of steps up to :data:`MOST` is usable, ``h`` and ``steps`` are None, and ``reason`` is the
-    reason why the last number is not usable.
+    If no number of steps up to :data:`MOST` is usable, ``h`` and ``steps`` are None, and ``reason`` explains
+    why the last number is not usable.
     """
 
     h: float | None
@@ -44,7 +43,7 @@ class Limit:
 
 
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
-    """Return the largest usable step. The number of steps is doubled until it is usable; then bisection finds
+    """Return the largest usable step. The number of steps is doubled until it is usable. Bisection then finds
     the smallest usable number.
     """
     span = compiled.scene.span[1] - compiled.scene.span[0]
@@ -64,7 +63,7 @@ def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit
 
 
 def _failure(compiled: Compiled, runner: Emitted, exact: Reference, steps: int) -> str | None:
-    """Return the reason why a number of steps is not usable; None if it is usable."""
+    """Return the reason why a number of steps is not usable, or None if the number is usable."""
     scene = compiled.scene
     first, last = scene.span
     h = float(Fraction(last - first) / steps)

@@ -22,13 +22,13 @@ SLACK = 1e-9
 
 @dataclass(frozen=True)
 class Quotient:
-    """A rational function of a complex number; coefficients are in ascending order of powers."""
+    """A rational function of a complex number. The coefficients are in ascending order of powers."""
 
     numerator: tuple[float, ...]
     denominator: tuple[float, ...]
 
     def __call__(self, z: complex) -> complex:
-        """Return the value at z; it is infinity at a pole."""
+        """Return the value at z, or infinity if z is a pole."""
         top, bottom = (_horner(row, z) for row in (self.numerator, self.denominator))
         return top / bottom if bottom else complex("inf")
 
@@ -47,7 +47,7 @@ class Region:
     imaginary: float
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data; an unbounded interval is null."""
+        """Return plain data for JSON. The length of an unbounded interval becomes None."""
         return {
             "real": None if self.real == float("inf") else self.real,
             "imaginary": None if self.imaginary == float("inf") else self.imaginary,

@@ -1,8 +1,9 @@
-"""Order reduction: the observed order on stiff variants of a scene, for steps longer than the time scale of
-the fast motion.
+"""Measures order reduction: the observed order on stiff variants of a scene, for long steps.
 
-Steps are halved, beginning with one step over the span. In the stiff regime, the product of h and the rate of
-the fast motion is above one. The median of the slopes in this regime is compared with the stated order.
+A stiff variant has a fast motion with a known rate. The steps are halved, beginning with one step over the
+span. In the stiff regime, the product of the step size h and the rate is above one. A slope is the slope of
+log(error) against log(h) between two runs. The median of the slopes in the stiff regime is compared with the
+stated order.
 """
 
 from __future__ import annotations
@@ -38,8 +39,8 @@ CLOSE = 0.1
 class OrderReduction:
     """The runs on a stiff variant, as triples (h, error or None, reason for a failure).
 
-    ``rate`` is the rate of the fast motion. ``stated`` is the order that the order conditions give, and
-    ``observed`` is the order for steps longer than 1/``rate``; it is None if there is no slope.
+    ``rate`` is the rate of the fast motion. ``stated`` is the order that the order conditions give.
+    ``observed`` is the order for steps longer than 1/``rate``, or None if there is no slope.
     """
 
     variant: str
@@ -64,7 +65,7 @@ class OrderReduction:
 
 
 def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> OrderReduction:
-    """Return the runs of a method on a stiff variant; raise MethodError if the method cannot be compiled for
+    """Return the runs of a method on a stiff variant. Raise MethodError if the method cannot be compiled for
     the variant.
     """
     scene = variant.scene
@@ -104,7 +105,7 @@ def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> 
 def _verdict(
     stated: int, observed: float | None, runs: Sequence[StiffRun], size: float, variant: StiffVariant
 ) -> str:
-    """Return one sentence: no step size is usable, the largest usable step size, or the observed order."""
+    """Return one sentence on the usable step sizes or on the observed order."""
     close = [h for h, e, _ in runs if e is not None and e < CLOSE * size]
     if not close:
         failed = [why for _, e, why in runs if e is None]

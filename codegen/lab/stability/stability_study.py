@@ -24,9 +24,10 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Findings:
-    """The results of all tests that run the method: the largest usable step (``limit``), the verdicts on
-    steps with extreme input (``answers``), the runs on stiff variants, and the endurance runs. Linear
-    stability is not included, because it is computed from the tableau. ``notes`` are the reasons why stiff
+    """The results of all stability tests that run the method.
+
+    ``limit`` is the largest usable step. ``answers`` are the verdicts on steps with extreme input. ``stiff``
+    contains the runs on stiff variants, and ``endurance`` the long runs. ``notes`` are the reasons why stiff
     variants were not tested.
     """
 
@@ -48,7 +49,8 @@ class Stability:
 
     @property
     def wrong(self) -> tuple[Answer, ...]:
-        """The results of steps with extreme input whose errors cannot be explained by rounding."""
+        """The wrong results of steps with extreme input. Rounding does not explain the errors of these
+        results."""
         return tuple(a for a in self.findings.answers if a.verdict.startswith(WRONG))
 
     @property
@@ -105,11 +107,11 @@ class StiffScenes:
 def stability(
     scene: Problem, methods: Sequence[Method], progress: Progress, *, endurance: bool = True
 ) -> Iterator[Stability | NotTested]:
-    """Yield the stability of each method on a scene; if ``endurance`` is True, runs of many steps are
-    included.
+    """Yield the stability of each method on a scene.
 
-    For a method that cannot be tested, :class:`NotTested` with the reason is yielded. If the scene has no
-    reference solution, the largest usable step is not measured.
+    If ``endurance`` is True, runs of many steps are included. For a method that cannot be tested, the result
+    is a :class:`NotTested` with the reason. If the scene has no reference solution, the largest usable step
+    is not measured.
     """
     progress(f"{scene.name}: reference solution")
     exact = reference_or_reason(scene)
@@ -133,8 +135,8 @@ def reference_or_reason(scene: Problem) -> Reference | str:
 
 
 def stiff_scenes(scene: Problem, progress: Progress) -> StiffScenes:
-    """Return the stiff variants of a scene with their reference solutions, and the reasons why other variants
-    have none."""
+    """Return the stiff variants of a scene with their reference solutions, and notes on variants without a
+    reference solution."""
     variants: list[tuple[StiffVariant, Reference]] = []
     notes: list[str] = []
     for variant in stiff_variants(scene):
