@@ -41,9 +41,8 @@ class StepFailed(ArithmeticError):
     """The error of a failed step: its status, the number of steps completed before it, and the state after
     these steps.
 
-    If the step belongs to an adaptive run or to a call of ``integrate``, ``arrival`` contains the state after
-    the last successful step, its time, and the size of the next step. The run can be continued from this
-    state.
+    In an adaptive run or a call of ``integrate``, ``arrival`` contains the state after the last successful
+    step, the time of this state, and the size of the next step. The run can be continued from this state.
     """
 
     arrival: Arrival | None = None
@@ -67,7 +66,7 @@ class Arrival:
     accepted: int
     rejected: int
     states: State = None
-    """The states at the times ``t_eval``; None if no such times were given."""
+    """The states at the times ``t_eval``, or None if no such times were given."""
     crossings: tuple[Crossing, ...] = ()
     """The zeros of event functions that a run of ``integrate`` has found, in the order of the run."""
     status: Status = Status.OK
@@ -122,7 +121,7 @@ class Begun:
     solvers: tuple[str, ...] = ()
 
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
-        """Return the error of a failed step; its state has the type of the caller's state.
+        """Return the error of a failed step. The state in the error has the type of the caller's state.
 
         If an implicit block did not converge, the message recommends shorter steps, or a solver that the
         module does not use.

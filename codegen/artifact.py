@@ -41,10 +41,9 @@ class Artifact:
         return self.manifest["module"], self.manifest["target"]
 
     def write(self, directory: str | Path) -> list[Path]:
-        """Write files and manifest into a folder, which is created if it is missing; return their paths.
-
-        Other modules of the folder are kept. InputError is raised if the folder cannot be written to, or if a
-        module of another scene or method has the same name.
+        """Write the files and the manifest into a folder, and return their paths. A missing folder is
+        created. Other modules of the folder are not changed. InputError is raised if the folder cannot be
+        written to, or if a module of another scene or method has the same name.
         """
         folder = Path(directory)
         try:
@@ -106,7 +105,7 @@ def manifest_text(entries: list[dict[str, Any]]) -> str:
 
 
 def entries_of(folder: Path) -> list[dict[str, Any]]:
-    """Return the entries of a folder's manifest; the list is empty if there is no manifest."""
+    """Return the entries of a folder's manifest, or an empty list if there is no manifest."""
     path = folder / MANIFEST
     try:
         entries = json.loads(content_of(path, limit=MAX_WRITTEN_BYTES))["modules"]
@@ -148,7 +147,7 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
         with locked(folder, shared=True):
             return _read(folder, entries_of(folder), module, target)
     # A folder that cannot be opened cannot be locked, and ``locked`` raises OSError. The module is then read
-    # without a lock; if this also fails, InputError is raised with the reason.
+    # without a lock. If this also fails, InputError is raised with the reason.
     except OSError:
         return _read(folder, entries_of(folder), module, target)
 
@@ -179,11 +178,11 @@ def _read(folder: Path, entries: list[dict[str, Any]], module: str, target: str)
 
 
 def write_text(path: Path, text: str) -> Path:
-    """Write a file atomically; return its path."""
+    """Write a file atomically, and return its path."""
     return write_texts({path: text})[0]
 
 
 def write_texts(texts: Mapping[Path, str]) -> list[Path]:
-    """Write files in order, each atomically; return their paths."""
+    """Write files in order, each atomically, and return their paths."""
     write_files({path: text.encode() for path, text in texts.items()})
     return list(texts)

@@ -37,8 +37,9 @@ class CompilerMissing(InputError):
 
 
 class CompileError(InputError):
-    """Raised if the compiler rejects the source; the error contains the message of the compiler. It is also
-    raised if the compiler takes too long."""
+    """Raised if the compiler rejects the source or takes too long. The error contains the message of the
+    compiler.
+    """
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,7 @@ def build(
     again: bool = False,
     seconds: float | None = None,
 ) -> Path:
-    """Return the path of a shared object compiled from C files; ``files`` maps their names to their texts.
+    """Return the path of a shared object compiled from C files. ``files`` maps file names to texts.
 
     A cached file is used if its content has the recorded digest. If ``again`` is true, the files are always
     compiled. ``seconds`` limits the time of the compiler. Errors: CompilerMissing, CompileError, and
@@ -142,8 +143,9 @@ def compile_files(
     compiler: Compiler,
     seconds: float | None = None,
 ) -> None:
-    """Write files into a directory and compile its C sources; raise CompileError if the compiler fails, or if
-    it does not end within ``seconds``."""
+    """Write files into a directory, and compile the C sources. CompileError is raised if the compiler fails,
+    or does not end within ``seconds``.
+    """
     for name, text in files.items():
         (directory / name).write_text(text, encoding="utf-8")
     sources = [name for name in sorted(files) if name.endswith(".c")]
@@ -180,8 +182,8 @@ def _finished(
     """Run a compiler and return its output. If the call is interrupted or exceeds the time limit, all
     processes of the compiler are killed.
     """
-    # A compiler starts other programs, such as an assembler. They would continue if only the compiler were
-    # killed, so all of them belong to one process group.
+    # A compiler starts other programs, such as an assembler. These programs would continue if only the
+    # compiler were killed, so all processes belong to one process group.
     with subprocess.Popen(
         command,
         cwd=directory,

@@ -30,7 +30,8 @@ WORKING = "building-"
 
 SETTLED = 60.0
 """The age in seconds below which temporary files and working folders are never removed. Older temporary files
-are removed. Older working folders are removed unless a process has locked them."""
+are removed. Older working folders are removed if no process has locked them.
+"""
 
 
 def cache_directory() -> Path:
@@ -53,8 +54,9 @@ def cache_directory() -> Path:
 
 
 def _require_private(folder: Path) -> None:
-    """Remove the access of other users to the folder; raise an OSError if another user owns the folder or
-    still has access."""
+    """Remove the access of other users to the folder. OSError is raised if another user owns the folder or
+    still has access.
+    """
     if not hasattr(os, "geteuid"):
         return
     # If the folder is a symbolic link, the link must belong to the user, too.
@@ -70,8 +72,10 @@ def _require_private(folder: Path) -> None:
 
 @cache
 def temporary_directory(why: str) -> Path:
-    """Return a temporary folder for this process alone. It is removed when the process ends. A warning is
-    logged once; it contains ``why``, the reason why the cache cannot be used."""
+    """Return a temporary folder for this process alone, which is removed when the process ends.
+
+    A warning is logged once. The warning contains ``why``, the reason why the cache cannot be used.
+    """
     logging.getLogger("orderconds").warning(
         "orderconds: the cache cannot be used (%s); compiled modules are kept in a temporary folder until "
         "the process ends; set XDG_CACHE_HOME to a folder that you own",
@@ -89,8 +93,8 @@ def _remove(folder: Path, owner: int) -> None:
 
 
 def recall(entry: Path) -> bytes | None:
-    """Return the content of an entry; None if the file is missing, damaged, too large, or belongs to another
-    user.
+    """Return the content of an entry, or None if the file is missing, damaged, too large, or belongs to
+    another user.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     entry = Path(folder) / "x"

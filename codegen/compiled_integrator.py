@@ -29,8 +29,8 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # The library does not contain this function. It is closed before the error is raised, because
-            # otherwise a later ``dlopen`` of a rebuilt library with the same path would return the old
+            # The library does not contain this function. The library is closed before the error is raised.
+            # Otherwise a later ``dlopen`` of a rebuilt library with the same path would return the old
             # library.
             self._ffi.dlclose(self._library)
             raise

@@ -126,8 +126,8 @@ def compile_method(
     an embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
-    times, ``events`` is the number of event functions of this run, and ``dense`` uses the continuous
-    extension of the tableau at output times. ``compensate`` extends the state by the carries of compensated
+    times. ``events`` is the number of event functions of this run. ``dense`` uses the continuous extension of
+    the tableau at output times. ``compensate`` extends the state by the rounding errors of compensated
     summation (:mod:`codegen.kernel.compensation`). Errors: subclasses of InputError.
     """
     request = RunRequest(**run)
@@ -269,8 +269,8 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
         what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
     if scene.semilinear is not None:
-        # ``coordinates`` contains the closed form of dexp^{-1}. It is removed if the method has a cut-off,
-        # because such a method truncates the series of dexp^{-1}.
+        # ``coordinates`` contains the closed form of dexp^{-1}. A method with a cut-off truncates the series
+        # of dexp^{-1}, so the closed form is removed.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
@@ -314,19 +314,19 @@ def emit(
     """Return the integrator of a method on a scene as a module in a target language.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a problem. ``method`` is
-    ``FAMILY:TABLEAU``, ``TABLEAU``, or an :class:`orderconds.Tableau`. A tableau is used in ``family``; the
-    default is the family in which its order is highest. External names begin with ``prefix``; the default is
-    made from the names of scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are signals
-    of the scene that become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``.
+    ``FAMILY:TABLEAU``, ``TABLEAU``, or an :class:`orderconds.Tableau`. ``family`` is the family of a tableau,
+    by default the family in which its order is highest. External names begin with ``prefix``, by default made
+    from the names of scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are signals of
+    the scene that become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``.
     ``adaptive`` adds a run with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver
     of implicit blocks: ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest.
     ``form`` is the key of a classical form of the scene, by default the equations as printed. ``batch`` adds
     a C function that steps many independent systems (:meth:`codegen.integrator.Integrator.run_batch`).
     ``integrate`` adds a run to a given end time with output at given times and, if adaptive, bounds on step
-    sizes. ``events`` is the number of event functions of this run; ``dense`` uses the continuous extension of
-    the tableau at output times. ``compensate`` extends the state by the carries of compensated summation,
-    which are zero initially. Errors: the errors of :func:`compile_method`, UnknownName for an unknown target,
-    and InputError for a prefix that is not a valid name in C.
+    sizes. ``events`` is the number of event functions of this run. ``dense`` uses the continuous extension of
+    the tableau at output times. ``compensate`` extends the state by the rounding errors of compensated
+    summation, which are zero initially. Errors: the errors of :func:`compile_method`, UnknownName for an
+    unknown target, and InputError for a prefix that is not a valid name in C.
     """
     known_target(target)
     known_precision(precision)
@@ -427,7 +427,7 @@ def emit_kernel(
     about: Mapping[str, Any] | None = None,
     precision: str = DOUBLE.name,
 ) -> Artifact:
-    """Return a kernel as a module in a target language; ``about`` is added to the manifest entry.
+    """Return a kernel as a module in a target language. ``about`` is added to the manifest entry.
 
     Every external C name and every file name begins with the prefix. UnknownName is raised for an unknown
     target, InputError if the target or the precision is not available for this kernel.

@@ -47,8 +47,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # A field that depends on t alone has equal values in stages at the same time, so the weights of the
-    # method and of the embedded method may give the same result although their orders differ.
+    # A field that depends on t alone has equal values in stages at the same time. Therefore the method and
+    # the embedded method may give the same result although their orders differ.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: if the field does not depend on the state, the method "

@@ -1,4 +1,6 @@
-"""Errors that a user of the compiler can cause; see :mod:`orderconds.errors` for the form of the message."""
+"""Errors that a user of the compiler can cause. :mod:`orderconds.errors` describes the form of the
+message.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,7 @@ class MethodError(InputError):
 class UnclaimedTableau(MethodError):
     """A tableau that claims no order in any family that accepts the scene.
 
-    ``claimed`` are the families in which the tableau claims an order; none of these families accepts the
+    ``claimed`` are the families in which the tableau claims an order. None of these families accepts the
     scene.
     """
 

@@ -30,8 +30,11 @@ class Event:
 
     @property
     def stops(self) -> int:
-        """The number that tells emitted code which zeros end the run: zeros at which the values increase (1),
-        zeros at which the values decrease (2), all zeros (3), or no zeros (0)."""
+        """The code for the zeros that end the run.
+
+        The code is 1 for zeros at which the values increase, 2 for zeros at which they decrease, 3 for all
+        zeros, and 0 if no zero ends the run.
+        """
         return {RISING: 1, FALLING: 2, 0: 3}[self.direction] if self.terminal else 0
 
 
@@ -49,7 +52,7 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
     """Return the items of a list of functions and events as events. A function becomes an event that does not
     end the run.
 
-    ``most`` is the number of events that the emitted module accepts; ValueError is raised for more events, or
+    ``most`` is the number of events that the emitted module accepts. ValueError is raised for more events, or
     for a direction other than 1, -1 and 0. TypeError is raised for other objects.
 
     >>> events_of([lambda t, y: y[0]], 1)[0].stops

@@ -135,8 +135,9 @@ def _by_protocol(
 
 
 def read_steps(texts: tuple[str, ...]) -> list[int]:
-    """Return the numbers of steps in texts such as ``20,40,80``, sorted and without duplicates; raise
-    :class:`InputError` for any other text.
+    """Return the numbers of steps in texts such as ``20,40,80``, sorted and without duplicates.
+
+    :class:`InputError` is raised for any other text.
 
     >>> read_steps(("40,20", "80"))
     [20, 40, 80]
@@ -150,8 +151,10 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
 
 
 def show(result: Convergence | NotEmitted, first: bool) -> None:
-    """Print the runs as a table with the verdict below it; if the method cannot be emitted, print the reason.
-    If ``first`` is false, print an empty line before."""
+    """Print the runs as a table, followed by the verdict. If the method cannot be emitted, print the reason.
+
+    If ``first`` is false, an empty line is printed first.
+    """
     from codegen.lab.orders.convergence import NotEmitted
 
     if not first:

@@ -125,11 +125,10 @@ def command(
     A warning is printed if no solver of an implicit method converges in the first steps from the initial
     state of the scene.
 
-    Without -o no file is written; --explain or --json is then required and prints a description of the
-    module.
+    Without -o no file is written. In this case --explain or --json is required and prints a description of
+    the module.
 
-    \b
-    Examples:
+    \b Examples:
         orderconds emit free_rigid_body --method cf4 -o out
         orderconds emit dipole -m vcg:midpoint -t c -t python -o out
         orderconds emit driven_spin -m ambient:dop853 --adaptive --parameter nu -o out
@@ -217,8 +216,8 @@ def explained(compiled: Compiled) -> dict[str, object]:
 
 
 def family_note(compiled: Compiled, method: str) -> str:
-    """Return a note with the chosen family if the scene is Hamiltonian and the user gave only a tableau;
-    otherwise return ''.
+    """Return a note about the chosen family if the scene is Hamiltonian and the user gave only a tableau,
+    otherwise ''.
 
     On a Hamiltonian scene, different families preserve different quantities.
     """
@@ -250,8 +249,8 @@ def _warn(compiled: Compiled, scene: str, method: str) -> None:
 def explanation(compiled: Compiled) -> str:
     """Return the text that ``--explain`` prints.
 
-    It contains the program before the first compiler pass and after each pass, the operation counts, and the
-    features that the emitted code omits for this scene and method.
+    The text contains the program before the first compiler pass and after each pass. It also contains
+    operation counts, and the features that the emitted code omits for this scene and method.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations

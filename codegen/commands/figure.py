@@ -18,12 +18,11 @@ from orderconds.commands.screen import counting, is_shown, print_json
 def command(scene: str, name: str, parameters: tuple[str, ...], output: str, as_json: bool) -> int:
     """Draw the figure NAME of SCENE as an SVG file.
 
-    The file of the scene declares its figures; `orderconds list figures` prints those of all listed scenes.
-    Every curve comes from emitted C, which this command emits, compiles and runs. The exit status is 2 if the
-    scene has no figure of this name.
+    The file of the scene declares its figures. `orderconds list figures` prints the figures of all listed
+    scenes. Every curve comes from emitted C, which this command emits, compiles and runs. The exit status is
+    2 if the scene has no figure of this name.
 
-    \b
-    Examples:
+    \b Examples:
         orderconds figure heavy_top centre -o centre.svg
         orderconds figure dipole orders -o orders.svg
     """

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from codegen.lab.long_runs.properties import Properties
 
 FEWEST = 200
-"""The smallest number of steps that the command accepts; the fit of a drift needs this number."""
+"""The smallest number of steps that the command accepts. The fit of a drift needs this number."""
 
 
 @click.command(
@@ -111,7 +111,7 @@ def command(
 
 
 def show_properties(rows: Sequence[Properties]) -> None:
-    """Print the table of properties, one line for each method; if there are no rows, print nothing."""
+    """Print the table of properties, with one line for each method. If there are no rows, print nothing."""
     if not rows:
         return
     words = {True: "yes", False: "no", None: "-"}

@@ -54,12 +54,11 @@ def command(
 
     The whole library is searched: every family that accepts the scene, with equal steps and with step-size
     control. The error is the distance from a reference solution at the end of the span. The needs are
-    manifold (the state stays on the manifold up to rounding), symplectic (also excludes methods that lose a
-    conserved quantity in a long run), explicit (no equations are solved), adaptive (step-size control), fixed
-    (equal steps). The exit status is 1 if no method reaches the error.
+    manifold (the state stays on the manifold up to rounding), symplectic, explicit (no equations are solved),
+    adaptive (step-size control) and fixed (equal steps). The need symplectic also excludes methods that lose
+    a conserved quantity in a long run. The exit status is 1 if no method reaches the error.
 
-    \b
-    Examples:
+    \b Examples:
         orderconds recommend free_rigid_body --error 1e-8
         orderconds recommend dipole --error 1e-4 --need symplectic
     """
@@ -136,8 +135,8 @@ def searched(result: Recommendation) -> str:
 
 
 def unreached(result: Recommendation) -> str:
-    """Return the message that no method reaches the error. The message contains the smallest measured error;
-    if no error was measured, it contains the reason.
+    """Return the message that no method reaches the error. The message contains the smallest measured error.
+    If no error was measured, the message contains the reason.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
@@ -154,7 +153,7 @@ def unreached(result: Recommendation) -> str:
 
 
 def span_of(text: str) -> tuple[Fraction, Fraction]:
-    """Return the time interval (A, B) of a text A:B; raise :class:`SceneError` for any other text.
+    """Return the time interval (A, B) of a text A:B. :class:`SceneError` is raised for any other text.
 
     >>> span_of("0:5/2")
     (Fraction(0, 1), Fraction(5, 2))

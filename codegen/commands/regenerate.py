@@ -26,14 +26,13 @@ from orderconds.commands.place import FOLDER
 @click.option("--list", "listing", metavar="FILE", help="The list of modules, by default regenerate.toml.")
 @click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
-    """Rewrite the emitted modules that regenerate.toml lists; with --check report the files that differ.
+    """Rewrite the emitted modules that regenerate.toml lists. With --check, report the files that differ.
 
-    An emitted file that no listed module produces is stale. The command removes a stale file; with --check it
-    only reports the file. A file that was never emitted is unknown: the command reports it and does not
-    change it.
+    An emitted file that no listed module produces is stale. The command removes a stale file. With --check
+    the command only reports the file. A file that was never emitted is unknown: the command reports it and
+    does not change it.
 
-    \b
-    Examples:
+    \b Examples:
         orderconds regenerate --check
     """
     from codegen.regenerate import LIST, compare, contents, entries, write
@@ -62,8 +61,10 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
 
 
 def source_folder() -> Path:
-    """Return the folder ``generated/`` of the source tree that contains this package; raise a usage error if
-    there is no such source tree."""
+    """Return the folder ``generated/`` of the source tree that contains this package.
+
+    A usage error is raised if there is no such source tree.
+    """
     root = Path(__file__).resolve().parents[2]
     pyproject = root / "pyproject.toml"
     if pyproject.is_file() and 'name = "orderconds"' in pyproject.read_text(encoding="utf-8").splitlines():

@@ -70,16 +70,15 @@ def command(
 
     Writes DIR/SCENE.html for each scene, and DIR/index.html with the fastest methods for every scene. The
     measurements take one to two minutes for a Hamiltonian scene, about half a minute for a field scene.
-    Several scenes are measured at the same time. All measured times are CPU times; they are a little longer
-    than with --processes 1, because the processors share caches. With more than eight scenes, searches are
-    shorter, and the growth of rounding errors is not measured. An interrupted report continues when the
-    command is repeated. If a method fails, its row contains the reason. A browser shows the pages without
-    a network connection. The exit status is 1 in three cases: an observed order differs from the computed
+    Several scenes are measured at the same time. All measured times are CPU times. These times are a little
+    longer than with --processes 1, because the processors share caches. With more than eight scenes, searches
+    are shorter, and the growth of rounding errors is not measured. An interrupted report continues when the
+    command is repeated. If a method fails, its row contains the reason. A browser shows the pages without a
+    network connection. The exit status is 1 in three cases: an observed order differs from the computed
     order, a step with extremely large or small numbers gives a wrong result, or a method fails. The pages are
     written in all cases.
 
-    \b
-    Examples:
+    \b Examples:
         orderconds report free_rigid_body dipole --quick -o report
         orderconds report top.py --method cf4 --only orders -o report
     """

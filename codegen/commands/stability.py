@@ -38,14 +38,13 @@ def command(
     quick: bool,
     as_json: bool,
 ) -> int:
-    """Compare single steps of emitted C on extreme inputs with 60-digit results; find the largest usable
+    """Compare single steps of emitted C on extreme inputs with 60-digit results, and find the largest usable
     step.
 
     For each extreme input the result must be accurate, or the emitted code must return an error status. The
     exit status is 1 if an input fails this test, or if a method cannot be emitted for the scene.
 
-    \b
-    Examples:
+    \b Examples:
         orderconds stability free_rigid_body --method cf4 --quick
         orderconds stability --all --quick
     """

@@ -19,7 +19,7 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """Return a part that depends on the time without flows; return None for any other part.
+    """Return a part that depends on the time as a part without flows. Return None for any other part.
 
     Kicks and flows stated by the scene may depend on the time. They are recognised before this function is
     called.
@@ -35,8 +35,9 @@ KINDS: Sequence[Callable[[Formula], Part | None]] = (
     linear.recognise,
     top.recognise,
 )
-"""The functions that recognise the kinds of flow, in the order in which they are called; the first result
-other than None is used."""
+"""The functions that recognise the kinds of flow, in the order of the calls. The first result other than None
+is used.
+"""
 
 
 def recognise(problem: Problem) -> tuple[Part, ...]:

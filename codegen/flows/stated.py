@@ -39,6 +39,6 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part with the flow that its scene states; None if the scene states no flow."""
+    """Return the part with the flow that its scene states, or None if the scene states no flow."""
     formulas = formula.problem.stated.get(formula.name)
     return None if formulas is None else formula.whole(Stated(formulas))

@@ -1,8 +1,8 @@
 """Lie groups and their actions, each implemented once for all domains (:mod:`codegen.ir.domain`).
 
-One file defines one group, one file in ``actions`` one action. You can define a group or an action elsewhere.
-Inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, and use the class in a scene.
-Call :func:`register` to list the class.
+Each group has its own file, and each action has its own file in ``actions``. You can define a group or an
+action elsewhere. Inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, and use the
+class in a scene. Call :func:`register` to list the class.
 """
 
 from __future__ import annotations
@@ -112,8 +112,8 @@ def register(cls: Registered) -> Registered:
     """Add a group or an action defined elsewhere to the listings, and return the class unchanged.
 
     The function may also be used as a decorator. A scene may use a class that is not registered. A second
-    class of the same name replaces the first. :class:`SceneError` is raised for a class that is no group or
-    action, for a class with missing methods, and for a class with the name of a class of this package.
+    class of the same name replaces the first. :class:`SceneError` is raised if the class is not a group or
+    action, lacks methods, or has the name of a class of this package.
     """
     from codegen.groups.actions import ACTIONS, Action
     from codegen.groups.base import LieGroup
@@ -144,6 +144,7 @@ def listing() -> list[dict[str, str]]:
 
 
 def get(name: str) -> type[LieGroup]:
-    """Return the group class with this name; raise :class:`orderconds.errors.UnknownName` if there is
-    none."""
+    """Return the group class with this name. :class:`orderconds.errors.UnknownName` is raised if there is
+    none.
+    """
     return GROUPS.get(name)

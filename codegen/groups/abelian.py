@@ -8,7 +8,9 @@ from codegen.ir.domain import Domain
 
 
 class Abelian(LeftTranslation):
-    """A group in which all elements commute: ad and ad* are zero; Ad, Ad* and dexp* are the identity."""
+    """A group in which all elements commute. The maps ad and ad* are zero, and Ad, Ad* and dexp* are the
+    identity.
+    """
 
     abelian = True
 

@@ -64,13 +64,14 @@ class LieGroup(ABC):
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return exp(x) for x in the algebra: exp(0) = e, exp(s x) exp(t x) = exp((s + t) x).
 
-        The formula must also be valid at x = 0, in every domain. It must therefore not divide by the length
-        of x: write sin(t)/t as ``stumpff1(t^2)``.
+        The formula must also be valid at x = 0, in every domain. Therefore the formula must not divide by the
+        length of x. For example, write sin(t)/t as ``stumpff1(t^2)``.
         """
 
     @abstractmethod
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the bracket [x, y]. It must be bilinear and antisymmetric, and satisfy the Jacobi identity.
+        """Return the bracket [x, y]. The bracket must be bilinear and antisymmetric, and satisfy the Jacobi
+        identity.
 
         The sign is determined by exp(h x) exp(h y) exp(-h x) exp(-h y) = exp(h^2 [x, y] + O(h^3)).
         """

@@ -1,10 +1,10 @@
 """Capabilities: operations that some groups offer beyond the operations of every group.
 
 A group declares a capability by inheriting its class. Code that needs a capability calls
-``group.offers(Capability)``, which returns None for a group without the capability, or
-``group.require(Capability)``, which raises an error with the name of the capability. Do not use
-``isinstance``. The class of direct products inherits several capabilities, but a product has a capability
-only if all its factors have the capability.
+``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
+returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``. The
+class of direct products inherits several capabilities, but a product has a capability only if all its factors
+have the capability.
 """
 
 from __future__ import annotations
@@ -231,7 +231,7 @@ class CayleyMap(LieGroup):
 
     @abstractmethod
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return cay(x); cay(0) = e, and the derivative of cay(eps x) at eps = 0 is x."""
+        """Return cay(x). It satisfies cay(0) = e, and the derivative of cay(eps x) at eps = 0 is x."""
 
     @abstractmethod
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -251,7 +251,7 @@ class CayleyMap(LieGroup):
 
 
 class MatrixElements(MatrixRepresentation, Inverse):
-    """Elements are n x n matrices row by row, size = n^2; the matrices act on columns of n scalars.
+    """Elements are n x n matrices, row by row, with size = n^2. The matrices act on columns of n scalars.
 
     The matrix of an element is the element itself, so velocity(x, g) = hat(x) g.
     """
@@ -388,8 +388,9 @@ class DirectProduct(LieGroup):
 
 
 class CotangentBundle(LieGroup):
-    """The group is T*G for a group G, its ``base``; the coordinates of G come first, then the coordinates of
-    the momentum."""
+    """The group is T*G for a group G, its ``base``. The coordinates of G come before those of the
+    momentum.
+    """
 
     provides: ClassVar[str] = "momenta of a base group"
     base: Coadjoint

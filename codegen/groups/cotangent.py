@@ -101,7 +101,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.require(Projection).project(d, q) + mu
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the base group; the momentum may be any covector."""
+        """Return the equations of the base group. The momentum is not restricted."""
         return self.base.laws(d, self._split(g)[0])
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

@@ -54,15 +54,18 @@ class LargeGroup(LieGroup):
 
 
 class LargeRotations(LargeGroup):
-    """SO(n); emitted steps store elements of the algebra as products of small matrices
-    (:mod:`codegen.ir.array_step`)."""
+    """SO(n) for large n. Emitted steps store elements of the algebra as products of small matrices
+    (:mod:`codegen.ir.array_step`).
+    """
 
     def __init__(self, n: int) -> None:
         super().__init__(f"SO({n})", n, n * (n - 1) // 2, "rkmk, cf or cg")
 
 
 class LargeLinearGroup(LargeGroup):
-    """GL(n); emitted steps apply exponentials to vectors (:mod:`codegen.ir.linear_array_step`)."""
+    """GL(n) for large n. Emitted steps apply exponentials to vectors
+    (:mod:`codegen.ir.linear_array_step`).
+    """
 
     def __init__(self, n: int) -> None:
         super().__init__(f"GL({n})", n, n * n, "magnus, cf_magnus, fer, rkmk, cf or cg")

@@ -1,8 +1,8 @@
-"""Scalars of any domain and the linear algebra of flat tuples of them.
+"""Scalars, vectors and matrices over any domain, and their linear algebra.
 
-A vector is a tuple of scalars, a matrix is a tuple of its entries row by row. The functions use only the four
-operations and functions of the domain, so they are valid for floats, mpmath numbers, power series and
-expressions.
+A domain is a set of numbers, such as floats, mpmath numbers, power series or expressions. A vector is a tuple
+of scalars, and a matrix is a tuple of its entries row by row. The functions use only the four operations and
+the functions of the domain, so they work in every domain.
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from codegen.ir.domain import Domain
 
 
 class Scalar(Protocol):
-    """A number of a domain (:mod:`codegen.ir.domain`); the operands of an operation must be of the same
-    domain."""
+    """A number of a domain (:mod:`codegen.ir.domain`). The operands of an operation must be of the same
+    domain.
+    """
 
     def __add__(self, other: Self, /) -> Self:
         """Return the sum."""
@@ -43,7 +44,7 @@ Vector = tuple[S, ...]
 
 
 def dot(a: Vector[S], b: Vector[S]) -> S:
-    """Return sum a_i b_i; the terms are added in order."""
+    """Return sum a_i b_i. The terms are added in order."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y
@@ -93,7 +94,7 @@ def determinant(a: Vector[S], n: int) -> S:
     >>> determinant((1, 2, 3, 4), 2)
     -2
     """
-    # ``minors`` contains the minors of the last rows; the key of a minor is the tuple of its columns.
+    # ``minors`` maps tuples of columns to the minors of the last rows in these columns.
     minors: dict[tuple[int, ...], S] = {(j,): a[n * (n - 1) + j] for j in range(n)}
     for i in reversed(range(n - 1)):
         larger: dict[tuple[int, ...], S] = {}
@@ -108,24 +109,28 @@ def determinant(a: Vector[S], n: int) -> S:
 
 
 LOOPED = 5
-"""Products of matrices with at least this number of rows are loops in emitted code."""
+"""Products of matrices with at least this number of rows are loops in emitted code. Smaller products are
+formulas.
+"""
 
 
 def product(d: Domain, a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
-    """Return the product of two n x n matrices. Large matrices are multiplied by a call of a vector function,
-    small ones entry by entry."""
+    """Return the product of two n x n matrices.
+
+    Large matrices are multiplied by a call of a vector function, small matrices entry by entry.
+    """
     return matmul(a, b, n) if n < LOOPED else d.vector(f"product{n}", (*a, *b))
 
 
 WITHOUT_PIVOTS = 3
-"""Matrices with at most this number of rows are inverted by a recursion that needs no elimination."""
+"""Matrices with at most this number of rows are inverted without elimination."""
 
 
 def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
     """Return the inverse of an n x n matrix.
 
-    Small matrices are inverted by the Faddeev-LeVerrier recursion, which needs no pivots, and large matrices
-    by elimination with row exchanges.
+    Small matrices are inverted by the Faddeev-LeVerrier recursion, which needs no pivots. Large matrices are
+    inverted by elimination with row exchanges.
     """
     if n > WITHOUT_PIVOTS:
         return d.vector(f"inverse{n}", g)
@@ -142,11 +147,11 @@ def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
 
 
 def solved_near_identity(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
-    """Return the solution x of ``a`` x = ``b`` by elimination without row exchanges; ``a`` has n rows and
-    columns, ``b`` has n rows.
+    """Return the solution x of ``a`` x = ``b`` by elimination without row exchanges.
 
-    The pivots are close to 1 if ``a`` is close to the unit matrix. They are positive if the symmetric part of
-    ``a`` is positive definite, for example if ``a`` is the sum of the unit matrix and a skew matrix.
+    ``a`` has n rows and columns, and ``b`` has n rows. The pivots are close to 1 if ``a`` is close to the
+    unit matrix. The pivots are positive if the symmetric part of ``a`` is positive definite. An example is
+    the sum of the unit matrix and a skew matrix.
     """
     width = len(b) // n
     rows = [[*a[n * i : n * i + n], *b[width * i : width * i + width]] for i in range(n)]
@@ -163,7 +168,7 @@ def solved_near_identity(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
 
 
 def rational_inverse(a: Sequence[Sequence[Fraction]]) -> list[list[Fraction]] | None:
-    """Return the inverse of a rational matrix by Gauss-Jordan elimination; None for a singular matrix.
+    """Return the inverse of a rational matrix by Gauss-Jordan elimination, or None for a singular matrix.
 
     >>> rational_inverse([[Fraction(2)]]), rational_inverse([[Fraction(0)]])
     ([[Fraction(1, 2)]], None)

@@ -46,7 +46,7 @@ class Action(ABC):
             )
 
     def point_size(self, group: LieGroup) -> int | None:
-        """Return the number of coordinates of a point; None if the action does not fix the number."""
+        """Return the number of coordinates of a point, or None if the action does not fix the number."""
         return None
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:

@@ -32,7 +32,7 @@ class LeftMultiplication(Action):
         return group.expmul(d, x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return y projected onto the group; if the group has no projection, return y."""
+        """Return y projected onto the group. If the group has no projection, return y."""
         projection = group.offers(Projection)
         return y if projection is None else projection.project(d, y)
 

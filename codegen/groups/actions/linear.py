@@ -31,7 +31,7 @@ class Linear(Action):
         return rotations.rotate(d, x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """If the group preserves lengths, return y scaled to the length of ``start``; otherwise return y.
+        """Return y scaled to the length of ``start`` if the group preserves lengths, otherwise y.
 
         The factor is 1 + e/2 + 3 e^2/8 with e = 1 - (y.y)/(start.start), so the relative error of the length
         is O(e^3).

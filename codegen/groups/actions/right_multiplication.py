@@ -22,7 +22,7 @@ class RightMultiplication(Action):
     on_itself = True
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` unless the group has inverses and an adjoint map."""
+        """Raise :class:`codegen.errors.SceneError` if the group has no inverses or no adjoint map."""
         self.require(group, Inverse, where)
         self.require(group, Coadjoint, where)
 
@@ -43,7 +43,7 @@ class RightMultiplication(Action):
         return group.mul(d, y, group.exp(d, tuple(-a for a in x)))
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return y projected onto the group; if the group has no projection, return y."""
+        """Return y projected onto the group. If the group has no projection, return y."""
         projection = group.offers(Projection)
         return y if projection is None else projection.project(d, y)
 

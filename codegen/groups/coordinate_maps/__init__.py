@@ -22,7 +22,7 @@ MAPS: dict[str, CoordinateMap] = {each.name: each for each in (Cayley(), SecondK
 
 
 def coordinate_map(given: str | CoordinateMap, group: LieGroup, where: str) -> CoordinateMap | None:
-    """Return the coordinate map that a scene gives by name or as an object; None for the exponential map.
+    """Return the coordinate map that a scene gives by name or as an object, or None for the exponential map.
 
     :class:`SceneError` is raised for an unknown name, and for a map that the group does not have.
     """
