@@ -198,15 +198,15 @@ class Integrator(RunToEnd):
         t_eval: Sequence[float] | None = None,
         **parameters: float,
     ) -> Arrival:
-        """Integrate from t to end with steps as large as the tolerances allow; the first step has size ``h``.
+        """Integrate from t to end with steps as large as the tolerances allow. The first step has size ``h``.
 
         If ``t_eval`` is given, the result also has the states at these times, and a step ends at each of
         these times. The default of ``end`` is the last of these times. A batch is integrated state by state.
         The result of a batch has an array of states, and the numbers of steps are sums over the batch.
 
         TypeError is raised if the module has no run with step control (``emit(..., adaptive=True)`` adds it).
-        StepFailed is raised if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps
-        do not reach the end.
+        StepFailed is raised if a step fails, and with the status ``LIMIT`` if ``limit`` steps do not reach
+        the end.
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")
@@ -276,9 +276,9 @@ class Integrator(RunToEnd):
         """Return the states of many independent systems after ``steps`` steps of size h from time t.
 
         ``states`` has shape (N, size), one state in each row, or is a tuple of such arrays for the parts of a
-        state. A parameter is a number, or an array of N numbers. ``inputs`` are constant in all steps. They
-        are given as an array of shape (number of inputs,) or (N, number of inputs). ``out`` is an array of
-        shape (N, size) in Fortran order that receives the result. If ``out is states``, no state is copied.
+        state. A parameter is a number, or an array of N numbers. ``inputs`` are constant in all steps. Their
+        array has the shape (number of inputs,) or (N, number of inputs). ``out`` is an array of shape (N,
+        size) in Fortran order that receives the result. If ``out is states``, no state is copied.
 
         A failed system raises no error: the result contains its status (:class:`Status`), its number of
         completed steps, and its last good state. Other systems are not affected. Emit the module with

@@ -92,7 +92,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
 
 
 def _ratio(a: Vector[Fraction], b: Vector[Fraction]) -> Fraction | None:
-    """Return c with a = c b; None if there is no such number."""
+    """Return the number c with a = c b, or None if there is no such number."""
     c = next((x / y for x, y in zip(a, b, strict=True) if y), Fraction(0))
     return c if all(x == c * y for x, y in zip(a, b, strict=True)) else None
 

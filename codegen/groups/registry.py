@@ -57,7 +57,9 @@ class Registry(Generic[T]):
             del self._added[cls.__name__]
 
     def get(self, name: str) -> type[T]:
-        """Return the class with this name; raise :class:`orderconds.errors.UnknownName` if there is none."""
+        """Return the class with this name. :class:`orderconds.errors.UnknownName` is raised if there is
+        none.
+        """
         if name in self._added:
             return self._added[name]
         if name not in self.built_in:

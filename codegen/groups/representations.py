@@ -125,7 +125,7 @@ class Representation(ABC):
         )
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group if rho(g) v is the matrix of g times the column v; None otherwise."""
+        """Return the group if rho(g) v is the matrix of g times the column v, otherwise None."""
         return None
 
 

@@ -131,7 +131,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - |g|^2; the length of the result is 1 + O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - |g|^2. The length of the result is 1 + O(e^3)."""
         return rescaled(d, g, d.rational(1) - dot(g, g))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:

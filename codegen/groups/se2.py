@@ -89,8 +89,9 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (mu[1] * v - mu[2] * u, w * mu[2], -(w * mu[1]))
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g x g^-1 = (w, R u - w J a) for x = (w, u) and g with rotation R and translation a; J(a, b)
-        = (-b, a).
+        """Return g x g^-1 = (w, R u - w J a) for x = (w, u), with J(a, b) = (-b, a).
+
+        R is the rotation of g, and a is the translation of g.
         """
         c, s, a, b = g
         w, u, v = x

@@ -10,7 +10,7 @@ from codegen.ir.domain import Domain
 
 
 class SL2(CubicAd, MatrixGroup, Projection):
-    """Matrices of determinant 1, row by row; sl(2) with the basis X, Y, H.
+    """Matrices of determinant 1, row by row. The algebra sl(2) has the basis X, Y, H.
 
     The basis is that of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]], H =
     [[1, 0], [0, -1]]. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y. A traceless matrix A has A^2

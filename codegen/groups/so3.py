@@ -293,7 +293,7 @@ class SO3(
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
         """Return g with the row or column at the indices ``missing`` computed from the other rows or columns.
 
-        It is the cross product of the next two rows or columns in cyclic order.
+        The new row or column is the cross product of the next two rows or columns in cyclic order.
         """
         sets = self.determined()
         place = sets.index(missing)

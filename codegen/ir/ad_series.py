@@ -59,7 +59,7 @@ def simplified(word: Word) -> Word:
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:
-        # Exponentials are joined by e^{at} e^{bt} = e^{(a+b)t}; the other functions have no such law.
+        # Exponentials are joined by e^{at} e^{bt} = e^{(a+b)t}. The other functions have no such law.
         if f.function == "exp":
             rate += f.scale * f.power
         else:

@@ -3,8 +3,8 @@
 In a kernel each name is assigned once. A :class:`Loop` solves u = g(u) for its unknowns u. The values g(u)
 are called images. The loop repeats its body until the unknowns converge. Each sweep replaces the unknowns by
 their images, or corrects the unknowns by Newton's method. Statements after the loop may use values of the
-body from the last sweep. A :class:`Start` computes the first values of the unknowns of all loops, unless
-solutions of earlier steps are known. Apart from loops, a kernel has no branches that depend on data.
+body from the last sweep. A :class:`Start` sets the first values of the unknowns of all loops. Apart from
+loops, a kernel has no branches that depend on data.
 """
 
 from __future__ import annotations
