@@ -191,8 +191,8 @@ class Nonlinearity:
     ``inner`` contains the orders of the derivatives of u in the formulas, with their symbols. Output j of
     ``formulas`` is a function of these derivatives, of x, t and parameters. N is the sum of derivatives of
     the outputs: output j is differentiated ``outer[j]`` times with respect to x. If the fraction ``kept`` is
-    less than one, only this fraction of the n/2 + 1 modes is used in the values of N. All other modes are set
-    to zero to avoid aliasing.
+    less than one, only this fraction of the modes is used in the values of N. All other modes are set to zero
+    to avoid aliasing.
     """
 
     inner: tuple[tuple[int, str], ...]

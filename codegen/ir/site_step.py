@@ -178,7 +178,7 @@ class SiteFlow:
 
 @dataclass(frozen=True)
 class SiteStep:
-    """One step of a lattice: sweeps in order, and the number of ``rows`` in which they store values.
+    """One step of a lattice: ``sweeps`` in order, which store values in ``rows`` rows of the workspace.
 
     If there are ``flows``, the step executes the sweeps of these flows, one after the other. The sweeps of
     the first and of the last flow visit every site. The first sweep reads the old state, and all other sweeps

@@ -42,8 +42,8 @@ PLACES = ((0, 1), (0, 2), (1, 2))
 """The places (j, k) above the diagonal, in the order of the coordinates."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices. It gives the derivatives of exp X, and exp X in many digits and
-over power series.
+"""The exponential of real 6 x 6 matrices. This function gives the derivatives of exp X. It also gives exp X
+in many digits and over power series.
 """
 
 
@@ -77,7 +77,7 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """One array with the coordinates."""
+        """The length of the only array of arguments, which contains the coordinates."""
         return (COORDINATES,)
 
     @property
