@@ -1,8 +1,7 @@
-"""Lowering: the translation of a method (a tableau in a family) on a scene to a program for one step. One
-block of equations contains all stages.
+"""Lowering: the translation of a method (a tableau in a family) on a scene to a program for one step.
 
-Each family has a file with its :class:`Lowering`. All other code finds lowerings in the registry, and
-:func:`register` adds a lowering to the registry.
+One block of equations contains all stages. Each family has a file with its :class:`Lowering`. The function
+:func:`register` adds further lowerings.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ __all__ = [
 
 
 def problem_for(scene: Problem, method: Method) -> Problem:
-    """Return the scene in the form that the method's family requires; raise :class:`MethodError` if the
+    """Return the scene in the form that the method's family requires. Raise :class:`MethodError` if the
     family does not accept the scene."""
     own = lowering(method.family)
     _check(scene, own)
@@ -63,8 +62,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # If the tableau claims an order in a family that does not accept the scene, _check raises an error
-        # that says why the family does not accept the scene. This error helps the user more than ``error``.
+        # The tableau claims an order only in families that do not accept the scene. The error that _check
+        # raises says why, and helps the user more than ``error``.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))
@@ -72,7 +71,7 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
 
 
 def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None:
-    """Return the method that a text ``step:NAME`` denotes; None if ``given`` is not such a text.
+    """Return the method that a text ``step:NAME`` denotes, or None if ``given`` does not have this form.
 
     The method uses the step NAME that the scene itself defines. :class:`MethodError` is raised if the scene
     does not define this step.
@@ -108,8 +107,11 @@ def lower(scene: Problem, method: Method) -> Program:
 
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
-    """Return the verified program of a shorter step that the step of the method repeats, with the table of
-    its substeps. The result is None if the step repeats no shorter step."""
+    """Return the verified program of the shorter step that the step of a composition repeats.
+
+    The program contains the table of substeps. The result is None if the step of the method repeats no
+    shorter step.
+    """
     # In some families the step of a composed tableau is not the composition of shorter steps. For example,
     # VRKMK uses one exponential for the whole step, and a composition has one for each substep.
     if not lowering(method.family).repeats_substeps:

@@ -1,5 +1,7 @@
-"""Runge-Kutta methods in the coordinates of the state. Their solutions leave the manifold: the distance of a
-solution from the manifold is about as large as the error of the solution.
+"""Runge-Kutta methods in the coordinates of the state.
+
+The numerical solutions leave the manifold. The distance of a solution from the manifold is about as large as
+the error of the solution.
 """
 
 from __future__ import annotations
@@ -33,6 +35,6 @@ class Ambient(Lowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a Runge-Kutta step in coordinates."""
-        # On R^n exp(u).y = y + u and all brackets vanish, so the RKMK method without brackets is the
+        # On R^n exp(u).y = y + u, and all brackets vanish. Therefore the RKMK method without brackets is the
         # Runge-Kutta method.
         return with_cutoff(problem, method, 0)

@@ -22,11 +22,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Objection:
-    """The reason why a family does not accept a scene: the unsuitable property, the expected property, and a
-    hint.
+    """The reason why a family does not accept a scene.
 
-    ``reason`` is appended to "the family FAMILY cannot be used on SCENE" in the message. Without a ``hint``
-    the message lists the families that accept the scene.
+    ``reason`` is appended to "the family FAMILY cannot be used on SCENE" in the message. ``expected`` says
+    which scenes the family accepts. Without a ``hint`` the message lists the families that accept the scene.
     """
 
     reason: str
@@ -35,8 +34,11 @@ class Objection:
 
 
 def without_formulas(scene: Problem) -> Objection | None:
-    """Return the objection of a family that needs formulas of the field in coordinates. A scene with large
-    matrices and a semilinear scene have no such formulas. The result is None for any other scene."""
+    """Return the objection of a family that needs formulas of the field in coordinates.
+
+    Scenes with large matrices and semilinear scenes have no formulas in coordinates. The result is None for
+    all other scenes.
+    """
     if scene.roots:
         return None
     if scene.semilinear is not None:
@@ -67,12 +69,12 @@ class Lowering(ABC):
     """True if the state of a program is (q, mu), the state of a Hamiltonian scene. False if the state is the
     point y of a vector field."""
     preference: ClassVar[int] = 0
-    """The rank of the family. If the name of a method contains no family, and the tableau claims the same
-    order in several families, the family with the largest rank is chosen."""
+    """The rank of the family. If a method is named without a family, and its tableau claims the same order in
+    several families, the family with the largest rank is chosen."""
     repeats_substeps: ClassVar[bool] = False
-    """True if the step of a composed tableau is, in this family, the composition of shorter steps.
+    """True if the step of a composed tableau is a composition of shorter steps in this family.
 
-    This is false for a family that expands dexp^{-1} over the whole step.
+    The value is False for a family that expands dexp^{-1} over the whole step.
     """
 
     reads_coordinates: ClassVar[bool] = False
@@ -87,20 +89,20 @@ class Lowering(ABC):
         """Return True if the states that a step computes are on the manifold of the scene, up to rounding
         errors.
 
-        A step that moves the point by group elements stays on the manifold. If the group is abelian, the
-        manifold is parametrised by a vector space, and the steps of every method stay on the manifold.
+        A step that moves the point by group elements stays on the manifold. If the group is abelian, a vector
+        space parametrises the manifold, and every method stays on the manifold.
         """
         from orderconds.families import family_class
 
         return family_class(self.family).keeps_manifold or scene.group.abelian
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene; None if it accepts the scene."""
+        """Return the reason why the family does not accept a scene, or None if the family accepts it."""
         return None
 
     def storage(self, method: Method) -> str:
-        """Return the line of the emitted header that says what a step stores; an empty text if the storage
-        needs no remark."""
+        """Return the line of the emitted header on the storage of a step, or '' if the header has no such
+        line."""
         return ""
 
     @abstractmethod
@@ -141,7 +143,7 @@ class Lowering(ABC):
         return 0
 
     def extension(self, problem: Problem, method: Method) -> Program | None:
-        """Return a program that computes the solution inside a step; None if the method has no continuous
+        """Return a program that computes the solution inside a step, or None if the method has no continuous
         extension.
 
         The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is a polynomial with values
@@ -150,12 +152,12 @@ class Lowering(ABC):
         return None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the family whose order conditions apply to the program of a method. In some families, the
-        conditions depend on the scene."""
+        """Return the :class:`Family` whose order conditions apply to the program of a method. The conditions
+        may depend on the scene."""
         from orderconds import families
 
-        # The label contains the cut-off, because the conditions depend on it: the cut-off is the number of
-        # brackets in dexp^{-1}.
+        # The label contains the cut-off, which is the number of brackets in dexp^{-1}, because the conditions
+        # depend on the cut-off.
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:

@@ -1,8 +1,8 @@
-"""Commutator-free methods on a field: products of exponentials, no brackets.
+"""Commutator-free methods for vector fields: products of exponentials without brackets.
 
-Let k_j be the value of the field at stage j. Each stage, and also the update, is a product of J exponentials
-exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j), applied to y0 or to an earlier stage. The exponential
-with the coefficients beta_1 acts first. The unknowns are the k_j.
+Let k_j be the value of the field at stage j, and h the step size. Each stage, and also the update, is a
+product of J exponentials exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j), applied to the state y0 or
+to an earlier stage. The exponential with the coefficients beta_1 acts first. The unknowns are the k_j.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ class CommutatorFreeLowering(FieldLowering):
         return products(problem, method, method.commutator_free(), lower)
 
     def storage(self, method: Method) -> str:
-        """Return the line of the emitted header about the registers of a low-storage scheme; '' for a method
-        that is no such scheme."""
+        """Return the line of the emitted header on the registers of a low-storage scheme, or '' for all other
+        methods."""
         registers = _registers(method)
         if registers is None:
             return ""
@@ -58,12 +58,12 @@ STORAGE_OF_PAIR = (
 
 
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
-    """Return a scheme with two registers whose steps equal the steps of the method on every group, and a row
-    (D_1, ..., D_s) for the embedded method.
+    """Return a scheme with two registers that is equal to the method on every group, and a row (D_1, ...,
+    D_s) for the embedded method.
 
-    With step-size control, exp(h sum_i D_i k_i) applied to the result of the method must be the result of the
-    embedded method. Without step-size control, the row is None. If no such scheme or no such row is found,
-    the result is None in place of the pair.
+    With step-size control, exp(h sum_i D_i k_i) applied to the result of the method is the result of the
+    embedded method. Here k_i is the value of the field at stage i. Without step-size control, the row is
+    None. If there is no scheme or no row, the function returns None.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -85,9 +85,9 @@ def two_registers(
     """Return the program of a low-storage scheme: K_i = A_i K_{i-1} + k_i, Y_{i+1} = exp(h B_i K_i) Y_i.
 
     Here k_i is the value of the field at Y_i. A step stores the state and one element K of the Lie algebra.
-    The program of :func:`products`, in contrast, must store all k_i until the end of the step. If
-    ``estimate`` is the row (D_1, ..., D_s), a second element E_i = E_{i-1} + D_i k_i is stored. The update of
-    the embedded method is exp(h E_s) applied to the update.
+    In contrast, the program of :func:`products` must store all k_i until the end of the step. If ``estimate``
+    is the row (D_1, ..., D_s), a second element E_i = E_{i-1} + D_i k_i is stored. The update of the embedded
+    method is exp(h E_s) applied to the update of the method.
     """
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -110,8 +110,7 @@ def two_registers(
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
 
-    # The time of a stage, in units of h, is the sum of all coefficients in the exponents of the preceding
-    # exponentials.
+    # The time of a stage, in units of h, is the sum of all coefficients in the preceding exponents.
     steps = [reduce(add, row) for row in scheme.increments(method.ring)]
     times = list(accumulate(steps, initial=method.ring.zero))
 
@@ -142,8 +141,8 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     k = [build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def product(stage: Stage, name: str, points: list[Var]) -> Var:
-        # A stage may start from an earlier stage, Y_i = exp(...) Y_k. The exponentials of Y_k are then not
-        # computed again.
+        # A stage Y_i may start from an earlier stage Y_k. The exponentials of Y_k are then not computed
+        # again.
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
             # All exponents of a stage are given the same name, because Builder appends a number to a name
@@ -155,20 +154,20 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         return point
 
     def images() -> list[Var]:
-        # A stage is listed after the stage from which it starts. The point and the time of that earlier stage
-        # are therefore already known.
+        # A stage is listed after the stage from which it starts. Therefore the point and the time of the
+        # earlier stage are already known.
         points: list[Var] = []
         times: list[Element] = []
         result = []
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # A stage starts from an earlier stage or from y0. In units of h, the time of the stage is the
-            # time of that starting point, plus the sum of the coefficients in the exponents of the stage.
+            # In units of h, the time of a stage is the time of its starting point (an earlier stage or y0)
+            # plus the sum of the coefficients in its exponents.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
-        # The points of the stages are stored, because the update, like a stage, may start from one of them.
+        # The points of the stages are stored, because the update may start from a stage.
         stage_points[:] = points
         return result
 

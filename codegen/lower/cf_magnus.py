@@ -1,5 +1,7 @@
-"""Commutator-free Magnus methods for y' = A(t).y: products of exponentials, whose exponents are linear
-combinations of the values h A(t + c_i h)."""
+"""Commutator-free Magnus methods for y' = A(t).y, which are products of exponentials.
+
+The exponents are linear combinations of the values h A(t + c_i h), where c_i are the nodes of the tableau.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,8 @@
-"""Crouch-Grossman methods on a field: commutator-free methods with one exponential for each coefficient.
+"""Crouch-Grossman methods for vector fields: commutator-free methods with one exponential for each
+coefficient.
 
-Equation (1.4) of Marthinsen's thesis gives the method of a Butcher tableau.
+Equation (1.4) of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* gives the
+method of a Butcher tableau.
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ from orderconds.tableau import CommutatorFree
 
 
 class CrouchGrossman(FieldLowering):
-    """Crouch-Grossman methods; they are given by Butcher tableaux."""
+    """Crouch-Grossman methods, given by Butcher tableaux."""
 
     family = "cg"
     repeats_substeps = True

@@ -1,17 +1,19 @@
-"""Discrete gradient methods on groups, section 2.6 of Marthinsen's thesis: they preserve the energy exactly.
+"""Discrete gradient methods on groups, which preserve the energy exactly.
 
-A step is x1 = exp(h xi).x0 with xi = i_D omega. Here omega is the scene's bivector
-(:mod:`codegen.scene.energy`) at the midpoint exp(h xi/2).x0, and D is a trivialised discrete differential of
-the energy H: <D, eta> = H(x1) - H(x0) with eta = h xi. The tableau is read as a quadrature rule with nodes
-c_i and weights b_i for the mean of gamma = R* dH, the trivialised differential of H:
+The methods are those of section 2.6 of H. Marthinsen's thesis *On symplectic integration in Lie groups and
+manifolds*. A step of size h from x0 to x1 is x1 = exp(h xi).x0 with xi = i_D omega. Here omega is the
+bivector of the scene (:mod:`codegen.scene.energy`) at the midpoint exp(h xi/2).x0. D is a trivialised
+discrete differential of the energy H: <D, eta> = H(x1) - H(x0) with eta = h xi. Let gamma = R* dH be the
+trivialised differential of H. The tableau is read as a quadrature rule with nodes c_i and weights b_i for the
+mean of gamma:
 
     g = sum_i b_i gamma(exp(c_i eta).x0),
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
-With one node 1/2, D is the discrete differential (2.31) of the thesis with the midpoint choice. With Gauss
-nodes, D is the mean value of section 2.6, and the multiple of eta corrects the error of the quadrature. Since
-omega is skew, <D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two if sum b_i c_i = 1/2, otherwise
-one. The unknown is xi.
+With one node 1/2, D is the discrete differential (2.31) of the thesis at the midpoint. With Gauss nodes, D is
+the mean value of section 2.6, and the multiple of eta corrects the error of the quadrature. Since omega is
+skew, <D, xi> = 0. Therefore H(x1) = H(x0) for every tableau. The order is two if sum b_i c_i = 1/2, otherwise
+one. The unknown of the equations is xi.
 """
 
 from __future__ import annotations
@@ -41,8 +43,8 @@ class DiscreteGradient(FieldLowering):
         """Return an objection if the scene depends on time or has no energy that its field preserves.
         Otherwise the family accepts the scene, and the result is None."""
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
-        # If H depends on time, the exact solution does not preserve H, so a method that preserves H would not
-        # converge to it.
+        # If H depends on time, the exact solution does not preserve H. A method that preserves H would then
+        # not converge to the exact solution.
         if not scene.autonomous:
             return Objection(", which depends on time", expected)
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
@@ -69,8 +71,8 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # The function returns exp(part*h*velocity).y. A step evaluates the functions of the scene (the energy,
-    # its differential, the bivector) only at points of this form.
+    # The function ``moved`` returns exp(part*h*velocity).y. A step evaluates the energy, its differential and
+    # the bivector only at such points.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
@@ -82,8 +84,7 @@ def _program(scene: Problem, method: Method) -> Program:
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
-        # The bivector is evaluated at the midpoint and not at y. The order is then two if sum b_i c_i = 1/2;
-        # with the bivector at y, the order would be one.
+        # The bivector is evaluated at the midpoint, because with the bivector at y the order would be one.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # The energies are evaluated inside the block of equations, because H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
@@ -96,7 +97,7 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def update() -> dict[str, Var]:
         # The equation of the block is xi = f(xi). The update uses f(xi) and not xi, because f(xi) is closer
-        # to the solution. This accuracy is necessary, because errors of the energy add up over many steps.
+        # to the solution. The accuracy matters, because errors of the energy add up over many steps.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)

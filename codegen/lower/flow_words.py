@@ -1,8 +1,8 @@
-"""Lowerings that compose exact flows: a step on T*G is a word, a sequence of flows of the parts of a
-Hamiltonian.
+"""Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
 
-If the Hamiltonian depends on time, the flow of one summand also advances the time; this summand itself does
-not depend on time. The time is constant during all other flows.
+The sequence is called a word. A part is a sum of summands with exact flows. If the Hamiltonian depends on
+time, the flow of one summand also advances the time. This summand itself does not depend on time. The time is
+constant during all other flows.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 Word = list[tuple[Summand, Number]]
-"""The flows of a step: pairs of a summand and the duration of its flow in units of h. The first flow of the
-sequence acts first."""
+"""The sequence of flows of a step, as pairs of a summand of the Hamiltonian and the duration of its flow in
+units of h. The first flow acts first."""
 
 
 @dataclass(frozen=True)
 class Parts:
-    """The parts of a scene with their exact flows. ``where`` is the method and the scene as a text for error
+    """The parts of a scene with their exact flows. ``where`` names the method and the scene in error
     messages."""
 
     scene: Problem
@@ -53,10 +53,12 @@ class Parts:
     def arranged(self) -> list[Summand]:
         """The summands in the order in which a composition applies their flows.
 
-        Kicks come first, because the kick at the end of a step and the kick at the beginning of the next step
-        can be joined into one flow. On a lattice, the flows of different steps are not joined, so kicks come
-        last. The last flow of Phi* and the first flow of the next Phi are then kicks and are joined. This
-        saves time, because a kick reads all neighbours of a site and is the most expensive flow on a lattice.
+        A kick is a flow that changes only the momentum. Kicks come first, because the kick at the end of a
+        step and the kick at the beginning of the next step can be joined into one flow. On a lattice, flows
+        of different steps are not joined, so kicks come last. The product Phi of all flows follows its
+        adjoint Phi*, so the last flow of Phi* and the first flow of Phi are then kicks and are joined.
+        Joining kicks saves time, because a kick reads all neighbours of a site and is the most expensive flow
+        on a lattice.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -65,8 +67,11 @@ class Parts:
 
 @dataclass(frozen=True)
 class Reading:
-    """A method on a scene: the word (the flows of a step), the summand whose flow advances time, and the
-    label of the family whose order conditions apply. ``carrier`` is None for a scene without time."""
+    """The flows of the step of a method on a scene.
+
+    ``word`` is the sequence of flows. ``carrier`` is the summand whose flow advances the time, or None for a
+    scene without time. ``conditions`` is the label of the family whose order conditions apply.
+    """
 
     word: tuple[tuple[Summand, Number], ...]
     carrier: Summand | None
@@ -74,13 +79,16 @@ class Reading:
 
 
 class FlowLowering(Lowering):
-    """A family of methods that compose exact flows. :meth:`problem` adds to the scene the flows that the word
-    of the method contains; :meth:`lower` forms the program from this extended scene."""
+    """A family of methods that compose exact flows of the parts of a Hamiltonian.
+
+    :meth:`problem` adds the flows of the step to the scene. :meth:`lower` forms the program from this
+    extended scene.
+    """
 
     hamiltonian = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene; None if it accepts the scene."""
+        """Return the reason why the family does not accept a scene, or None if the family accepts it."""
         if scene.sites is not None:
             hint = "list the parts of the field in the argument parts of the scene"
             listed = scene.parts if scene.paired else scene.sites.parts
@@ -88,8 +96,8 @@ class FlowLowering(Lowering):
             return None if listed else Objection(", a lattice without parts", expected, hint)
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
-        # A scene with a wrench has no Hamiltonian. In a scene with run-time inputs, the inputs change during
-        # a flow. The exact flows are known in neither case.
+        # Exact flows are unknown in two cases: a scene with a wrench (an external force and torque) has no
+        # Hamiltonian, and run-time inputs change during a flow.
         if scene.forced or scene.inputs:
             what = "a wrench" if scene.forced else "run-time inputs"
             return Objection(
@@ -101,13 +109,13 @@ class FlowLowering(Lowering):
         return None
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene with its attribute ``flows`` set: the exact flows that the method composes, by
-        name."""
+        """Return the scene with the attribute ``flows``, which contains the exact flows of a step by name."""
         word = self.read(scene, method).word
         # Only flows that occur in the step are included, because all other flows would be emitted as unused
         # functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
-        # The flows are sorted by name, because the order of emitted functions must not depend on the word.
+        # The flows are sorted by name, because the order of emitted functions must not depend on the order of
+        # the flows in a step.
         return replace(scene, flows=dict(sorted(flows.items())))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -115,7 +123,7 @@ class FlowLowering(Lowering):
         return True
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the family whose order conditions apply to the method on a scene. This family may depend on
+        """Return the :class:`Family` whose order conditions apply to the method. The conditions may depend on
         the parts of the scene. Without a scene, the result is the family of the method."""
         from orderconds import families
 
@@ -125,22 +133,21 @@ class FlowLowering(Lowering):
 
     @abstractmethod
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the word of a method, and the label of the family whose order conditions apply to the word.
+        """Return the sequence of flows of a step, and the label of the family whose order conditions apply.
 
-        :class:`codegen.errors.MethodError` is raised for a tableau that does not suit the parts.
+        :class:`codegen.errors.MethodError` is raised for a tableau that cannot be used with the parts.
         """
 
     def read(self, scene: Problem, method: Method) -> Reading:
-        """Return the word of a method on a Hamiltonian scene with parts, the carrier (the summand whose flow
-        advances time), and the label of the family whose order conditions apply.
+        """Return the flows of the step of a method on a Hamiltonian scene with parts.
 
-        :class:`codegen.errors.MethodError` is raised for a part without exact flow, a tableau for another
-        number of parts, and parts that all depend on time.
+        :class:`codegen.errors.MethodError` is raised for a part without exact flow, for a tableau for another
+        number of parts, and if all parts depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
-        # The flows of one summand form a one-parameter group, phi_a phi_b = phi_{a+b}, so neighbouring flows
-        # of one summand can be joined exactly.
+        # The flows phi_a of one summand form a one-parameter group, phi_a phi_b = phi_{a+b}. Therefore
+        # neighbouring flows of one summand can be joined exactly.
         return Reading(tuple(_joined(word)), _carrier(parts), conditions)
 
     def lower(self, problem: Problem, method: Method) -> Program:
@@ -148,7 +155,8 @@ class FlowLowering(Lowering):
         reading = self.read(problem, method)
         q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
         # Time is a coordinate of extended phase space. The momentum conjugate to time is added to one
-        # summand, the carrier, so the carrier's flow advances t and all other flows keep t constant.
+        # summand, the carrier. Therefore the flow of the carrier advances t, and all other flows keep t
+        # constant.
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
         # The names t and h are reserved, because they are arguments of emitted code even if no formula
@@ -167,7 +175,7 @@ class FlowLowering(Lowering):
 
 
 def parts_of(scene: Problem, where: str) -> Parts:
-    """Return the parts of a scene with their exact flows; errors as for :meth:`FlowLowering.read`."""
+    """Return the parts of a scene with their exact flows. Raise MethodError for a part without exact flow."""
     parts = recognise(scene) if scene.sites is None else site_flows(scene)
     for part in parts:
         if not part.summands:
@@ -181,9 +189,9 @@ def parts_of(scene: Problem, where: str) -> Parts:
 
 
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
-    """Return the word of a composition of Phi, the product of the flows of all summands, and its adjoint
-    Phi*."""
-    # Phi*_{beta_1} acts first: in each pair (beta_i, alpha_i) the flow for beta_i precedes the flow for
+    """Return the sequence of flows of a composition of Phi and its adjoint Phi*, and the label "composition".
+    Phi is the product of the flows of all summands."""
+    # Phi*_{beta_1} acts first: in each pair (beta_i, alpha_i) the flows for beta_i precede the flows for
     # alpha_i.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
     return pairs(parts.arranged, both), "composition"
@@ -212,12 +220,15 @@ def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
 
 
 def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) -> Word:
-    """Return the word Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... for the pairs (beta_i, alpha_i) in
-    ``both``. In Phi* the flows of ``summands`` act in the given order, in Phi in the reverse order."""
+    """Return the flows of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... for the pairs (beta_i, alpha_i) in
+    ``both``.
+
+    In Phi* the flows of ``summands`` act in the given order, and in Phi in the reverse order.
+    """
     word: Word = []
     for beta, alpha in both:
         # In Phi the flow of the first summand acts last. The adjoint Phi*_h = (Phi_{-h})^{-1} has the same
-        # flows in the opposite order. Where Phi and Phi* meet, both flows are of the same summand, and
+        # flows in the opposite order. Neighbouring flows of Phi and Phi* belong to the same summand, and
         # _joined adds their durations.
         word += [(summand, beta) for summand in summands] + [
             (summand, alpha) for summand in reversed(summands)
@@ -226,17 +237,18 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
 
 
 def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
-    """Yield the word with neighbouring flows of one summand joined, and without flows of duration zero."""
+    """Yield the flows of ``word``, with neighbouring flows of one summand joined, and without flows of
+    duration zero."""
     joined: Word = []
     for summand, x in word:
-        # A flow of duration zero is the identity, so it is dropped. The flows before and after it are then
-        # neighbours and may be joined.
+        # A flow of duration zero is the identity and is dropped. The flow before and the flow after the
+        # dropped flow are then neighbours and may be joined.
         if x.is_zero:
             continue
         if joined and joined[-1][0] is summand:
             total = joined.pop()[1] + x
-            # If the durations cancel, the joined flow is dropped. The next flow of the word then follows the
-            # last flow in ``joined``, and the two may be joined.
+            # If the durations cancel, the joined flow is dropped. The next flow may then be joined with the
+            # last flow in ``joined``.
             if total.is_zero:
                 continue
             x = total
@@ -246,12 +258,12 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
 
 
 def _carrier(parts: Parts) -> Summand | None:
-    """Return the carrier, the summand whose flow advances time; None for a scene without time."""
+    """Return the carrier, the summand whose flow advances time, or None for a scene without time."""
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The carrier is the first summand without t. Any other summand without t would also be correct,
-        # because the order conditions hold for the extended system with either choice.
+        # The carrier is the first summand without t. The order conditions hold for the extended system with
+        # every choice of a summand without t.
         if not summand.timed:
             return summand
     raise MethodError(

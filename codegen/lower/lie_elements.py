@@ -1,9 +1,10 @@
-"""Lie elements in the values of a field at nodes: the exponents of methods for y' = A(t).y.
+"""Computes the exponents of methods for y' = A(t).y, which are elements of the Lie algebra.
 
-A tableau of format ``magnus`` defines elements of the Lie algebra as combinations of brackets of h A(t + c_i
-h). A value h^p x is stored as the pair of the variable x and the power p; the product is not computed. For
-example, the bracket of two values at nodes has the power 2. In a combination, only the terms whose power
-exceeds the least power are multiplied by a power of h. Therefore few multiplications by h are needed.
+A tableau of format ``magnus`` defines these elements as combinations of brackets of the values h A(t + c_i
+h), where c_i are the nodes. A value h^p x is stored as the pair of the variable x and the power p, without
+computing the product. For example, the bracket of the values at two nodes has the power 2. In a combination,
+only the terms whose power exceeds the least power are multiplied by a power of h. Therefore few
+multiplications by h are needed.
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ class Scaled:
 
 @dataclass
 class LieElements:
-    """Appends the elements of a method to a program; each term is computed once.
+    """Appends the elements of a method to a program. Each term is computed once.
 
-    ``nodes`` are the values A(t + c_i h), ``elements`` the named elements of the tableau.
+    ``nodes`` are the values A(t + c_i h), and ``elements`` the named elements of the tableau.
     """
 
     build: Builder
@@ -41,7 +42,8 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append ``target`` = the combination, and return this variable. It includes all powers of h."""
+        """Append the combination with the name ``target``, and return the variable. Its value includes all
+        powers of h."""
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:

@@ -1,4 +1,5 @@
-"""The base class of lowerings for linear differential equations y' = A(t).y: A may depend on t, not on y."""
+"""The base class of lowerings for linear differential equations y' = A(t).y, where A may depend on t but not
+on y."""
 
 from __future__ import annotations
 
@@ -29,8 +30,9 @@ if TYPE_CHECKING:
 class LinearLowering(FieldLowering):
     """A family of methods y1 = tau(X_m).(... tau(X_1).y0) for y' = A(t).y.
 
-    The exponents X are Lie elements in the values h A(t + c_i h), and tau is a map from the algebra to the
-    group. The values A(t + c_i h) do not depend on y, so a step has no equations for stages.
+    The exponents X_j are combinations of the values h A(t + c_i h) and their brackets, and tau is a map from
+    the algebra to the group. The values A(t + c_i h) do not depend on y, so a step has no equations for
+    stages.
     """
 
     def objection(self, scene: Problem) -> Objection | None:
@@ -55,8 +57,11 @@ class LinearLowering(FieldLowering):
         """Append the operations for tau(x).y to the program, and return the result."""
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program: it evaluates A at the nodes, forms the exponents, and applies one map tau for
-        each exponent. If the scene itself defines the step, the program consists of this step."""
+        """Return the program of a step.
+
+        The program evaluates A at the nodes, forms the exponents, and applies tau once for each exponent. If
+        the scene itself defines the step, the program consists of this step.
+        """
         if method.step:
             return self._stated(problem, method)
         family = family_class(self.family)
@@ -73,8 +78,7 @@ class LinearLowering(FieldLowering):
         nodes = [stages.f(f"k{i + 1}", y, c) for i, c in enumerate(tableau.c)]
         values = LieElements(stages.builder, method, nodes, dict(tableau.elements))
         point = y
-        # The exponentials act one after the other, the first exponent first. In the product, the first
-        # exponential is therefore the rightmost factor.
+        # The first exponent acts first, so its exponential is the rightmost factor of the product.
         for number, combination in enumerate(tableau.exponents, start=1):
             point = self.move(stages, values.exponent(f"x{number}", combination), point)
         inputs = stages.inputs + (() if stages.time is None else (stages.time,))
@@ -114,8 +118,8 @@ class LinearLowering(FieldLowering):
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """Return ``step``, extended by the new momentum conjugate to time. If the problem has no such momentum,
-    return ``step`` unchanged."""
+    """Return ``step``, extended by the computation of the momentum conjugate to time. If the problem has no
+    such momentum, return ``step`` unchanged."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     if not problem.carries_momentum or time is None:
         return step

@@ -1,7 +1,7 @@
-"""Magnus methods for y' = A(t).y: the exponential of a Lie element in the values h A(t + c_i h).
+"""Magnus methods for y' = A(t).y: a step applies one exponential, or a product of several exponentials.
 
-The exponent contains brackets. A product of several exponentials is also accepted. The conventions are those
-of :mod:`orderconds.families.magnus`: with a left action, [2,1] is the bracket [A_2, A_1], and the first
+The exponents are combinations of the values h A_i = h A(t + c_i h) and their brackets. The conventions are
+those of :mod:`orderconds.families.magnus`: with a left action, [2,1] is the bracket [A_2, A_1], and the first
 exponential acts first.
 """
 

@@ -1,7 +1,9 @@
 """Explicit Runge-Kutta-Munthe-Kaas methods with the fewest brackets that keep the tableau's order.
 
-k_i = f(exp(u_i).y0), y1 = exp(u).y0. The u_i and u are combinations of the h k_j and of the brackets of
-:func:`orderconds.series.brackets.fewest_brackets`, which are formed from the h k_j. RK4 needs two brackets.
+A step of size h from y0 to y1 is k_i = f(exp(u_i).y0), y1 = exp(u).y0 for the field f. The u_i and u are
+linear combinations of the h k_j and of brackets. The function
+:func:`orderconds.series.brackets.fewest_brackets` forms the brackets from the h k_j. For example, RK4 needs
+two brackets.
 """
 
 from __future__ import annotations
@@ -16,13 +18,13 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""The bracket programs that have been computed. They are stored, because the lowering and the certificate use
-the same bracket program. A key contains the ring and the coefficients as text."""
+"""The bracket programs that have been computed, because the lowering and the certificate need the same
+bracket program. A key contains the ring and the coefficients as text."""
 
 
 def bracket_program(method: Method) -> BracketProgram:
-    """Return the bracket program of an ``rkmk`` method without a cut-off: the fewest brackets that keep the
-    order.
+    """Return the fewest brackets that keep the order of an ``rkmk`` method without a cut-off, as a bracket
+    program.
 
     :class:`codegen.errors.MethodError` is raised for an implicit tableau, for coefficients that are known
     only as balls, and for a tableau whose order is above ``minimal_brackets`` of the family.
@@ -47,12 +49,12 @@ def bracket_program(method: Method) -> BracketProgram:
         raise MethodError(
             f"the search for the fewest brackets does not support order {order}, which {name} has",
             expected=f"an order of at most {highest}, or a cut-off",
-            # Since u = h k + O(h^2), ad_u^j k = O(h^{j+1}). In y1 this term has one more factor h. Therefore
-            # terms with j > order - 2 do not change the order.
+            # Since u = h k + O(h^2) and [k, k] = 0, ad_u^j k = O(h^{j+1}). The update multiplies this term by
+            # h. Therefore terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
-    # The search for a bracket program takes a long time. Its result is stored, because the certificate needs
-    # the bracket program again.
+    # The search for a bracket program takes a long time, and the certificate needs the bracket program again.
+    # Therefore the result is stored.
     ring = method.ring
     # The key contains the exact coefficients as text, because elements of a ring may be unhashable.
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))
@@ -85,8 +87,8 @@ def lower(scene: Problem, method: Method) -> Program:
     def images() -> list[Var]:
         # The order of the brackets is kept, because earlier brackets may be arguments of later brackets.
         for r, (left, right) in enumerate(written.brackets):
-            # Both arguments are formed as sums before the bracket, because [a + b, c] takes one bracket, but
-            # [a, c] + [b, c] takes two.
+            # Both arguments are formed as sums before the bracket, because [a + b, c] takes one bracket, and
+            # [a, c] + [b, c] takes two brackets.
             x, z = combination(f"x{r + 1}", left), combination(f"z{r + 1}", right)
             values["B", r] = build.bracket(f"B{r + 1}", x, z)
         result = []
@@ -96,8 +98,7 @@ def lower(scene: Problem, method: Method) -> Program:
         return result
 
     def update() -> dict[str, Var]:
-        # The update has one exponential, whose exponent contains the brackets and agrees with Magnus' series
-        # up to the order of the tableau.
+        # The exponent of the update agrees with Magnus' series up to the order of the tableau.
         return {"y": build.act("y1", build.exp("g", combination("u", written.update)), y)}
 
     unknowns = [values["k", i] for i in range(tableau.s)]

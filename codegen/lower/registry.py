@@ -55,10 +55,11 @@ def _built_in() -> tuple[type[Lowering], ...]:
 
 
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
-    """Register a lowering for all commands, and return it; this function may be used as a decorator.
+    """Register a lowering for all commands, and return its class. The function can be used as a class
+    decorator.
 
-    ``family`` is the class that defines the order conditions of the family. If the argument is given, the
-    class is registered, too (:func:`orderconds.families.register`). All commands of both packages then
+    ``family`` is the class that defines the order conditions of the family. If ``family`` is given, this
+    class is also registered (:func:`orderconds.families.register`). All commands of both packages then
     support the family.
 
     :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and if another
@@ -69,7 +70,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
             f"the class {lowering.__name__} does not set the attribute family",
             expected='family = "NAME" in the class',
         )
-    # A second class for a family is refused, because the meaning of a method must not depend on the order of
+    # A second class for a family is refused. Otherwise the meaning of a method would depend on the order of
     # registration.
     known = _lowerings().get(lowering.family)
     if known is not None and type(known) is not lowering:
@@ -86,7 +87,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
 
 
 def unregister(family: str) -> None:
-    """Remove the lowering of a family that :func:`register` added. A family without a lowering is ignored;
+    """Remove the lowering of a family that :func:`register` added. A family without a lowering is ignored.
     MethodError is raised for a built-in family."""
     # Built-in families cannot be removed, because the tableaux of the library refer to them.
     if any(lowering.family == family for lowering in _built_in()):
@@ -107,7 +108,7 @@ def names() -> tuple[str, ...]:
 
 
 def lowering(family: str) -> Lowering:
-    """Return the lowering of a family; raise :class:`codegen.errors.MethodError` for a family without
+    """Return the lowering of a family. Raise :class:`codegen.errors.MethodError` for a family without
     lowering.
 
     >>> lowering("vcg").hamiltonian
@@ -123,14 +124,14 @@ def lowering(family: str) -> Lowering:
 
 def families_for(scene: Problem) -> tuple[str, ...]:
     """Return the families that accept a scene, the most preferred family first (:attr:`Lowering.preference`).
-    For a method whose name contains no family, this order can decide which family is used."""
+    If a method is named without a family, the preference can decide which family is used."""
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
     # The sort is stable: families of the same preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))
 
 
 def _lowerings() -> dict[str, Lowering]:
-    """Return all lowerings by family; built-in modules are imported at the first call."""
+    """Return all lowerings by family."""
     # The built-in modules are imported at the first call and not at the top of the file, because they import
     # this package.
     if not _registered:

@@ -1,4 +1,4 @@
-"""Runge-Kutta methods on R^n: Munthe-Kaas methods without brackets, whose exponentials are translations."""
+"""Runge-Kutta methods on R^n, as Munthe-Kaas methods without brackets. The exponentials are translations."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ class RungeKuttaLowering(FieldLowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene is not on R^n: the steps would leave the manifold of the scene.
-        Otherwise the family accepts the scene, and the result is None."""
+        """Return an objection if the scene is not on R^n, because the steps would leave the manifold of the
+        scene. Otherwise the family accepts the scene, and the result is None."""
         group = scene.as_field().group
         # On R^n actions are translations: exp(u).y = y + u, and all brackets vanish.
         if group.abelian:
@@ -27,7 +27,7 @@ class RungeKuttaLowering(FieldLowering):
         return Objection(f", whose group is {group.name}", "R^n", hint)
 
     def extension(self, problem: Problem, method: Method) -> Program | None:
-        """Return the program of the continuous extension; None if the tableau is implicit or has no
+        """Return the program of the continuous extension, or None if the tableau is implicit or has no
         continuous extension."""
         return extension_with_cutoff(problem, method, 0)
 

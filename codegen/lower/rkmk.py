@@ -1,13 +1,14 @@
-"""Runge-Kutta-Munthe-Kaas methods on a field: one exponential for each stage, and the brackets of
-dexp^{-1}_(r).
+"""Runge-Kutta-Munthe-Kaas methods for vector fields, with one exponential for each stage.
 
-Equation (3.14) of Marthinsen's thesis: u_i = h sum_j a_ij v_j, v_i = dexp^{-1}_{(r),u_i} f(exp(u_i).y0),
-y1 = exp(h sum_i b_i v_i).y0. Here dexp^{-1}_{(r),u} is the series of dexp^{-1}_u up to the terms with r
-brackets. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta method.
+A step of size h from y0 to y1 for the field f is u_i = h sum_j a_ij v_j, v_i = dexp^{-1}_{(r),u_i}
+f(exp(u_i).y0), y1 = exp(h sum_i b_i v_i).y0. Here a_ij and b_i are the coefficients of the tableau, and
+dexp^{-1}_{(r),u} is the series of dexp^{-1}_u up to the terms with r brackets. The unknowns are the v_i. On
+R^n with r = 0 the method is the Runge-Kutta method of the tableau. The formulas are equation (3.14) of H.
+Marthinsen's thesis *On symplectic integration in Lie groups and manifolds*.
 
-On a scene with another coordinate map tau, tau replaces exp, and the exact inverse differential of tau
-replaces the truncated dexp^{-1}. The cut-off r then has no meaning and is not read: the Runge-Kutta method
-integrates u' = dtau^{-1}_u f(tau(u).y0) in a vector space, so its order is the order of the tableau.
+If the scene has another coordinate map tau, tau replaces exp, and the exact inverse differential of tau
+replaces the truncated dexp^{-1}. The Runge-Kutta method then integrates u' = dtau^{-1}_u f(tau(u).y0) in a
+vector space, so its order is the order of the tableau. The cut-off r is not used.
 """
 
 from __future__ import annotations
@@ -52,8 +53,11 @@ class MuntheKaas(FieldLowering):
         return with_cutoff(problem, method, method.cutoff)
 
     def extension(self, problem: Problem, method: Method) -> Program | None:
-        """Return the program of the continuous extension. The result is None if the method has no cut-off or
-        no explicit tableau with an extension, and if the scene has a coordinate map other than exp."""
+        """Return the program of the continuous extension.
+
+        The result is None if the method has no cut-off, if its tableau is implicit or has no extension, or if
+        the scene has a coordinate map other than exp.
+        """
         exact = problem.coordinates is None and method.cutoff is not None
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
 
@@ -62,7 +66,7 @@ class MuntheKaas(FieldLowering):
         the compiled program.
 
         If the scene has a coordinate map other than exp, the program contains the exact inverse differential
-        of the map. The conditions are then those of RKMK with the exact dexp^{-1}.
+        of the map. In this case the conditions of RKMK with the exact dexp^{-1} apply.
         """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
@@ -72,8 +76,7 @@ class MuntheKaas(FieldLowering):
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The conditions are computed from the bracket program that is also compiled. They therefore apply to
-        # the emitted code.
+        # The conditions are computed from the same bracket program as the emitted code.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
@@ -98,7 +101,7 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     ``cutoff`` brackets."""
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
-        # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - ...; without brackets the order of the method is at
+        # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... Without brackets the order of the method is at
         # most two.
         return build.dexpinv(target, u, k, cutoff)
 
@@ -106,7 +109,7 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
 
 
 def extension_with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program | None:
-    """Return the program of the continuous extension of a method; None if the method is implicit or its
+    """Return the program of the continuous extension of a method, or None if the method is implicit or its
     tableau has no extension."""
     extension, zero = method.tableau.extension, method.ring.is_zero
     A = method.runge_kutta().A
@@ -147,8 +150,8 @@ def _program(
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # The stages are those of a Runge-Kutta step for u' = dexp^{-1}_u f(exp(u).y0), an equation in the
-            # Lie algebra, which is a vector space.
+            # The stages are the stages of a Runge-Kutta step for the equation u' = dexp^{-1}_u f(exp(u).y0)
+            # in the Lie algebra.
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.add(element, f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
