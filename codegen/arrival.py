@@ -15,7 +15,7 @@ Signals = Callable[[float], Sequence[float]]
 
 
 SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
-"""The solvers of implicit blocks, the most robust first."""
+"""The solvers of implicit equations, the most robust first."""
 
 
 class Status(IntEnum):
@@ -110,8 +110,9 @@ class Statistics:
 @dataclass(frozen=True)
 class Begun:
     """The checked arguments of a call that integrates. ``form`` converts results to the type of the caller's
-    state, ``numbers`` are the coordinates of the state, ``values`` the values of the parameters. ``solvers``
-    are the solvers that the emitted module uses for its implicit blocks."""
+    state. ``numbers`` are the coordinates of the state, and ``values`` the values of the parameters.
+    ``solvers`` are the solvers that the emitted module uses for its implicit equations.
+    """
 
     form: StateForm
     numbers: list[float]
@@ -123,8 +124,8 @@ class Begun:
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
         """Return the error of a failed step. The state in the error has the type of the caller's state.
 
-        If an implicit block did not converge, the message recommends shorter steps, or a solver that the
-        module does not use.
+        If the iteration for an implicit stage did not converge, the message recommends shorter steps, or a
+        solver that the module does not use.
         """
         if status == Status.NOT_CONVERGED:
             others = [s for s in SOLVERS if s not in self.solvers]

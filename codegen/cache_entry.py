@@ -1,8 +1,8 @@
 """The cache: a folder of computed files, with a digest of the content of each file.
 
-An entry is used only if it is a regular file that belongs to the user, and its content has the recorded
-digest. Otherwise the file is computed again. The folder has mode 0700 and belongs to the user, because
-compiled code in it is executed. If such a folder cannot be created, a temporary folder is used until the
+An entry is used only if it is a regular file that belongs to the user and its content has the recorded
+digest. Otherwise the file is computed again. The compiled code in the folder is executed, so the folder has
+mode 0700 and belongs to the user. If such a folder cannot be created, a temporary folder is used until the
 process ends.
 """
 
@@ -37,8 +37,8 @@ are removed. Older working folders are removed if no process has locked them.
 def cache_directory() -> Path:
     """Return the folder of the cache: $XDG_CACHE_HOME/orderconds, else ~/.cache/orderconds.
 
-    The folder is created if it is missing. If it cannot be created or belongs to another user, a warning is
-    logged once and a temporary folder is returned.
+    The folder is created if it is missing. If the folder cannot be created or belongs to another user, a
+    warning is logged once and a temporary folder is returned.
     """
     base = os.environ.get("XDG_CACHE_HOME", "")
     try:
@@ -143,7 +143,7 @@ def _digest(content: bytes) -> bytes:
 
 @contextmanager
 def working_directory(folder: Path) -> Iterator[Path]:
-    """Create a folder for intermediate files inside the cache, and remove it at the end in any case.
+    """Create a folder for intermediate files inside the cache, and remove this folder at the end in any case.
 
     Folders and files that killed processes have left are removed first.
     """

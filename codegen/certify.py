@@ -128,7 +128,7 @@ def upwards(x: float) -> str:
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
     # Emitted code contains doubles. Coefficients that were given as doubles are therefore used without
-    # rounding, and they have no uncertainty here, even if they approximate other numbers.
+    # rounding. They have no uncertainty here, even if they approximate other numbers.
     known = method.coefficients is None or method.coefficients.doubles
     radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate

@@ -283,8 +283,8 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
 def work(kernel: Kernel) -> int:
     """Estimate the cost of a step in units of one addition.
 
-    Operations outside the implicit systems of equations are counted once. The operations of such a system are
-    counted SWEEPS times in each substep, because the system is solved by iteration.
+    Operations outside of iterations are counted once. The operations of an iteration are counted SWEEPS times
+    in each substep.
     """
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in step_operations(kernel).items():

@@ -283,8 +283,11 @@ def explanation(compiled: Compiled) -> str:
 
 
 def solvers_of(compiled: Compiled) -> list[str]:
-    """Return lines of text: for each implicit block a line with its solver, then a line for each solver that
-    was compared."""
+    """Return lines about the solvers of implicit equations.
+
+    For each system of equations there is a line with its solver, then a line for each solver that was
+    compared.
+    """
     return [
         line for choice in compiled.solvers for line in (choice.text(), *map("  {}".format, choice.compared))
     ]

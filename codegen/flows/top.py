@@ -82,7 +82,8 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
         number = str(k + 1) if len(turns) > 1 else ""
         flows.append([(f"{formula.name}.turn{number}" if several else formula.name, turn)])
     if mean:
-        # The rotation about the momentum commutes with every turn, so it is added to the first summand.
+        # The rotation about the momentum commutes with every turn, so this rotation is added to the first
+        # summand.
         flow = (f"{formula.name}.mean" if several else formula.name, Isotropic(mean))
         flows = [[flow, *(flows[0] if flows else [])], *flows[1:]]
     return [Summand(tuple(f)) for f in flows]

@@ -107,7 +107,7 @@ class LieGroup(ABC):
     def variants(self) -> Sequence[LieGroup]:
         """Return implementations of this group that differ only in :meth:`expmul`, the default one first.
 
-        The compiler tries each of them and keeps the one whose step has the lowest estimated cost.
+        The compiler tries each implementation and uses the one whose step has the lowest estimated cost.
         """
         return (self,)
 
