@@ -204,9 +204,9 @@ class Integrator(RunToEnd):
         these times. The default of ``end`` is the last of these times. A batch is integrated state by state.
         The result of a batch has an array of states, and the numbers of steps are sums over the batch.
 
-        TypeError is raised if the module has no run with step control (``emit(..., adaptive=True)`` adds it).
-        StepFailed is raised if a step fails, and with the status ``LIMIT`` if ``limit`` steps do not reach
-        the end.
+        TypeError is raised if the module has no run with step-size control, which ``emit(...,
+        adaptive=True)`` adds. StepFailed is raised if a step fails, and with the status ``LIMIT`` if
+        ``limit`` steps do not reach the end.
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")

@@ -1,6 +1,6 @@
 """The depth of a kernel: the length of its longest chain of rotation angles.
 
-In such a chain each angle is computed from the previous angle, so it multiplies the rounding errors of the
+In such a chain each angle is computed from the previous angle, and multiplies the rounding errors of the
 previous angle. The largest angle that a step accepts therefore depends on the depth
 (:func:`codegen.snippets.stumpff.limit`).
 """
@@ -28,7 +28,7 @@ def chain(kernel: Kernel) -> int:
     2
     """
     # An iteration repeats until its equations hold to rounding accuracy, so the solution does not multiply
-    # earlier rounding errors. The same holds for flows that are deferred to the next step.
+    # earlier rounding errors. The same holds for flows that are joined with a flow of the next step.
     if kernel.loops or kernel.deferred is not None:
         return 1
     # In a kernel each name is assigned once and before it is read, so the depth of a name is known when the

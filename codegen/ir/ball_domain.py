@@ -239,7 +239,11 @@ class BallDomain:
 
 
 def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
-    """Return the rows of the block matrix of a jet (:mod:`codegen.ir.matrix_exponential`)."""
+    """Return the rows of the block matrix that represents a jet, that is, a matrix with its derivatives.
+
+    :mod:`codegen.ir.matrix_exponential` defines jets. For level 1, the jet A + e E has the block rows (A, E)
+    and (0, A).
+    """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
     half = len(numbers) // 2
@@ -249,7 +253,9 @@ def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Return the jet that a block matrix represents. This function is the inverse of :func:`_block`."""
+    """Return the jet (a matrix with its derivatives) that a block matrix represents, the inverse of
+    :func:`_block`.
+    """
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2

@@ -41,7 +41,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # A node in ``kept`` is an atom: its linear combination is 1 times the node itself.
+            # A node in ``kept`` is not expanded: its linear combination is 1 times the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
     # The numbers of the nodes in ``kept`` are recorded here, before whole() adds other nodes to ``sums``.
     # These nodes are not counted as operations, because they cost the same with and without collected
@@ -192,8 +192,8 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # Methods such as Space.div would simplify the new node, so that the result might no longer be an
-        # atom. Therefore the node is created directly.
+        # The node is created directly, because methods such as Space.div might simplify it to a linear
+        # combination.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 

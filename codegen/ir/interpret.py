@@ -79,8 +79,9 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # ``near`` is a queue. Its first entry contains the first values for this block and is removed.
-            # The solution is appended, so after the step ``near`` contains the solutions in the same order.
+            # ``near`` is a queue. Its first entry contains the first values for this system of equations and
+            # is removed. The solution is appended, so after the step ``near`` contains the solutions in the
+            # same order.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
@@ -97,10 +98,11 @@ def _fixed_point_first(
     expected: Env,
     newton: bool,
 ) -> None:
-    """Solve a block by fixed-point iteration and, if this fails and ``newton`` is true, by Newton's method.
+    """Solve a system of equations by fixed-point iteration, or by Newton's method if this fails and
+    ``newton`` is true.
 
-    The fixed-point iteration comes first, because it needs no difference quotients, and its result is
-    accurate to rounding if it contracts.
+    The fixed-point iteration comes first, because it needs no difference quotients. If the iteration
+    contracts, its result is accurate to rounding.
     """
     patience = getattr(domain, "patience", limit) if newton else limit
     try:
@@ -200,14 +202,14 @@ def _correct(
     limit: int,
     near: Sequence[Scalar] | None = None,
 ) -> list[Scalar]:
-    """Solve the equations u = g(u) of a block by Newton's method with difference quotients.
+    """Solve the equations u = g(u) of ``block`` by Newton's method with difference quotients.
 
-    The iteration begins at ``near`` if it is given, else at the starts of the block. The result is the list
-    of the values of the unknowns u. If the domain has a method ``rounded``, this method rounds the values
-    g(u).
+    The iteration begins at the values ``near``, or at ``block.starts`` if ``near`` is None. The result is the
+    list of the values of the unknowns u. If the domain has a method ``rounded``, this method rounds the
+    values g(u).
     """
     kinds = [u.kind for u in block.unknowns]
-    # All unknowns of a block form one vector, because their equations depend on one another.
+    # All unknowns form one vector, because their equations depend on one another.
     widths = [len(flatten(s.kind, env[s])) for s in block.starts]
 
     def images(numbers: list[Scalar]) -> list[Scalar]:
@@ -253,7 +255,9 @@ def _correct(
 
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
-    """Return the message that an implicit block did not converge. ``change`` is the last change."""
+    """Return the message that an iteration did not converge. ``change`` is the last change of the
+    unknowns.
+    """
     # The change is converted to a double, because two digits are enough for the message.
     last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)
     return f"{block.label} did not converge in {limit} sweeps; the last change was {last}"

@@ -28,17 +28,17 @@ from every name in a scene.
 """
 
 ELAPSED = "elapsed.h"
-"""The symbol for the total duration of the steps for which one deferred flow is applied. These are all steps
-of a run, but at most :data:`LONGEST` steps.
+"""The symbol for the total duration of several steps. A flow that a run applies only once for these steps
+(:class:`Deferred`) uses this duration. The steps are all steps of a run, but at most :data:`LONGEST` steps.
 """
 
 LONGEST = 256
-"""The largest number of steps for which one deferred flow is applied. The limit bounds the angles of this
-flow, and thus the rounding errors of the angles.
+"""The largest number of steps for which a run applies a flow only once (:class:`Deferred`). The limit bounds
+the angles of this flow, and thus the rounding errors of the angles.
 """
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
-"""The names of the methods that solve implicit blocks."""
+"""The names of the methods that solve implicit equations."""
 
 SLOWEST = 2.0**-12
 """The smallest contraction factor of a sweep that is trusted. Near rounding level a smaller measured factor
@@ -73,8 +73,8 @@ class Newton:
     """Newton's method for u = g(u). ``matrix`` is 1 - g'(u), and ``body`` computes its entries.
 
     The matrix is reused in later sweeps and steps (:mod:`codegen.run.sweeps`). If ``leading`` is true, the
-    matrix is expanded to leading order in h, and it is computed and inverted in each step. If ``inverted`` is
-    true, ``matrix`` contains the entries of the inverse matrix.
+    matrix is expanded to leading order in h. This matrix is computed and inverted in each step. If
+    ``inverted`` is true, ``matrix`` contains the entries of the inverse matrix.
 
     If ``residuals`` is true, the images of the loop are residuals, which are zero at the solution. The matrix
     is then minus the derivative of the residuals to first order in h, and its inverse is used for ``period``
@@ -393,10 +393,11 @@ class Kernel:
 
     @property
     def start(self) -> Start | None:
-        """The Start of the kernel, which computes the first values of all unknowns, or None if each loop has
-        its own starts.
+        """The statement that computes the first values of all unknowns, or None if each loop computes its
+        own.
         """
-        # A kernel has at most one Start, because it extrapolates the unknowns of all loops as one vector.
+        # There is at most one such statement, because the unknowns of all loops are extrapolated as one
+        # vector.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
@@ -441,7 +442,7 @@ class Kernel:
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
     def used_scalars(self) -> tuple[str, ...]:
-        """Return those ``scalars`` that occur in an expression of the kernel or of a deferred flow, in
+        """Return those ``scalars`` that occur in an expression of the kernel or of its ``deferred`` flows, in
         order.
         """
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
