@@ -83,8 +83,9 @@ class Element:
 class LinearArrayStep:
     """A step y1 = exp(X_m) ... exp(X_1) y0 for n x k matrices y.
 
-    ``times`` are the times of the nodes. A commutator refers to letters and to earlier commutators.
-    ``exponents`` are X_1, ..., X_m in this order.
+    ``times`` are the times at which the matrix is evaluated. ``letters`` are linear combinations of the
+    values of the matrix. ``commutators`` are commutators of letters and of earlier commutators. ``exponents``
+    are X_1, ..., X_m in this order.
     """
 
     argument: Matrix
@@ -100,7 +101,7 @@ class LinearArrayStep:
         yield from self.matrix.expressions()
 
     def products(self, element: Element) -> int:
-        """Return the number of products of letters and vectors that the product of ``element`` and a vector
+        """Return the number of matrix-vector products that the product of ``element`` and a vector
         requires.
         """
         own = 0 if element.letter is None else 1

@@ -65,7 +65,7 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
 
 def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
-    """Return the exponential of the jet ``a`` of n x n matrices.
+    """Return the exponential of the jet ``a``, an n x n matrix with its derivatives.
 
     All results are NaN if fewer than three digits would be correct.
     """
@@ -97,7 +97,7 @@ def _norm(a: Sequence[float]) -> float:
 
 
 def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> list[Scalar]:
-    """Return the product of two jets."""
+    """Return the product of two jets, that is, of two matrices with their derivatives."""
     size, rows = n * n, range(n)
     result: list[Scalar] = []
     for parts in pairs(level):
@@ -121,7 +121,7 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
 
 
 def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]:
-    """Return the Taylor polynomial of the exponential at the jet ``b1``.
+    """Return the Taylor polynomial of the exponential at ``b1``, a matrix with its derivatives.
 
     The degree is the smallest one that is accurate for matrices of norm at most ``norm``.
     """
@@ -183,7 +183,7 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
 
 
 def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exponential of a jet of mpmath numbers.
+    """Return the exponential of a jet (a matrix with its derivatives) of mpmath numbers.
 
     The error is about 10^-``digits`` times the norm of the exponential. :class:`OverflowError` is raised if a
     bound of the norm of the matrix is not below 2^40.
@@ -210,7 +210,7 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
 
 
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exponential of a jet of power series, exactly.
+    """Return the exponential of a jet (a matrix with its derivatives) of power series, exactly.
 
     The exponential is a finite sum if the constant terms of the first matrix of the jet form a nilpotent
     matrix. ``longest`` is the largest possible number of terms in this case. ArithmeticError is raised if the

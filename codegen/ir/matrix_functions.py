@@ -91,7 +91,7 @@ class MatrixExponential(VectorFunction):
         return matrix_exponential.in_digits(context, digits, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential of a jet of power series. The constant terms of the first matrix must be
+        """Return the exponential for power series. The constant terms of the first matrix must be
         nilpotent.
         """
         # A product of more than ``longest`` factors is zero, because it contains too high a power of h, one

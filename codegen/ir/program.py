@@ -131,7 +131,7 @@ class Program:
     frame: str = SPACE
 
     def assigns(self) -> Iterator[Assign]:
-        """Yield every assignment in order, including the assignments inside blocks."""
+        """Yield every assignment in order, including the assignments inside blocks of equations."""
         for statement in self.body:
             if isinstance(statement, Assign):
                 yield statement
@@ -139,19 +139,19 @@ class Program:
                 yield from statement.body
 
     def counts(self) -> dict[str, int]:
-        """Return the number of occurrences of each operation, sorted by name. The body of a block is counted
-        once.
+        """Return the number of occurrences of each operation, sorted by name. The operations of an iteration
+        count once.
         """
         total: dict[str, int] = {}
         for assign in self.assigns():
-            # The number of iterations of a block is not known before the program is run, so its operations
-            # are counted once.
+            # The number of iterations is not known before the program is run, so the operations of an
+            # iteration are counted once.
             total[assign.operation.name] = total.get(assign.operation.name, 0) + 1
         return dict(sorted(total.items()))
 
     def text(self) -> str:
         """Return the program as text, with one statement on each line."""
-        # The lines have the order of execution, and the body of a block is indented.
+        # The lines have the order of execution. The operations of an iteration are indented.
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
         # In the body frame, mu in the statements means Ad*_q mu. The text states this first, because all

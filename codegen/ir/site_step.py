@@ -140,7 +140,7 @@ class SiteNewton:
     def _substituted(self) -> tuple[int, int]:
         """Return how many numbers forward and back substitution read and write for each site.
 
-        They read all blocks once, and the right-hand side in both loops.
+        Forward and back substitution together read all matrix blocks once, and the right-hand side twice.
         """
         n = self.size
         return 3 * n * n + 2 * n, 2 * n
@@ -215,14 +215,14 @@ class SiteStep:
 
     @property
     def unrepeated(self) -> tuple[Sweep, ...]:
-        """The sweeps that a step executes outside of its blocks, in order."""
+        """The sweeps that a step executes only once, in order. The sweeps of iterations are not included."""
         repeated = {k for block in self.blocks for k in range(block.first, block.last + 1)}
         if self.flows:
             return self.passes
         return tuple(sweep for k, sweep in enumerate(self.sweeps) if k not in repeated)
 
     def repeated(self, block: SiteBlock) -> tuple[Sweep, ...]:
-        """Return the sweeps of one iteration of a block."""
+        """Return the sweeps of one iteration for the equations of ``block``."""
         return self.sweeps[block.first : block.last + 1]
 
     @property
@@ -232,14 +232,16 @@ class SiteStep:
         return _added([traffic(self.unrepeated), *matrices])
 
     def moved_in_a_sweep(self, block: SiteBlock) -> tuple[int, int]:
-        """Return how many numbers one iteration of a block reads and writes for each site."""
+        """Return how many numbers one iteration for the equations of ``block`` reads and writes for each
+        site.
+        """
         newton = [] if block.newton is None else [block.newton.moved_in_a_sweep(self.periodic)]
         return _added([traffic(self.repeated(block)), *newton])
 
     def numbers_moved(self, sweeps: Sequence[float]) -> float:
         """Return how many numbers a step moves to or from memory for each site.
 
-        ``sweeps`` contains the number of iterations of each block.
+        ``sweeps`` contains the number of iterations for each block of equations.
         """
         repeated = (n * sum(self.moved_in_a_sweep(b)) for n, b in zip(sweeps, self.blocks, strict=True))
         return sum(self.moved_once) + sum(repeated)

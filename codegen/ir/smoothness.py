@@ -28,10 +28,11 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 
 
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
-    """Return the expressions ``roots`` on given sides of their selections, and expressions called margins.
+    """Replace each selection in ``roots`` by one of its formulas, and also return conditions for this choice.
 
-    ``nodes`` are the selections, and ``sides`` their sides. Each selection is replaced by the formula of its
-    side. Where all margins are positive, the selections have these sides.
+    ``nodes`` are the selections, that is, calls of functions such as fabs. ``sides`` contains the number of
+    the chosen formula for each selection. The second result is a list of expressions, called margins. Where
+    all margins are positive, the selections choose the same formulas.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -54,8 +55,8 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return the formula that a selection uses on one side, and its margins, which are positive on this
-    side.
+    """Return the formula number ``side`` of a selection, and expressions that are positive where the
+    selection uses it.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):

@@ -122,8 +122,10 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass
 class _Builder:
-    """Collects the statements of one step. :mod:`codegen.ir.array_step` defines basis, core and
-    displacement.
+    """Collects the statements of one step.
+
+    An element of the algebra is B S B^T with the basis B and its core S. A point is X_0 + B D with the old
+    state X_0 and its displacement D (:mod:`codegen.ir.array_step`).
     """
 
     program: Program
@@ -223,7 +225,7 @@ class _Builder:
             self.body.append(Multiplication(target, columns, displacement, added=True))
 
     def evaluated(self, target: Var, point: Var, *time: Var) -> Matrix:
-        """Append the evaluation of the field at ``point``, and return the core of the result."""
+        """Append the evaluation of the field at ``point``, and return the core S of the result B S B^T."""
         n, k, name = self.matrices.rows, self.k, target.name
         displacement, x = self.points[point], self.argument
         if displacement is not None:
@@ -245,10 +247,10 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append the core S = E C^T - C E^T, and return S.
+        """Append S = E C^T - C E^T, the core of a value of the field at the point X = B C, and return S.
 
-        E contains the unit vectors ``first``, ..., ``first`` + k - 1. C belongs to the point X = B C with the
-        given displacement.
+        E contains the unit vectors ``first``, ..., ``first`` + k - 1. The matrix C is determined by the
+        ``displacement`` D of the point X = X_0 + B D.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
@@ -290,16 +292,19 @@ class _Builder:
                 return statement
 
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
-        """Append a linear combination of cores, and return the result, which has the size of the largest
-        core.
+        """Append a linear combination of matrices S, and return the result, which has the size of the largest
+        matrix.
+
+        Each S represents the element B S B^T of the algebra with the basis B.
         """
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append the core of the bracket of the elements with the cores x and y, and return this core.
+        """Append the bracket of the elements B x B^T and B y B^T of the algebra with the basis B.
 
-        The core is N - N^T with N = x G y, where G is the Gram matrix.
+        The bracket is B S B^T with S = N - N^T and N = x G y, where G is the Gram matrix of B. The function
+        returns S.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
@@ -311,7 +316,11 @@ class _Builder:
         return core
 
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
-        """Append dexp^{-1}_x y, truncated after ``order`` brackets, and return its core."""
+        """Append dexp^{-1}_x y, truncated after ``order`` brackets.
+
+        An element B S B^T of the algebra is represented by its core S. The function returns the core of the
+        result.
+        """
         terms, power = [(self.one, y)], y
         for k in range(1, last_term(order) + 1):
             power = self.bracket(f"{name} bracket {k}", x, power)
@@ -321,9 +330,10 @@ class _Builder:
         return self.combination(name, terms)
 
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
-        """Append the action of an exponential on a point, and return the displacement of the new point.
+        """Append the action of exp(B S B^T) on the point X_0 + B D, where S is ``core`` and D is ``start``.
 
-        ``core`` is the core of the exponential, and ``start`` the displacement of the point.
+        X_0 is the old state, and B is the basis. If ``start`` is None, D is zero. The function returns the
+        matrix D of the new point.
         """
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)

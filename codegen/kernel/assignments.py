@@ -55,7 +55,7 @@ class Assignments:
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the body of the kernel, and set ``outputs``."""
-        # The uses of each node are counted in all blocks together, because a value that two blocks share must
+        # The uses of each node are counted in all loops together, because a value that two loops share must
         # have a single name.
         self._prepare()
         if self.blocks and self.remembers:
@@ -80,8 +80,8 @@ class Assignments:
             # An exact matrix depends on the unknowns and uses values of the body, so it comes after the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
             # In the last sweep, Newton's method corrects the unknowns after the body has been computed.
-            # Values of the body that are used later are computed again from the corrected unknowns in two
-            # cases: if the block has residuals, and if this takes little work.
+            # Values of the body that are used later are computed again from the corrected unknowns if the
+            # equations have residuals, or if this takes little work.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -100,7 +100,7 @@ class Assignments:
         return tuple(self.body)
 
     def _prepare(self) -> None:
-        """Count the uses of each node, and find the last block on whose unknowns the node depends."""
+        """Count the uses of each node, and find the last loop on whose unknowns the node depends."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         # The entries of Newton's matrix are included, so that a value that the matrix uses gets a name.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
@@ -117,8 +117,8 @@ class Assignments:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
-            # The level of a node is the last block on which the node depends, because a value cannot be
-            # computed before all its unknowns are known.
+            # The level of a node is the last loop on whose unknowns the node depends. The value cannot be
+            # computed before this loop.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
@@ -157,23 +157,26 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if recomputing values of block k after its loop takes less than half of the work of a
-        sweep.
+        """Return True if later values are cheap to compute again from the final unknowns of loop k.
 
-        The values are those that later statements use.
+        The limit is half of the work of a sweep of the loop.
         """
         rest = [*self._later(k), *self.roots]
         # In this case the values are computed again from the final unknowns.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
-        """Return the cost of the operations in ``roots`` that depend on block k and on no later block."""
+        """Return the cost of the operations in ``roots`` that depend on the unknowns of loop k and of no
+        later loop.
+        """
         # Other nodes are not counted, because their cost does not depend on this decision.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
     def _forget(self, k: int) -> None:
-        """Delete the names of values of block k, so that later statements compute these values again."""
+        """Delete the names of values that depend on loop k, so that later statements compute these values
+        again.
+        """
         # ``_place`` computes a value again, from the corrected unknowns, if the value has no entry in
         # ``done``.
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))

@@ -41,7 +41,7 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
             expected="a scene with a formula for each coordinate",
             hint="leave out --compensate",
         )
-    # The step must be complete, without flows that are deferred to the next step.
+    # The step must be complete, without flows that a run applies only once for several steps.
     if kernel.deferred is not None:
         kernel = to_kernel(program, problem)
     if kernel.carried is not None:
