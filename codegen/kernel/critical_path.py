@@ -47,7 +47,7 @@ product without a late value."""
 
 def chain(kernel: Kernel) -> int:
     """Return the length of the critical path: the time of a step with unlimited parallel operations."""
-    # The symbol of an assignment is ready when the assigned value is; inputs are ready at time 0.
+    # The symbol of an assignment is ready when the assigned value is ready. Inputs are ready at time 0.
     ready: dict[int, int] = {}
     for let in kernel.lets():
         ready[let.value.space.sym(let.name).id] = _measured(let.value, ready)
@@ -58,9 +58,9 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     """Return assignments sorted by the time at which their values are ready. Times are rounded down to
     multiples of the latency of a function.
 
-    A processor reorders only the next few hundred instructions, so operations that can run in parallel with
-    the longest chain must be near it in the code. Sorting by the exact times would separate operations that
-    read the same values, and these values would not fit into the registers.
+    A processor reorders only the next few hundred instructions. Therefore operations that can run in parallel
+    with the longest chain must be near this chain in the code. Sorting by the exact times would separate
+    operations that read the same values, and these values would not fit into the registers.
     """
     ready: dict[int, int] = {}
     times = []
@@ -123,10 +123,10 @@ class _Chains:
 
     def _measure(self, node: Expr) -> None:
         # The level of a node is the largest number of slow operations in one chain up to the node. In a sum,
-        # the values of the highest level are the late ones.
+        # the late values are the values of the highest level.
         self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
         self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
-        # A value is fixed if it is constant in a run: a compiler moves products of such values out of the
+        # A value is fixed if it is constant in a run. A compiler moves products of fixed values out of the
         # loop over the steps.
         own = node.op == "const" or (node.op == "sym" and node.payload in self.invariant)
         self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
@@ -141,7 +141,7 @@ class _Chains:
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
-            # Only sums and products are linear in late values; a call or quotient of late values is a new
+            # Only sums and products are linear in late values. A call or quotient of late values is a new
             # late value.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
@@ -205,8 +205,8 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # Either this node is the result of a slow operation, such as a sine, or it is not linear in late
-        # values. In both cases the node itself counts as a late value.
+        # This node is the result of a slow operation, such as a sine, or is not linear in late values. In
+        # both cases the node itself counts as a late value.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
@@ -218,7 +218,7 @@ class _Chains:
         return self._known(self._known(steps) * rest)
 
     def _expression(self, total: Sum, space: Space) -> Expr:
-        """Return the sum of products; add the terms in the order in which they are ready."""
+        """Return the sum of products as an expression. Terms that are ready early are added first."""
         terms: list[tuple[int, Expr]] = []
         for atom, (sign, steps, rest) in total.items():
             product = self._product(steps, rest)
@@ -228,7 +228,7 @@ class _Chains:
             # Huffman coding.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
-            # A subtraction includes the sign at no cost; only a sum of two negative terms needs a negation at
+            # A subtraction includes the sign at no cost. Only a sum of two negative terms needs a negation at
             # the end.
             both = x + y if p == q else x - y if p > 0 else y - x
             terms = [(p if p == q else 1, self._known(both)), *others]

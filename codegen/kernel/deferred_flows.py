@@ -50,8 +50,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # The flows are compared numerically at sample points. The formula of a vanishing Lie bracket need not
     # simplify to zero, so a symbolic test could fail.
     commute = commuting(scene)
-    # A part can be deferred to the end of a run only if all its flows have the duration h and read no stage
-    # time.
+    # The flows of a part can be deferred to the end of a run only if all of them have the duration h and read
+    # no stage time.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     # The flow of a part in ``free`` commutes with all other flows, so it can be applied after the last step.
@@ -80,7 +80,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
 
 
 def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = AS_WRITTEN) -> Kernel:
-    """Return ``kernel`` with the kernels of the deferred flows added; ``kernel`` is compiled from the core of
+    """Return ``kernel`` with the kernels of the deferred flows. ``kernel`` is compiled from the core of
     ``parted``."""
     begin, finish = (
         None if program is None else to_kernel(program, scene, chains=chains)
@@ -96,11 +96,12 @@ def _is_h(letter: Letter) -> bool:
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable that replaces its duration; None if the flow keeps its duration in the program."""
+"""A flow, and the variable that replaces the duration of the flow, or None if the duration is not
+replaced."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""Two flows that are joined across steps: the index of the leading flow, the index of the final flow, the
-duration of the final flow, and the sum of both durations.
+"""Two flows that are joined across steps: the indices of the leading and the final flow, the duration of the
+final flow, and the sum of both durations.
 """
 
 
@@ -144,7 +145,7 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     """Return the program that applies the flows ``letters``, with the given durations. The variables ``more``
     are additional inputs."""
-    # All stage times are copied; the kernel assigns only those that its outputs read.
+    # All stage times are copied. The kernel assigns only the stage times that its outputs read.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)

@@ -31,14 +31,14 @@ expansion or 472 with expansion. To count them, evaluate ``len(list(compile_meth
 "vcf:cf4").kernel.lets()))``."""
 
 LONGEST_MATRIX = 1500
-"""The largest number of operations of an exact matrix of Newton's method; a longer matrix is replaced by the
+"""The largest number of operations of an exact matrix of Newton's method. A longer matrix is replaced by the
 matrix to first order in h.
 
 Ordinary matrices are far below this limit: the matrix of vcg:triple_jump on heavy_top has 555 operations, as
 its emitted header states. A limit of 6000 gives the same kernels."""
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
-"""Costs of operations in additions or products; other operations cost one.
+"""Costs of operations, in units of an addition or product. Operations that are not listed have the cost 1.
 
 The weights are rough latencies. The exact values do not matter, because the weights only decide whether one
 cost is below half of another cost."""
@@ -182,7 +182,7 @@ def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
 
 
 class Solved:
-    """Replaces the images of a solved block by its unknowns; at the solution u = g(u) both are equal."""
+    """Replaces the images g(u) of a solved block by its unknowns u, because u = g(u) at the solution."""
 
     def __init__(self, block: Block) -> None:
         self.space: Space = block.images[0].space

@@ -50,8 +50,8 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
     The optimisation passes depend neither on the entries nor on the size of A. Therefore the passes are
     verified on a model scene in which A is a 3 x 3 matrix.
 
-    MethodError is raised for a method with step control, for implicit stages, and for a method with an
-    operation that is not a product of A and a vector.
+    MethodError is raised for methods with step control, with implicit stages, or with operations other than
+    products of A and vectors.
     """
     if method.adaptive:
         expected = "a run with constant steps"
@@ -71,8 +71,10 @@ def _model(timed: bool) -> Problem:
 
 
 def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
-    """Return the kernel of a program on a large linear problem; MethodError is raised for implicit stages and
-    for operations that are not products of A and a vector."""
+    """Return the kernel of a program on a large linear problem.
+
+    MethodError is raised for implicit stages, and for operations other than products of A and vectors.
+    """
     assert isinstance(scene.matrices, LinearField)
     step = _Builder(program, scene, scene.matrices).step()
     (block,) = scene.state
@@ -185,7 +187,7 @@ class _Builder:
                 raise refused(self.scene, what, "exponents that are sums and brackets of values of A")
 
     def node(self, time: Expr) -> int:
-        """Return the index of the node at a time; evaluations of A at equal times share a node."""
+        """Return the index of the node at a time. Evaluations of A at equal times share a node."""
         if time not in self.times:
             self.times.append(time)
         return self.times.index(time)
@@ -208,9 +210,10 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        If x and y contain no commutators, [x - c y, y] = [x, y] is used. If possible, the number c is chosen
-        such that the coefficients of x - c y add up to zero. Then x - c y is a combination of differences of
-        values of A. These differences are small, and so is the bound of the norm of the commutator.
+        If x and y contain no commutators, x is replaced by x - c y, because [x - c y, y] = [x, y]. If
+        possible, the number c is chosen so that the coefficients of x - c y add up to zero. Then x - c y is a
+        combination of differences of values of A. These differences are small, and so is the bound of the
+        norm of the commutator.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -242,7 +245,7 @@ class _Builder:
         return Element(letter, tuple((c, number) for number, c in value.commutators.items()))
 
     def matrix(self) -> TimeMatrix:
-        """Return A(t); parameters that are not arguments of the emitted code are replaced by their values."""
+        """Return A(t). Parameters that are not arguments of the emitted code are replaced by their values."""
         space = self.domain.space
         values = {**self.scene.scalars(self.domain, space.sym(TIME))}
         values |= {index: space.sym(index) for index in (ROW, COLUMN)}
@@ -267,7 +270,7 @@ class _Builder:
 
 
 def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
-    """Return the values on which a value of the algebra depends, arguments first; points are omitted."""
+    """Return the values on which a value of the algebra depends, arguments first. Points are omitted."""
     order: list[Var] = []
 
     def visit(v: Var) -> None:

@@ -106,7 +106,7 @@ class ModeMethod:
 
 
 def mode_method(scene: Problem, method: Method) -> ModeMethod:
-    """Return the compiled method; MethodError is raised for implicit methods.
+    """Return the compiled method. MethodError is raised for implicit methods.
 
     The optimisation passes do not read the formulas of the field, so the passes are verified on a model
     problem with one mode.

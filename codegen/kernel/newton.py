@@ -33,7 +33,7 @@ AT_ZERO = {
     **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
     **{name: function.at_zero for name, function in ELEMENTARY.items()},
 }
-"""The values of functions at zero; None for a function with a pole at zero."""
+"""The values of functions at zero, or None for a function with a pole at zero."""
 
 
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
@@ -60,7 +60,7 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     """
     space = images[0].space
     h = space.sym("h")
-    # ``slopes`` are the derivatives g'(h); both g and g' are then evaluated at h = 0.
+    # ``slopes`` are the derivatives g'(h). Both g and g' are then evaluated at h = 0.
     slopes = [row[0] for row in jacobian(images, ["h"])]
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
@@ -73,8 +73,8 @@ class _AtZero(ExprDomain):
     def call(self, function: str, *args: Expr) -> Expr:
         """Return the call of a function: its value if the argument is zero and :data:`AT_ZERO` contains the
         function, otherwise a call node. ZeroDivisionError is raised if the function has a pole at zero."""
-        # The closed forms of Stumpff functions are 0/0 at zero. Their values at zero are the first
-        # coefficients of their series, which :data:`AT_ZERO` contains.
+        # The closed forms of Stumpff functions are 0/0 at zero. Therefore :data:`AT_ZERO` contains the values
+        # at zero, which are the first coefficients of the series.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]
             if value is None:
@@ -113,7 +113,7 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     n, space = len(rows), rows[0][0].space
     if n == 1:
         return space.one
-    # For n = 3, cyclic row and column indices give each cofactor the right sign; for n = 2 the sign is set
+    # For n = 3, cyclic row and column indices give each cofactor the right sign. For n = 2 the sign is set
     # explicitly.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))

@@ -41,8 +41,8 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Format the coefficient ``c`` of a term: the name of its symbol ``x``, or its value if ``x`` is a
         constant. A factor h follows for each power of h."""
-        # The header of emitted code shows the name of the argument without the name of the function, which is
-        # a prefix of the symbol.
+        # The symbol of an argument begins with the name of the function. The header of emitted code omits
+        # this prefix.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
@@ -142,7 +142,7 @@ class WithFunctions:
         return getattr(self.domain, name)
 
     def call(self, callee: str, *args: Value) -> Value:
-        """Return result k of an outlined function if ``callee`` is ``name.k``; otherwise return the value of
+        """Return result k of an outlined function if ``callee`` is ``name.k``. Otherwise return the value of
         the library function ``callee``."""
         name, dot, k = callee.partition(".")
         if not dot:
@@ -189,8 +189,8 @@ def rewritten(
                 waiting.pop()
                 continue
             call = calls.get(node.id)
-            # After a node is replaced by a call, it depends on the arguments of the call only; its old
-            # operands may be unused.
+            # A node that is replaced by a call depends only on the arguments of the call. The old operands of
+            # the node may be unused.
             below = node.args if call is None else call[2]
             missing = [a for a in below if a.id not in new]
             if missing:

@@ -51,8 +51,8 @@ Outlining hardly changes the operations, so the difference is at most 1.4e-17 fo
 these two cases."""
 
 ATTEMPTS, DIGITS = 8, 60
-"""The verification needs one point at which all values are finite. It tries ATTEMPTS points in doubles, then
-as many points in numbers with DIGITS digits, which do not overflow."""
+"""The verification needs one point at which all values are finite. ATTEMPTS points are tried in doubles. Then
+ATTEMPTS points are tried in numbers with DIGITS digits, which do not overflow."""
 
 Shape = tuple[Key, tuple[int, ...]]
 """The identification of a function: the key of its trees, and the indices of the results that are read."""
@@ -71,8 +71,8 @@ class Outline:
         self.trees = Trees(self.program, self.domain)
 
     def run(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> list[Expr] | None:
-        """Return the roots, with repeated parts replaced by calls of the functions in ``outlined``. Return
-        None if nothing is repeated.
+        """Return the expressions ``roots``, with repeated parts replaced by calls of the functions in
+        ``outlined``. Return None if nothing is repeated.
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
@@ -106,7 +106,8 @@ class Outline:
     def _called(
         self, roots: Sequence[Expr], chosen: Mapping[Shape, list[Tree]]
     ) -> tuple[list[Expr], dict[str, Shape]]:
-        """Create the functions; return the roots with their calls, and the shape of each function."""
+        """Create the functions. Return the expressions ``roots`` with calls of the functions, and the shape
+        of each function."""
         # Each round numbers its functions from 1.
         self.outlined.clear()
         calls: dict[int, tuple[str, int, list[Expr]]] = {}

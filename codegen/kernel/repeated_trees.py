@@ -90,7 +90,7 @@ class Trees:
         place: int,
         joined: bool = True,
     ) -> None:
-        """Record an assignment in the block with number ``place``; -1 means outside blocks.
+        """Record an assignment. ``place`` is the number of its block, or -1 outside blocks.
 
         ``joined`` is false if the results were not computed by the operation alone, or depend on more than
         ``args``. Such an assignment is not joined with others.
@@ -122,9 +122,10 @@ class Trees:
         return assign, args
 
     def joined(self) -> list[Tree]:
-        """Return the assignments as trees; trees are joined as long as joining saves lines."""
+        """Return the assignments as trees. Trees are joined as long as joining saves lines."""
         self._find_users()
-        # Each assignment starts as a tree of its own; ``owner`` maps each member to its tree.
+        # Each assignment starts as a tree of its own. ``owner`` maps the index of each assignment to the tree
+        # that contains it.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
         while True:
@@ -179,8 +180,8 @@ class Trees:
 
     def _size(self, i: int) -> int:
         """Estimate the number of lines of the operation with index ``i``, the last operation of a tree."""
-        # The estimate depends on the name of the operation only, because the number of lines hardly depends
-        # on the operands, and walking through the operands is slow.
+        # The estimate depends on the name of the operation only. The number of lines hardly depends on the
+        # operands, and walking through the operands is slow.
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]
@@ -294,7 +295,7 @@ class Trees:
 
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
     """Return, for each coefficient of a sum, a pair: a number and the power of h. Equal coefficients have
-    equal numbers; the coefficient 1 has the number 0."""
+    equal numbers. The coefficient 1 has the number 0."""
     seen: dict[Coefficient, int] = {}
     # A coefficient of one changes the shape, because it needs no product. Terms with equal coefficients are
     # added and then multiplied once, so equality is part of the shape.

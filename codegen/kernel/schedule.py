@@ -69,7 +69,7 @@ class Invocation:
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the arrays of arguments of a vector function; () for an outlined function."""
+        """The lengths of the argument arrays of a vector function, or () for an outlined function."""
         function = vector_function(self.function)
         return () if function is None else function.arrays
 
@@ -78,7 +78,8 @@ _RESULT = re.compile(r"(v_\d+)\.(\d+)")
 
 
 def result_of(symbol: str) -> tuple[str, int] | None:
-    """Return the name of the call and the index of the result that a symbol denotes; None for other symbols.
+    """Return the name of the call and the index of the result that a symbol denotes, or None for other
+    symbols.
 
     >>> result_of("v_12.3"), result_of("vary.3")
     (('v_12', 3), None)
@@ -123,7 +124,8 @@ Statement = Simple | Beginning | Iteration
 
 @dataclass(frozen=True)
 class Arrangement:
-    """The statements and outputs of a step, ready to print; emitted code executes them ``repeated`` times."""
+    """The statements and outputs of a step, ready to print. A step of emitted code executes the statements
+    ``repeated`` times, once for each substep."""
 
     statements: tuple[Statement, ...]
     outputs: tuple[Expr, ...]
@@ -178,8 +180,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     )
     # Error estimates are rewritten together with the outputs, so that both share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # The required Stumpff functions c_k are recorded before any statement is rewritten, because the first
-    # call for an argument computes every c_k that a later statement needs.
+    # The required Stumpff functions c_k are recorded before the statements are rewritten, because the first
+    # call for an argument computes all c_k that later statements need.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -200,7 +202,7 @@ def arrange(kernel: Kernel) -> Arrangement:
         statements.append(_iteration(statement, loops, starts, scope, later))
     rewritten = tuple(scope.rewrite(e) for e in ends)
     statements += scope.take()
-    # Outputs and error estimates are rewritten as one list, so that they share calls; the list is split
+    # Outputs and error estimates are rewritten as one list, so that they share calls. The list is split
     # below.
     states = len(kernel.outputs)
     repeated = max(1, len(kernel.substeps))
@@ -284,8 +286,8 @@ class _Scope:
     def nested(
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
-        """Return the rewritten assignments and values of a nested block; later statements cannot read their
-        names."""
+        """Return the rewritten assignments and values of a nested block. Later statements cannot read names
+        of the block."""
         # The block may be skipped at run time, so no later statement may use a name from the block.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
@@ -306,13 +308,16 @@ class _Scope:
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # The indices k form the name of the called function. They are sorted, so that c_1 and c_2 always give
+        # The sorted indices k form the name of the called function. For example, c_1 and c_2 always give
         # stumpff_12.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
-        """Return the statements for the assignment ``let``. If a call has already given the value a name and
-        ``kept`` is false, no assignment is returned, and later expressions use the name of the call."""
+        """Return the statements for the assignment ``let``.
+
+        If ``kept`` is false and a call has already given the value a name, no assignment is returned. Later
+        expressions then use the name from the call.
+        """
         value = self.rewrite(let.value)
         before = self.take()
         # A call has already given this result a name. A second name would only copy the value.

@@ -42,8 +42,8 @@ class SharedArguments(ExprDomain):
         return super().call(function, *args)
 
     def _first(self, argument: Expr) -> Expr:
-        """Return an earlier argument that equals this argument as a polynomial; if there is none, return this
-        argument."""
+        """Return the first argument that equals this argument as a polynomial. This may be the argument
+        itself."""
         # Results are stored by node number, because expanding a polynomial is slow and one argument may occur
         # many times.
         if argument.id not in self.shared:

@@ -22,8 +22,8 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites, offset_text
 
 RECOMPUTED = (Linear, Zero, Advance)
-"""Operations whose results are usually not stored: each sweep that reads such a result computes it again.
-Only sums that :mod:`codegen.kernel.site_plan` selects are stored."""
+"""Cheap operations. Each sweep that reads a result of these operations computes the result again. Only the
+sums that :mod:`codegen.kernel.site_plan` selects are stored."""
 
 EVALUATED = (Field, HamiltonianDerivatives)
 """Operations that read the states of neighbours."""

@@ -234,7 +234,7 @@ class Planner:
         return used
 
     def _store(self, needs: list[_Needs]) -> int:
-        """Assign rows of the workspace to stored variables; return the number of rows."""
+        """Assign rows of the workspace to stored variables, and return the number of rows."""
         for var in self._given():
             self.rows[var] = tuple(Row(STATE, k) for k in self._numbers(var.name))
         used = self._last_uses(needs)

@@ -64,19 +64,19 @@ def to_kernel(
     whole: bool = False,
     outlining: bool = True,
 ) -> Kernel:
-    """Return the kernel of a program; ``scene`` is the problem of the program
-    (:func:`codegen.lower.problem`).
+    """Return the kernel of a program. ``scene`` is the problem of the program
+    (:func:`codegen.lower.problem_for`).
 
-    ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON; all other
+    ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON. All other
     blocks are solved by fixed-point iteration. With ``variations`` the kernel also propagates a variation of
     the state (``Kernel.vary``). Values of ``chains`` other than :data:`AS_WRITTEN` require a program without
     blocks. If ``whole`` is true or ``variations`` are given, the step reads and returns the momentum in the
     frame that callers of the emitted code use (:mod:`codegen.kernel.carried_momentum`). If ``outlining`` is
     true, repeated computations of a long step become functions (:mod:`codegen.kernel.outlining`).
 
-    Raises :class:`codegen.errors.SceneError` if an operation of the group has no closed form,
-    :class:`codegen.ir.differentiate.NotDifferentiable` if the matrix of Newton's method contains a derivative
-    that does not exist, and ZeroDivisionError if the matrix does not exist to first order.
+    :class:`codegen.errors.SceneError` is raised if an operation of the group has no closed form.
+    :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a derivative in the matrix of Newton's
+    method does not exist. ZeroDivisionError is raised if this matrix does not exist to first order in h.
     """
     return _Translation(program, scene, solvers, variations, chains, whole, outlining).kernel()
 
@@ -162,7 +162,7 @@ class _Translation:
             self.remember(target)
 
     def begin(self) -> State:
-        """Set the inputs of the program; return its initial state."""
+        """Set the values of the program's inputs to symbols, and return the initial state."""
         space = self.domain.space
         # If the momentum is transformed to another frame, all following statements read the transformed
         # momentum.
@@ -344,7 +344,7 @@ def _outlined(
     shorter = outline.run(flat, owners)
     if shorter is None:
         return None, ()
-    # The rewritten roots have the order of the flat list; ``take`` returns them one after the other.
+    # The rewritten roots have the order of the flat list. ``take`` returns the next n of them.
     new = iter(shorter)
 
     def take(n: int) -> tuple[Expr, ...]:

@@ -28,7 +28,7 @@ class Variations:
 
     @classmethod
     def of(cls, scene: Problem) -> Variations:
-        """Return the variations of a problem; SceneError if tangent vectors of its group cannot be
+        """Return the variations of a problem. Raise SceneError if tangent vectors of its group cannot be
         represented in the Lie algebra."""
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
@@ -54,7 +54,7 @@ class Variations:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the components of a variation. They differ from every name of a scene."""
+        """The names of the components of a variation, which differ from all names of a scene."""
         # Names of a scene are identifiers, which contain no dot.
         return tuple(f"vary.{k}" for k in range(self.dim))
 
@@ -78,8 +78,8 @@ class Variations:
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # ``rate`` converts the derivatives of the new group element to an element of the algebra. It is
-            # the inverse of ``velocity`` on tangent vectors.
+            # ``rate`` is the inverse of ``velocity`` on tangent vectors: it converts the derivatives of the
+            # new group element to an element of the algebra.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 
@@ -99,8 +99,8 @@ class Variations:
 
 
 def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation | None:
-    """Return the group; raise SceneError if its tangent vectors cannot be represented in its algebra. For
-    plain numbers the group and the result are None."""
+    """Return ``group``. Raise SceneError if its tangent vectors cannot be represented in its algebra. For
+    plain numbers ``group`` and the result are None."""
     if group is None:
         return None
     trivialised = group.offers(RightTrivialisation)

@@ -3,11 +3,11 @@
 The emitted module is run on a lattice whose arrays are larger than the last-level cache. Each sweep then
 reads and writes main memory. The bytes that a step moves are counted from its sweeps
 (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`). The step is compared with the triad a[i] = b[i] + s
-c[i] of the STREAM benchmark (McCalpin 1995), compiled with the same flags and run in the same process on
-arrays of the same total size. In both cases each number that a loop reads or stores is counted once. The
-processor also reads a cache line before it writes to the line, but this traffic is not counted. Therefore a
-loop with few stores may exceed the bandwidth of the triad, which reads two numbers for each number that it
-stores.
+c[i] of the STREAM benchmark (McCalpin 1995). The triad is compiled with the same flags, and run in the same
+process on arrays of the same total size. In both cases each number that a loop reads or stores is counted
+once. The processor also reads a cache line before it writes to the line, but this traffic is not counted.
+Therefore a loop with few stores may exceed the bandwidth of the triad, which reads two numbers for each
+number that it stores.
 """
 
 from __future__ import annotations
@@ -89,11 +89,11 @@ void triad(size_t n, double *restrict a, const double *b, const double *c, doubl
 class Bandwidth:
     """The measured step of a lattice.
 
-    ``shape`` is the number of sites in each dimension, ``array_bytes`` the size of the states and the
-    workspace of all sites, ``cache_bytes`` the size of the last-level cache. ``ns`` is the CPU time for each
-    site and step in nanoseconds. ``moved`` is the number of bytes that are read and written for each site and
-    step. ``triad`` is the bandwidth of the triad in GB/s, where 1 GB is
-    10^9 bytes. ``sweeps`` are the mean numbers of sweeps over the implicit equations in a step.
+    ``shape`` contains the number of sites in each dimension. ``array_bytes`` is the size of the states and
+    the workspace of all sites. ``cache_bytes`` is the size of the last-level cache. ``ns`` is the CPU time
+    for each site and step in nanoseconds. ``moved`` is the number of bytes that are read and written for each
+    site and step. ``triad`` is the bandwidth of the triad in GB/s, where 1 GB is 10^9 bytes. ``sweeps`` are
+    the mean numbers of sweeps over the implicit equations in a step.
     """
 
     shape: tuple[int, ...]
@@ -111,7 +111,7 @@ class Bandwidth:
 
     @property
     def fraction(self) -> float:
-        """The bandwidth of the step divided by that of the triad."""
+        """The bandwidth of the step divided by the bandwidth of the triad."""
         return self.rate / self.triad
 
     def lines(self) -> list[str]:
@@ -196,7 +196,7 @@ def measure(
 
 
 def _step_size(compiled: Compiled, step: SiteStep) -> float:
-    """Return the step size of the example in the emitted file; an explicit method has a shorter step."""
+    """Return the step size of the example in the emitted file, or a shorter step for an explicit method."""
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
     # If an angle of rotation exceeds about one radian, the loops are repeated without vector instructions.
@@ -307,7 +307,7 @@ def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs)
 
 
 def _triad() -> Callable[[int], float]:
-    """Compile the triad; return a function that maps the total size of its three arrays in bytes to its
+    """Compile the triad. Return a function that maps the total size of its three arrays in bytes to its
     bandwidth in GB/s."""
     import numpy as np
     from cffi import FFI

@@ -19,7 +19,7 @@ from orderconds.tableau import Tableau
 
 FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
-"""Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``: the first list is
+"""Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``. The first list is
 for scenes that are given by a field, the second for Hamiltonian scenes."""
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
@@ -95,7 +95,7 @@ PICTURED = (
 
 
 def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) -> tuple[Method, ...]:
-    """Return the named methods; without names, the default methods for the scene.
+    """Return the named methods, or the default methods for the scene if there are no names.
 
     Methods may also be given as tableaux. An unknown name raises the errors of
     :func:`codegen.method.parse`.

@@ -69,7 +69,7 @@ class Advice:
         return self.best is not None
 
     def emit(self, target: str = DEFAULT) -> Artifact:
-        """Return the integrator of the best method; raise ValueError if no method reaches the error."""
+        """Return the integrator of the best method. Raise ValueError if no method reaches the error."""
         if self.best is None:
             raise ValueError("no method reaches the error")
         best = self.best
@@ -140,7 +140,7 @@ def _interval(span: object) -> tuple[Fraction, Fraction]:
 
 
 def _advised(record: object) -> AdvisedMethod | None:
-    """Return a method, given its JSON record in a recommendation; None if the record is None."""
+    """Return the method that a JSON record of a recommendation describes, or None if the record is None."""
     if record is None:
         return None
     values = cast("dict[str, object]", record)

@@ -226,7 +226,7 @@ def _folder(output: str | None) -> Path | None:
 
 
 def table(rows: Sequence[Row]) -> str:
-    """Return the rows as CSV with a header; unknown values are empty."""
+    """Return the rows as CSV with a header. Unknown values are empty."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     columns = [field.name for field in fields(Row)]

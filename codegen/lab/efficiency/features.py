@@ -31,7 +31,7 @@ class Features:
 
 
 def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
-    """Return the properties of a method; ``label`` defaults to the label of the method."""
+    """Return the properties of a method. ``label`` is by default the label of the method."""
     target = known_target(artifact.manifest["target"])
     source = artifact.files[target.step_file(artifact.manifest["module"])]
     stack = re.search(target.stack, source) if target.stack else None

@@ -39,8 +39,10 @@ NEEDS = (
 
 @dataclass(frozen=True)
 class Goal:
-    """A goal of a search: the largest error at the end of the span, the names of the needs, and the largest
-    stack memory of a call in bytes.
+    """A goal of a search.
+
+    ``error`` is the largest error at the end of the span. ``needs`` are names of :data:`NEEDS`. ``stack`` is
+    the largest stack memory of a call in bytes.
     """
 
     error: float

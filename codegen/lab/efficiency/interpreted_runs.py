@@ -58,8 +58,10 @@ class NewtonDomain(CountingDomain):
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Return the state after equal steps over the span, and an estimate of the number of sweeps over an
-    implicit block that an emitted program needs in a step.
+    """Return the state after equal steps over the span, and an estimated number of sweeps.
+
+    The estimate is the average number of sweeps over an implicit block that an emitted program needs in a
+    step.
 
     Raises ArithmeticError if a state is not finite, or if the process has used ``end`` CPU seconds before the
     end of the run.
@@ -88,7 +90,7 @@ def controlled_run(
     """Return the final state of a run with step-size control, the number of tried steps, and the average
     number of sweeps over an implicit block in a step.
 
-    The program has an embedded solution; ``order`` is the power of h in its error estimate. ``tolerance`` is
+    The program has an embedded solution. ``order`` is the power of h in the error estimate. ``tolerance`` is
     both the relative and the absolute tolerance. Raises ArithmeticError if steps become too short, or if the
     run is not finished when the process has used ``end`` CPU seconds.
     """

@@ -32,13 +32,13 @@ EVEN = 4.0
 """A constant in the delay of a queue of recipes. The next recipe is taken from the queue with the smallest
 delay.
 
-The delay increases by one for every EVEN recipes that were taken from the queue. It also increases by one for
-every EVEN orders between the order of the queue and the usual order, and for every factor of two in the
-predicted time of the recipes.
+The delay is a sum of three terms: the number of recipes that were taken from the queue, divided by EVEN; the
+distance between the order of the queue and the usual order, divided by EVEN; and the binary logarithm of a
+ratio of predicted times.
 """
 
 FAILED = 4.0
-"""The delay of the queues of a kind of recipe if no prediction of this kind succeeded."""
+"""The term of predicted times in the delay of a queue if all predictions for its kind of recipe failed."""
 
 
 def usual_order(error: float) -> float:
