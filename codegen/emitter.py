@@ -116,15 +116,15 @@ def compile_method(
     family: str = "",
     **run: Unpack[RunOptions],
 ) -> Compiled:
-    """Return a method on a scene, lowered, optimised and translated to a kernel.
+    """Compile a method on a scene: translate it to a step program, optimise the program, and build a kernel.
 
     ``scene`` and ``method`` may be given by their names. In ``parameters``, a name (``alpha``) makes a
     parameter a run-time argument, and a name with a value (``alpha=1/2``) makes a parameter a constant. All
     other parameters become constants with the scene's values. ``inputs`` are signals that become run-time
     inputs. ``frame`` is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is
-    the solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of
-    an embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
-    scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
+    the solver of implicit equations (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate
+    of an embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of
+    the scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
     times. ``events`` is the number of event functions of this run. ``dense`` uses the continuous extension of
     the tableau at output times. ``compensate`` extends the state by the rounding errors of compensated
@@ -318,15 +318,16 @@ def emit(
     by default the family in which its order is highest. External names begin with ``prefix``, by default made
     from the names of scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are signals of
     the scene that become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``.
-    ``adaptive`` adds a run with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver
-    of implicit blocks: ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest.
-    ``form`` is the key of a classical form of the scene, by default the equations as printed. ``batch`` adds
-    a C function that steps many independent systems (:meth:`codegen.integrator.Integrator.run_batch`).
-    ``integrate`` adds a run to a given end time with output at given times and, if adaptive, bounds on step
-    sizes. ``events`` is the number of event functions of this run. ``dense`` uses the continuous extension of
-    the tableau at output times. ``compensate`` extends the state by the rounding errors of compensated
-    summation, which are zero initially. Errors: the errors of :func:`compile_method`, UnknownName for an
-    unknown target, and InputError for a prefix that is not a valid name in C.
+    ``adaptive`` adds a run with step-size control, ``jacobian`` the derivative of a step. ``solver`` is the
+    solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the
+    cheapest. ``form`` is the key of a classical form of the scene, by default the equations as printed.
+    ``batch`` adds a C function that steps many independent systems
+    (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a given end time with
+    output at given times and, if adaptive, bounds on step sizes. ``events`` is the number of event functions
+    of this run. ``dense`` uses the continuous extension of the tableau at output times. ``compensate``
+    extends the state by the rounding errors of compensated summation, which are zero initially. Errors: the
+    errors of :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is
+    not a valid name in C.
     """
     known_target(target)
     known_precision(precision)

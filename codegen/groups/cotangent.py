@@ -12,7 +12,7 @@ from codegen.ir.domain import Domain
 
 
 class Cotangent(CotangentBundle, Projection, Inverse):
-    """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu); the coordinates of g come before the
+    """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu). The coordinates of g come before the
     coordinates of mu.
 
     A field f(q, mu) = (xi, n) gives the equations q' = xi.q and mu' = n - ad*_xi mu, that is z' = f(z).z

@@ -150,8 +150,8 @@ def solved_near_identity(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
     """Return the solution x of ``a`` x = ``b`` by elimination without row exchanges.
 
     ``a`` has n rows and columns, and ``b`` has n rows. The pivots are close to 1 if ``a`` is close to the
-    unit matrix. The pivots are positive if the symmetric part of ``a`` is positive definite. An example is
-    the sum of the unit matrix and a skew matrix.
+    unit matrix. The pivots are positive if the symmetric part of ``a`` is positive definite, as for the sum
+    of the unit matrix and a skew matrix.
     """
     width = len(b) // n
     rows = [[*a[n * i : n * i + n], *b[width * i : width * i + width]] for i in range(n)]

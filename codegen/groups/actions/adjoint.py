@@ -10,7 +10,7 @@ from codegen.ir.domain import Domain
 
 
 class AdjointAction(Action):
-    """A group acting on its Lie algebra, g.y = Ad_g y; the velocity x.y is the bracket [x, y]."""
+    """A group acting on its Lie algebra, g.y = Ad_g y. The velocity x.y is the bracket [x, y]."""
 
     name = "adjoint action"
     needs = Coadjoint
