@@ -240,9 +240,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        Let t = phi(y) u with phi(y) = sum of y^k/(k+1)!, and let D_y and D_u be the derivatives with respect
-        to y and u. dexp_x maps (z, 0) to the pair of dexp_y z and D_y phi(y)[z] u - (dexp_y z).t. Without a
-        closed form, the result is therefore the pair of dexp*_y (m - J(t, p)) + D_y <p, t> and D_u <p, t>,
+        Let t = phi(y) u with phi(y) = sum of y^k/(k+1)!. Let D_y and D_u be the derivatives with respect to y
+        and u. The map dexp_x takes (z, 0) to the pair of dexp_y z and D_y phi(y)[z] u - (dexp_y z).t. Without
+        a closed form, the result is therefore the pair of dexp*_y (m - J(t, p)) + D_y <p, t> and D_u <p, t>,
         where J is the momentum map.
         """
         if self.representation.closed(self.linear):

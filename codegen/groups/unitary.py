@@ -14,8 +14,8 @@ from codegen.ir.unitary_exponential import ROWS, SIZE
 class Unitary(RotationGroup):
     """Unitary n x n matrices A + i B as real 2n x 2n matrices with the rows (A, -B) and (B, A).
 
-    The basis of the algebra consists of the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k, row by row,
-    followed by the diagonal matrices i E_jj.
+    The basis of the algebra begins with the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k, row by row.
+    The diagonal matrices i E_jj follow.
     """
 
     def __init__(self, n: int) -> None:
@@ -51,8 +51,8 @@ class SU(Unitary):
     """Unitary n x n matrices A + i B with determinant 1, n >= 2, as real 2n x 2n matrices with the rows (A,
     -B) and (B, A).
 
-    The basis of the algebra consists of the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k, row by row,
-    followed by the diagonal matrices i (E_jj - E_kk) with k = j + 1.
+    The basis of the algebra begins with the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k, row by row.
+    The diagonal matrices i (E_jj - E_kk) with k = j + 1 follow.
     """
 
     def __init__(self, n: int) -> None:

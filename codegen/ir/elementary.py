@@ -22,9 +22,9 @@ class Elementary:
     """A function f of one argument x.
 
     ``slope(x, f)`` and ``curvature(x, f)`` are the first and second derivative at x. Their argument f is the
-    value of the function at x, which is already computed. ``at_zero`` is f(0), or None if f(0) is not
-    rational. ``raising`` is true if Python raises an exception for some real arguments for which C computes a
-    NaN or an infinity.
+    value of the function at x, so that this value need not be computed again. ``at_zero`` is f(0), or None if
+    f(0) is not rational. ``raising`` is true if Python raises an exception for some real arguments for which
+    C computes a NaN or an infinity.
     """
 
     name: str

@@ -127,8 +127,8 @@ class _Reader:
         Outside such a branch, and for a constant x, return x.
         """
         # A branch is evaluated even where it is not selected. There a root or a quotient could be a NaN, or
-        # raise an exception in Python. The derivative of the branch could also be a NaN. It is multiplied by
-        # zero there, but zero times NaN is NaN.
+        # raise an exception in Python. The derivative of the branch could also be a NaN. A multiplication by
+        # zero does not help, because zero times NaN is NaN.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))

@@ -348,7 +348,7 @@ class Kernel:
     - ``inputs`` are the names of functions of time that the caller supplies. ``samples`` are the times at
       which these functions are evaluated.
     - ``vary`` is the kernel of the variational equation. Its state is the state of this kernel followed by a
-      variation, and its outputs are the variation of the new state.
+      derivative of the state. Its outputs are the derivative of the new state.
     - ``substeps`` are the parts of a composed step. The kernel is called once for each part, and h and t are
       the length and the start of the part.
     - ``outlined`` are functions that the expressions of the kernel call.
@@ -418,8 +418,8 @@ class Kernel:
                 yield statement.value
                 continue
             yield from (let.value for let in statement.body)
-            # The roots of a Start are its values. The roots of a Loop are its starts, its images, and the
-            # entries of its Newton matrix, if there is one.
+            # The expressions of a Start are its values. The expressions of a Loop are its starts, its images,
+            # and the entries of its Newton matrix, if there is one.
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
