@@ -386,7 +386,7 @@ class InverseDexp(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the truncated series, which the group computes."""
-        # The group computes the series. The order is an argument, because it depends on the method.
+        # The order is an argument, because it depends on the method.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 

@@ -50,9 +50,9 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     # kernel. Therefore only two orders of the products with constant factors are compared.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # If a run applies some flows only at its beginning and its end (deferred flows), each step computes only
-    # the core, which consists of the other flows. Therefore cores are compared. In a scene with run-time
-    # inputs no flows are deferred, because the inputs must be sampled in every step.
+    # Deferred flows are applied only at the beginning or the end of a run. Each step then computes only the
+    # other flows, called the core. Therefore cores are compared. In a scene with run-time inputs no flows are
+    # deferred, because the inputs must be sampled in every step.
     parted = None if scene.inputs else part(program, scene)
     core = program if parted is None else parted.core
     # The variant with the shortest time depends on subexpressions that the formulas of the group share with
