@@ -32,9 +32,9 @@ EVEN = 4.0
 """A constant in the delay of a queue of recipes. The next recipe is taken from the queue with the smallest
 delay.
 
-The delay is a sum of three terms: the number of recipes that were taken from the queue, divided by EVEN; the
-distance between the order of the queue and the usual order, divided by EVEN; and the binary logarithm of a
-ratio of predicted times.
+The delay is the sum of two terms. The first term is (n + d)/EVEN, where n is the number of recipes that were
+taken from the queue, and d is the distance between the order of the queue and the usual order. The second
+term increases by one for every factor of two in the predicted time of the recipes.
 """
 
 FAILED = 4.0
