@@ -17,8 +17,8 @@ R = TypeVar("R")
 class Section:
     """The body of a section of the report: the source text of a Jinja template, and the template's variables.
 
-    The template may import macros from ``parts.html.j2``. Text is escaped unless it is ``Markup``. The
-    heading is the title of the measurement.
+    The template may import macros from ``parts.html.j2``. All text except ``Markup`` is escaped. The heading
+    is the title of the measurement.
     """
 
     template: str
@@ -55,7 +55,7 @@ class Measurement(ABC, Generic[R]):
         """Return the body of the section, or None if there is nothing to show."""
 
     def verdict(self, result: R, subject: Subject) -> str:
-        """Return the sentence that states the result at the beginning of the section; '' by default."""
+        """Return the sentence that states the result at the beginning of the section, by default ''."""
         return ""
 
     def holds(self, result: R) -> bool:
@@ -75,7 +75,7 @@ class Measurement(ABC, Generic[R]):
         return {}
 
     def result(self, subject: Subject) -> R:
-        """Return the result on a subject. Only the first call measures; later calls return the stored
+        """Return the result on a subject. Only the first call measures. Later calls return the stored
         result."""
         if self.name not in subject.results:
             subject.results[self.name] = self.run(subject)

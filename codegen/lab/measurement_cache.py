@@ -1,10 +1,10 @@
 """A cache of measurements on disk, so that equal measurements are made only once.
 
-The file name of an entry is a digest of all inputs of the measurement, such as the emitted files, the scene,
-the settings and the kind of processor. An entry also contains a digest of its content. Every entry is written
-under a temporary name and then renamed, so that an interrupted write does not create an entry. If an entry is
-truncated or changed, or if its result has the wrong type, the entry is ignored and the measurement is made
-again. A folder that another user owns is never read or written.
+The file name of an entry is a digest of all inputs: the emitted files, the scene, the settings and the kind
+of processor. An entry also contains a digest of its content. Every entry is written under a temporary name
+and then renamed, so that an interrupted write does not create an entry. If an entry is truncated or changed,
+or if its result has the wrong type, the entry is ignored and the measurement is made again. A folder that
+another user owns is never read or written.
 """
 
 from __future__ import annotations

@@ -166,8 +166,8 @@ class Bar:
         """Return the largest number of steps to interpret, for steps that take ``step_seconds`` in compiled
         code.
 
-        A compiled run with more steps would exceed ``seconds``. The result is at least ``steps``. It exceeds
-        :data:`MANY_STEPS` only if ``steps`` does.
+        A compiled run with more steps would exceed ``seconds``. The result is at most :data:`MANY_STEPS`, but
+        at least ``steps``.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -279,11 +279,11 @@ class Predictor:
         return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return two times in nanoseconds: the time of the operations of a step outside of implicit blocks,
-        and the time of one sweep over all implicit blocks.
+        """Return two times in nanoseconds: for the operations of a step outside of implicit blocks, and for
+        one sweep over all implicit blocks.
 
-        ``widths`` contains the numbers of components of the inputs. The numbers of components of all other
-        variables are added to it.
+        ``widths`` contains the numbers of components of the inputs. The function adds the numbers of
+        components of all other variables.
         """
         outside = sweep = 0.0
         for statement in program.body:
@@ -297,8 +297,8 @@ class Predictor:
         return parts * outside, parts * sweep
 
     def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
-        """Return the time of one assignment in nanoseconds; record the numbers of components of its
-        targets.
+        """Return the time of one assignment in nanoseconds, and record the numbers of components of its
+        targets in ``widths``.
         """
         shape = tuple((a.kind.value, widths[a]) for a in assign.args)
         # Problems of the same scene may have different groups, so the key contains the group.

@@ -100,8 +100,8 @@ class Result:
 
     @property
     def tolerance(self) -> float | None:
-        """Both the relative and the absolute tolerance of a run with step-size control; None for a run with
-        equal steps."""
+        """The relative and absolute tolerance of a run with step-size control, or None for a run with equal
+        steps."""
         return 10.0**-self.control if self.entry.recipe.adaptive else None
 
 
@@ -142,7 +142,7 @@ class Racer:
         """Do nothing: an emitted module needs no preparation before a run with another control."""
 
     def error(self, control: float) -> float:
-        """Return the error of a run; infinity if the run fails."""
+        """Return the error of a run, or infinity if the run fails."""
         if control not in self.errors:
             try:
                 state, self.counts[control] = self.run(control)

@@ -124,7 +124,7 @@ def step_of(task: Task, place: Result) -> float | None:
 
 
 def recommend(request: Request, progress: Progress = str) -> Recommendation:
-    """Return the recommendation for a request; raise InputError if the scene or the request is wrong."""
+    """Return the recommendation for a request. Raise InputError if the scene or the request is wrong."""
     search = Search(request.task, (request.goal,), progress)
     search.run()
     places, lost = search.leaders(request.goal)

@@ -69,9 +69,12 @@ PREDICTING = 0.5
 """When the reference solution is known, predictions may use this fraction of the remaining time budget."""
 
 UNREACHED = 1e-3
-"""The predicted gain of a recipe in two cases: no recipe is predicted to reach the goal, or the recipe can be
-the fastest only through an unknown gain of step-size control. The number is small, so that these recipes are
-measured late."""
+"""The gain of a recipe whose gain cannot be predicted. The number is small, so that such a recipe is measured
+late.
+
+There are two cases. No recipe is predicted to reach the goal, or the recipe can be the fastest only through
+an unknown gain of step-size control.
+"""
 
 LONG_STEPS = 20_000
 """The number of steps of a long run, which tests whether a recommended method keeps conserved quantities."""
@@ -202,8 +205,8 @@ class Search:
     def race(self) -> None:
         """Emit and measure recipes, in the order of their predicted gains.
 
-        The function returns when no remaining recipe may be the fastest. It also returns when the budget is
-        used, and then sets ``complete`` to False.
+        The race ends when no remaining recipe may be the fastest. If the budget is used earlier, the race
+        ends and ``complete`` becomes False.
         """
         while True:
             self._correct()

@@ -90,7 +90,7 @@ def _beginning(task: Task, form: str) -> tuple[Equations, Reference]:
 
 
 def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:
-    """Return the predicted errors and times of a recipe; this function runs in a worker process.
+    """Return the predicted errors and times of a recipe. This function runs in a worker process.
 
     ``job`` contains the recipe and the bars. A bar is the largest error and the largest time that are of use
     for a goal of the search. The prediction is for equal steps. If the recipe has step-size control and equal

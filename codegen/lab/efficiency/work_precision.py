@@ -81,7 +81,7 @@ class Candidate(Protocol):
         """Yield numbers of steps or tolerances, from coarse to fine."""
 
     def prepare(self) -> None:
-        """Prepare the first run; raise InputError if the candidate cannot run on the scene."""
+        """Prepare the first run. Raise InputError if the candidate cannot run on the scene."""
 
     def measure(self, control: float) -> Row:
         """Run once for the error, then several times for the CPU time."""
@@ -204,8 +204,10 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 
 
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
-    """Return True if the errors are below :data:`NEAR_ROUNDING`, relative to the size of the state, and the
-    last two halvings of the step size reduced the error by less than a factor of three.
+    """Return True if rounding errors probably prevent further convergence.
+
+    The errors must be below :data:`NEAR_ROUNDING`, relative to the size of the state. In addition, the last
+    two halvings of the step size must have reduced the error by less than a factor of three.
     """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))

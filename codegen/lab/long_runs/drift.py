@@ -257,7 +257,7 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
     # If the increments of the block means are constant up to rounding errors, the means lie on a straight
-    # line. Their variance about this line is then zero.
+    # line, and the variance about this line is zero.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 

@@ -152,8 +152,8 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Return pairs: a number of steps, and the distance between the initial state and the state after this
-    number of steps forward and the same number back."""
+    """Return pairs: a number of steps, and the distance from the initial state after this number of steps
+    forward and the same number back."""
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
         n = trajectory.counts[k]

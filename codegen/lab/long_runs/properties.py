@@ -29,7 +29,7 @@ SYMMETRIC = 1e-30
 
 @dataclass(frozen=True)
 class Properties:
-    """The measured properties of a method; None means that a property was not measured.
+    """The measured properties of a method. A property that was not measured is None.
 
     ``reversal`` is the distance from the start after a step with h and a step with -h, divided by the change
     of the state in a step. ``quantity`` is the first conserved quantity. ``steady`` is False if this quantity

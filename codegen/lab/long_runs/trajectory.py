@@ -73,8 +73,8 @@ class Series:
 class Trajectory:
     """The record of a run: ``times``, ``states`` and ``counts`` (numbers of steps) of the samples.
 
-    ``series`` contains the deviations of each quantity by its name, ``scales`` the sizes of the quantities
-    (:func:`scale`), and ``magnitudes`` the sums of the absolute values of their terms. ``steps`` is the
+    Three dictionaries describe the quantities by name. ``series`` contains the deviations, ``scales`` the
+    sizes (:func:`scale`), and ``magnitudes`` the sums of the absolute values of the terms. ``steps`` is the
     number of completed steps. ``failure`` is the message of a failed step, or ''.
     """
 

@@ -69,8 +69,8 @@ class FrozenFields:
 
     Trees and forests are ordered (:mod:`orderconds.trees.levels`). :meth:`tree` assigns an element F(t) of
     the Lie algebra to each tree t, and F(t) defines the frozen field y -> F(t).y. To differentiate along the
-    trees of a forest, the initial point is displaced along the frozen field of the first tree, then along the
-    frozen field of the second tree, and so on.
+    trees of a forest, the initial point is displaced along the frozen fields of these trees, one after
+    another.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:

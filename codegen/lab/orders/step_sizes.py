@@ -105,9 +105,8 @@ class Refinement:
           the slopes are below the stated order, the verdict is ``undecided``. Otherwise the verdict is
           ``fails``.
         - If the slopes have not settled, the verdict is ``undecided``, with one exception. The verdict is
-          ``holds`` if three conditions are satisfied: the errors of the finest runs are too small to be used
-          (:attr:`too_fine`), very short steps have the stated order, and the last slope is not below the
-          stated order.
+          ``holds`` if the errors of the finest runs are too small to be used (:attr:`too_fine`), very short
+          steps have the stated order, and the last slope is not below the stated order.
         """
         if self.observed is None:
             return "undecided"

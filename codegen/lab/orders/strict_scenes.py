@@ -1,8 +1,8 @@
 """The scenes of the strict protocol, which have no symmetry that could hide an error in a method.
 
 Some published software documents methods of order 2 as methods of order 4. The tests of this software did not
-find the error, because they used rotations about one axis, generators orthogonal to the state, or fields that
-do not depend on time.
+find the error. They used rotations about one axis, generators orthogonal to the state, or fields that do not
+depend on time.
 
 The scenes depend on the kind of method. For methods for general fields, every field f is polynomial and
 depends on state and time, and the values of f at different points do not commute. On the sphere, f has a
@@ -160,8 +160,10 @@ def hamiltonians() -> tuple[Problem, ...]:
 
 @cache
 def split_hamiltonians() -> tuple[Problem, ...]:
-    """Return scenes whose Hamiltonian is a sum of three parts with exact flows: the kinetic energy T, the
-    gyroscopic term G of a rotating frame, and the potential V."""
+    """Return scenes whose Hamiltonian is a sum of three parts with exact flows.
+
+    The parts are the kinetic energy T, the gyroscopic term G of a rotating frame, and the potential V.
+    """
     return _rotating_plane(), _rotating_top()
 
 

@@ -132,8 +132,7 @@ def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) ->
 
 
 PLANE = (-8.0, 4.0, -6.0, 6.0)
-"""Bounds of a figure of linear stability: the interval of real parts, then the interval of imaginary
-parts.
+"""Bounds of a diagram of stable regions: the interval of real parts, then the interval of imaginary parts.
 """
 
 GRID = 120

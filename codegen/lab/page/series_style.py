@@ -46,7 +46,7 @@ class Style:
     """The appearance of a series.
 
     ``colour`` is a CSS variable of the page, ``marker`` a marker of :data:`MARKERS`. ``dash`` contains the
-    lengths of dashes and gaps in line widths; an empty tuple is a solid line. If ``hollow`` is True, markers
+    lengths of dashes and gaps in line widths. An empty tuple is a solid line. If ``hollow`` is True, markers
     are drawn as outlines.
     """
 
