@@ -89,7 +89,7 @@ class Compiled(Optimised):
     asked: str = AUTO
     form: ClassicalForm | None = None
     compensated: bool = False
-    """True if the state contains the carry of compensated summation for each coordinate."""
+    """True if the state also contains the rounding error of each coordinate, for compensated summation."""
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
@@ -415,7 +415,8 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # A parameter may be listed without and with a value. It is then a run-time argument with this default.
+    # A parameter may be listed twice, without and with a value. It is then a run-time argument with this
+    # default.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 

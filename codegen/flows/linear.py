@@ -110,7 +110,7 @@ def _times_stumpff(d: Domain, factor: S, k: int, argument: S | None) -> S:
 
 
 def _applied(d: Domain, row: Sequence[Fraction], z: Vector[S], constant: Fraction) -> S | None:
-    """Return row.z + constant, or None if every entry of the row and the constant vanish."""
+    """Return row.z + constant, or None if the row and the constant are zero."""
     total: S | None = d.rational(constant.numerator, constant.denominator) if constant else None
     for c, x in zip(row, z, strict=True):
         if c:

@@ -66,7 +66,7 @@ class Formula:
         return Part(self.name, (Summand(((self.name, flow),)),))
 
     def refused(self, reason: str) -> Part:
-        """Return the part without flows, and the reason why no closed form is known."""
+        """Return the part without flows. ``reason`` says why no closed form is known."""
         return Part(self.name, (), reason)
 
     @property
