@@ -47,7 +47,7 @@ UNIT = Fraction(1)
 
 
 def simplified(word: Word) -> Word:
-    """Return an equal word with at most one exponential and without factors that cancel.
+    """Simplify a product of functions: the result has at most one exponential and no factors that cancel.
 
     The rule exp(-s t) dexp(s t) = dexp(-s t) is applied, too.
 
@@ -76,6 +76,7 @@ def simplified(word: Word) -> Word:
     # Factors are sorted, so that equal products become equal words.
     factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
-        # A higher power becomes repeated factors, because words are evaluated only for the powers 1 and -1.
+        # A higher power becomes repeated factors, because a factor is evaluated only with the powers 1 and
+        # -1.
         factors += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
     return tuple(factors)

@@ -157,8 +157,9 @@ class _Gathering:
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
-        # Irrational constants are atoms for two reasons. Constants of two different fields cannot be added,
-        # and a constant that is known only as a ball would become less accurate by each operation.
+        # Irrational constants are not combined with other numbers, for two reasons. Constants of two
+        # different fields cannot be added, and a constant that is known only as a ball would become less
+        # accurate by each operation.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":

@@ -225,7 +225,8 @@ class Space:
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
-        # The factors are ordered for interning. A constant stays first, because other passes expect it there.
+        # The factors are ordered, so that a b and b a are one node. A constant stays first, because compiler
+        # passes expect it there.
         if a.op != "const" and b.id < a.id:
             a, b = b, a
         return self._make("mul", (a, b))

@@ -146,7 +146,7 @@ def _composed(
     newton: bool,
     near: list[list[Scalar]] | None,
 ) -> State:
-    """Return the new state after all substeps of the program."""
+    """Return the state after all substeps of the program."""
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
         # A substep needs a domain with another h. The domain of the caller is copied and not changed.
