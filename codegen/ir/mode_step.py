@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
 
 EXP, PHI, BERNOULLI, POWER = "exp", "phi1", "bernoulli", "z"
-"""The functions in multipliers: exp(w), phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w itself."""
+"""The functions in the coefficients of a step: exp(w), phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w
+itself.
+"""
 
 WIDTH = 100
 """A formula with more characters than this number is printed with one line for each term."""
@@ -56,7 +58,9 @@ ONE = Number.rational(1)
 
 @dataclass(frozen=True)
 class Multiplier:
-    """A function of z: a polynomial in factors (:class:`Factor`) with exact coefficients."""
+    """A coefficient of a step as a function of z: a polynomial in factors (:class:`Factor`) with exact
+    numbers.
+    """
 
     terms: Mapping[Monomial, Number] = field(default_factory=dict)
 
