@@ -187,7 +187,7 @@ def _both(
 
 
 def method_of(recipe: Recipe, problem: Problem) -> Method:
-    """Return the method of a recipe. Raise MethodError if the scene or the family does not accept the method."""
+    """Return the method of a recipe. Raise MethodError if the scene or the family rejects the method."""
     method = replace(parse(recipe.method, families_for(problem)), adaptive=recipe.adaptive)
     method.embedded()
     return method
