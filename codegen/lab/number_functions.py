@@ -1,4 +1,4 @@
-"""The functions that formulas may contain, for several number types: floats, mpmath numbers, balls, arrays."""
+"""The functions in formulas, for several number types: floats, mpmath numbers, balls and arrays."""
 
 from __future__ import annotations
 
