@@ -2,7 +2,7 @@
 
 Each system has its own state, parameters and inputs. A batch of N systems is an array of N states, one in
 each row. Emitted C stores a batch as a structure of arrays: row k of an array of shape (size, N) contains
-component k of each state. An array of shape (N, size) in Fortran order has the same layout in memory. It is
+component k of each state. An array of shape (N, size) in Fortran order has the same layout in memory, and is
 passed to C without a copy.
 """
 
@@ -24,8 +24,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BatchRun:
-    """The result of a batch: the last states, of shape (N, size), the status of each system, and the numbers
-    of completed steps. The state of a system that failed is the state before the failed step."""
+    """The result of a batch: the last states (an array of shape (N, size)), the status of each system, and
+    the numbers of completed steps. If a step of a system fails, the last state is the state before this
+    step."""
 
     states: Floats
     statuses: NDArray[np.int32]

@@ -99,8 +99,8 @@ class PiecewiseField:
         derivatives of the field at the event.
 
         The number of continuous derivatives is -1 for a field that jumps. If the field after the event points
-        back to the side before the event, the solution would stay on the boundary between the two sides.
-        :class:`SceneError` is raised in this case.
+        back to the side before the event, the solution stays on the boundary between the two sides. In this
+        case :class:`SceneError` is raised.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)

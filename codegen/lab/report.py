@@ -32,10 +32,10 @@ from orderconds.processes import in_processes
 class Request:
     """A report as the user requests it.
 
-    The request contains the names of the scenes (by default :data:`REPORT_SCENES`), of the methods with equal
-    steps, of the methods with step-size control (``adaptive``), of the peers, of the measurements
-    (``parts``), and of the effort. ``processes`` is the number of scenes that are measured at the same time,
-    by default the number of processors.
+    ``scenes`` are the names of scenes, by default :data:`REPORT_SCENES`. ``methods`` are run with equal
+    steps, and ``adaptive`` are methods with step-size control. ``parts`` are the names of measurements.
+    ``effort`` is a key of :data:`EFFORTS`. ``processes`` is the number of scenes that are measured at the
+    same time, by default the number of processors.
     """
 
     scenes: tuple[str, ...] = ()
@@ -97,9 +97,9 @@ def report(request: Request, directory: str | Path, progress: Progress) -> tuple
 
     The page of a scene is written as soon as it is complete. A hidden folder stores the results until the
     report is complete, so that an interrupted report can continue. ``progress`` is called with the name of
-    each measurement if there is one scene, otherwise with the name of each finished scene.
-    :class:`InputError` is raised before the first measurement if a name is unknown, if there is no C
-    compiler, or if the folder cannot be written to.
+    each measurement if there is one scene, otherwise with the name of each finished scene. Before the first
+    measurement, :class:`InputError` is raised if a name is unknown, if there is no C compiler, or if the
+    folder cannot be written to.
     """
     folder = Path(directory)
     request.check()

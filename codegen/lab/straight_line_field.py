@@ -1,8 +1,8 @@
 """The equation y' = f(y).y of a scene as straight-line code, for reference solutions and peers.
 
 The right-hand side is evaluated with symbolic expressions. Every distinct expression becomes one assignment,
-so that common subexpressions are computed once. The code can be used as a Python function for several types
-of numbers, such as floats, balls and arrays, or as the body of a C function.
+so that common subexpressions are computed once. The code can be used as the body of a C function, or as a
+Python function for several types of numbers, such as floats and balls.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class StraightLine:
 
 
 def velocity(scene: Problem) -> StraightLine:
-    """Return the right-hand side f(y).y of the equation of a scene, for the default values of the parameters."""
+    """Return the right-hand side f(y).y of the equation of a scene, with default parameters."""
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
     roots = scene.velocity(domain, state, domain.space.sym(TIME))

@@ -5,8 +5,8 @@ would depend on the load of the machine. A call from Python takes some time befo
 measures this overhead with a run of zero steps and subtracts the overhead, so that short and long runs can be
 compared.
 
-The function :func:`span_times` times all runs that are compared: runs of emitted methods, with equal steps or
-with step-size control, and runs of the integrators of other software.
+The function :func:`span_times` times all runs that are compared, both of emitted methods and of other
+integrators.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
     """Return the CPU seconds of one call, measured in several batches, in increasing order.
 
     If a batch takes at most :data:`LONG` seconds, further batches run until the two least times agree up to
-    the fraction :data:`CONFIRMED`, but at most :data:`MOST` batches in all.
+    the fraction :data:`CONFIRMED`. The total number of batches is at most :data:`MOST`.
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -194,8 +194,8 @@ def spread(times: Sequence[float]) -> float | None:
 
 def _batch(call: Callable[[], object], calls: int) -> float:
     # Under a limit on CPU time (ulimit -t), Linux updates the CPU clock of the process only every few
-    # milliseconds, so the measured time of a batch may be zero. The clock of the thread stays exact, but does
-    # not count other threads. The larger of the two times is used.
+    # milliseconds. The measured time of a batch may then be zero. The clock of the thread stays exact, but
+    # does not count other threads. The larger of the two times is used.
     start, own = time.process_time(), time.thread_time()
     for _ in range(calls):
         call()

@@ -81,9 +81,9 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
         return None
     if name not in scene.steps:
         raise MethodError(
-            f"the scene states no step {name!r}",
+            f"the scene defines no step {name!r}",
             where=scene.name,
-            expected=f"one of {', '.join(scene.steps)}" if scene.steps else "a scene that states steps",
+            expected=f"one of {', '.join(scene.steps)}" if scene.steps else "a scene that defines steps",
             hint="define the step in the argument steps of LinearScene",
         )
     return Method("magnus", None, step=name)

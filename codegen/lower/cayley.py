@@ -16,7 +16,7 @@ from codegen.scene.problem import Problem
 
 
 class CayleyLowering(LinearLowering):
-    """Cayley methods; a step has no exponential."""
+    """Cayley methods, whose steps contain no exponential."""
 
     family = "cayley"
 

@@ -162,8 +162,8 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # In units of h, the time of a stage is the time of its starting point (an earlier stage or y0)
-            # plus the sum of the coefficients in its exponents.
+            # In units of h, the time of a stage is the time of its starting point plus the sum of the
+            # coefficients in its exponents.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))

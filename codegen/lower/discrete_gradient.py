@@ -71,8 +71,8 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # The function ``moved`` returns exp(part*h*velocity).y. A step evaluates the energy, its differential and
-    # the bivector only at such points.
+    # ``moved`` returns the point exp(part*h*velocity).y. A step evaluates the energy, its differential and
+    # the bivector only at points of this form.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)

@@ -53,12 +53,11 @@ class Parts:
     def arranged(self) -> list[Summand]:
         """The summands in the order in which a composition applies their flows.
 
-        A kick is a flow that changes only the momentum. Kicks come first, because the kick at the end of a
-        step and the kick at the beginning of the next step can be joined into one flow. On a lattice, flows
-        of different steps are not joined, so kicks come last. The product Phi of all flows follows its
-        adjoint Phi*, so the last flow of Phi* and the first flow of Phi are then kicks and are joined.
-        Joining kicks saves time, because a kick reads all neighbours of a site and is the most expensive flow
-        on a lattice.
+        A kick is a flow that changes only the momentum. Kicks come first, because the last kick of a step and
+        the first kick of the next step can be joined into one flow. On a lattice, flows of different steps
+        are not joined, so kicks come last. In a step, the product Phi of all flows follows its adjoint Phi*.
+        The last flow of Phi* and the first flow of Phi are then kicks, which are joined. Joining kicks saves
+        time, because a kick on a lattice reads all neighbours of a site.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)

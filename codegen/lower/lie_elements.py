@@ -42,8 +42,8 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append the combination with the name ``target``, and return the variable. Its value includes all
-        powers of h."""
+        """Append the combination with the name ``target``, including all powers of h, and return the
+        variable."""
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:

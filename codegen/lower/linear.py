@@ -107,7 +107,8 @@ class LinearLowering(FieldLowering):
 
         if scene is None:
             raise MethodError(
-                f"the order of {method.label} is unknown without a scene", expected="the scene of the step"
+                f"the order of {method.label} is unknown without a scene",
+                expected="the scene that defines the step",
             )
         return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 

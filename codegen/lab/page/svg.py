@@ -46,8 +46,8 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The value of each CSS variable (a colour or a list of fonts) in figures that are not part of a page, and
-have a white background.
+"""The value of each CSS variable, a colour or a list of fonts, in figures that are not part of a page. These
+figures have a white background.
 """
 
 STYLE: dict[str, object] = {

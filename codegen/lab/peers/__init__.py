@@ -2,7 +2,7 @@
 
 A peer integrates y' = f(y).y in the coordinates of the state. If the library of the peer permits this, the
 right-hand side is compiled. A peer whose name ends in *projected* projects the state onto the manifold after
-each step. LSODA has no projected variant. It is a multistep method, and the past values that its steps use
+each step. LSODA has no projected variant, because the steps of this multistep method use past values, which
 are not projected. The time before the first step, for example the time of compilation, is reported separately
 as set-up time, as for emitted code.
 """

@@ -56,7 +56,7 @@ def error(source: Source, figure: Scan, run: Run, value: float) -> float:
     """Return the distance of the final state from the end of the reference run, or infinity if a step
     fails."""
     if figure.reference is None:
-        raise ValueError("a scan needs a reference run")
+        raise ValueError("expected a reference run in a scan, found none")
     try:
         exact = source.end(figure.reference)
     except StepFailed as failed:
@@ -92,5 +92,5 @@ def minimum(
 
 def _sweep(run: Run) -> Sweep:
     if run.sweep is None:
-        raise ValueError("every run of a scan has a sweep")
+        raise ValueError("expected a sweep in every run of a scan, found a run without a sweep")
     return run.sweep

@@ -10,9 +10,9 @@ shows the number of digits that the input *determines*.
   rotation by 1e20 radians has no correct digit. The emitted code should return a status for this step.
 - A result is *wrong* if it is finite and rounding does not explain its error.
 
-Correct digits are counted separately for each block of the state, such as a group element or a momentum. They
-are relative to the larger of the sizes of the block before and after the step. Numbers below the smallest
-normal double count as zero.
+Correct digits are counted separately for each block of the state, such as a group element or a momentum. An
+error is divided by the size of the block before or after the step, whichever is larger. Numbers below the
+smallest normal double count as zero.
 
 The equations of a long implicit step can have several solutions. If fixed-point iteration converges in the
 interpreter, the exact result is computed from the solution of the iteration. Otherwise Newton's method in 60
@@ -54,8 +54,8 @@ TINY = 2.0**-1022
 """The smallest normal double. Results below TINY count as zero."""
 
 ROUNDINGS = 256.0
-"""Rounding explains the error of a step if the error is at most ROUNDINGS times the change of the result that
-is caused by one rounding error in every input and every operation.
+"""Rounding explains the error of a step if the error is at most ROUNDINGS times a certain change of the
+result. One rounding error in every input and every operation causes this change.
 """
 
 LEAST = 3
@@ -152,8 +152,8 @@ def cases(compiled: Compiled) -> Iterator[Case]:
 
 
 def _firsts(compiled: Compiled) -> list[int]:
-    """Return the index of the first coordinate of every block of the state, then the index of the last
-    coordinate of the whole state.
+    """Return the index of the first coordinate of every block of the state, and the index of the last
+    coordinate.
     """
     places, start = [], 0
     for block in compiled.scene.state:
@@ -292,7 +292,7 @@ class Rounding(BallDomain):
 
     Two rounding errors are added to the right-hand side of every equation. The first error is relative to
     this right-hand side, and the second error is relative to the right-hand side of the next equation. The
-    signs of all errors are random. They do not change during a step, so that the equations remain smooth.
+    signs of all errors are random, but do not change during a step. Therefore the equations remain smooth.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:

@@ -101,10 +101,10 @@ def test_the_header_names_the_stated_step_and_its_command():
 
 def test_a_step_that_the_scene_does_not_state_is_refused():
     with pytest.raises(
-        MethodError, match="the scene states no step 'x'; expected one of projection, exp_non_can"
+        MethodError, match="the scene defines no step 'x'; expected one of projection, exp_non_can"
     ):
         method_for(load(OSCILLATOR), "step:x")
-    with pytest.raises(MethodError, match="a scene that states steps"):
+    with pytest.raises(MethodError, match="a scene that defines steps"):
         method_for(load("dipole"), "step:projection")
 
 
