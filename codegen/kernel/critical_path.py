@@ -132,7 +132,7 @@ class _Chains:
         self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
 
     def rewritten(self) -> tuple[Expr, ...]:
-        """Return the rewritten roots."""
+        """Return the expressions ``roots`` with shortened chains."""
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
@@ -173,8 +173,8 @@ class _Chains:
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum over the late values of a level. A node that occurs several times is
-        expanded once."""
+        """Return an expression as a sum over the late values (results of slow operations) of the given level.
+        A node that occurs several times is expanded once."""
         # The rewritten node is part of the key, because rewriting a node's arguments changes its expansion.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
@@ -196,7 +196,7 @@ class _Chains:
             return total
         if node.op == "mul":
             a, b = node.args
-            # Only one factor may contain late values, else the product is not linear in them.
+            # Only one factor may contain late values. Otherwise the product is not linear in late values.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:

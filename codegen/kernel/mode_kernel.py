@@ -150,7 +150,7 @@ def _constant(value: Number) -> Multiplier:
 
 @dataclass
 class _Execution:
-    """The execution of a program with formulas in z."""
+    """Executes a program on one Fourier mode, with formulas in z = h lambda."""
 
     scene: Problem
     semilinear: Semilinear
@@ -294,7 +294,8 @@ class _Execution:
         return _Element(y.a, _sum([(beta, y.b), (rest, x.b)]), y.power)
 
     def _terms(self, point: Sum) -> tuple[Term, ...]:
-        """Return a linear combination as terms in which each multiplier is replaced by its table."""
+        """Return a linear combination as terms. In each term, the index of a table replaces the
+        multiplier."""
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 
     def _table(self, multiplier: Multiplier, power: int) -> int | None:

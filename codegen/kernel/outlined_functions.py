@@ -29,8 +29,8 @@ class _Inputs:
         self.symbols: list[Expr] = []
 
     def take(self, words: Sequence[str]) -> Values:
-        """Return the next inputs of the function, one for each word of ``words``: the symbol ``name.word``,
-        or the constant that is the same in every call."""
+        """Return the next inputs of the function. An input is the symbol ``name.word`` for a word in
+        ``words``, or a constant if every call passes the same constant."""
         first = len(self.symbols)
         # A constant argument is replaced by its value, so that the value can be combined with other
         # constants.
@@ -150,8 +150,8 @@ class WithFunctions:
         function = self.functions[name]
         values = dict(zip(function.inputs, args, strict=True))
         for let in function.body:
-            # The body of a function is evaluated in this domain, too, because it may call other outlined
-            # functions.
+            # The body of a function is also evaluated in this domain, because the body may call other
+            # outlined functions.
             (values[let.name],) = evaluate([let.value], self, values)
         (value,) = evaluate([function.outputs[int(k)]], self, values)
         return value

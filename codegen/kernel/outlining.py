@@ -55,7 +55,7 @@ ATTEMPTS, DIGITS = 8, 60
 ATTEMPTS points are tried in numbers with DIGITS digits, which do not overflow."""
 
 Shape = tuple[Key, tuple[int, ...]]
-"""The identification of a function: the key of its trees, and the indices of the results that are read."""
+"""The key of a function: the key of its trees, and the indices of the results that are read."""
 
 
 @dataclass
@@ -189,10 +189,11 @@ class Outline:
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Return True if each result of a tree that is read has the largest level of the tree's inputs.
+        """Return True if a call that computes the results ``read`` of a tree belongs to one loop only.
 
-        The results must also have been created after the inputs. A node that is older than an input is shared
-        with another operation.
+        The level of a value is the number of the last loop on which the value depends. Each result must have
+        the largest level of the inputs. The results must also have been created after the inputs, because an
+        older node is shared with another operation.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
         # A result with a lower level than the inputs should be computed outside the loop, but the call is
@@ -211,8 +212,8 @@ class Outline:
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
-            # If the evaluation at a point fails, for example by the root of a negative number, this point
-            # proves nothing. Further points have smaller step sizes, at which a failure is less likely.
+            # If the evaluation at a point fails, for example by the root of a negative number, the next point
+            # is tried. Further points have smaller step sizes, at which a failure is less likely.
             values |= {x: 0.5**attempt for x in names if x == "h"}
             domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
             if attempt > ATTEMPTS:

@@ -92,8 +92,8 @@ class Trees:
     ) -> None:
         """Record an assignment. ``place`` is the number of its block, or -1 outside blocks.
 
-        ``joined`` is false if the results were not computed by the operation alone, or depend on more than
-        ``args``. Such an assignment is not joined with others.
+        If ``joined`` is false, the assignment is not joined with others. This is the case if the results were
+        not computed by the operation alone, or depend on more than ``args``.
         """
         assign, args = self._from_the_whole(assign, args)
         self.executions.append(
@@ -107,8 +107,8 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """Return an assignment of c (d v) as an assignment of (c d) v, which reads v and not d v. Return any
-        other assignment unchanged."""
+        """Return an assignment of c (d v) as an assignment of (c d) v, which reads v and not d v. Return all
+        other assignments unchanged."""
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
@@ -162,7 +162,7 @@ class Trees:
                 used |= {i, j}
                 trees[j] = self._join(trees[i], trees[j])
                 for member in trees.pop(i).members:
-                    # Members keep their numbers, and later rounds find the new tree by ``owner``.
+                    # ``owner`` maps the members of the old tree to the joined tree.
                     owner[member] = j
 
     def _gain(self, key: PairKey, places: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
@@ -203,7 +203,7 @@ class Trees:
                     # None represents a reader outside all trees, for which the value must keep its own name.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
-            # Outputs count as readers outside all trees, too.
+            # Outputs also count as readers outside all trees.
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:

@@ -239,7 +239,8 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
-        # A matrix to leading order in h is computed before the loop and must not read body values.
+        # A matrix to leading order in h is computed before the loop, so it must not read values that the loop
+        # computes.
         entering, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, entering, matrix)
 

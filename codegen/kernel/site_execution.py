@@ -141,7 +141,7 @@ class Execution:
         return unique_name(base, self.taken)
 
     def sweep(self, content: Content) -> Sweep:
-        """Return the sweep with the given content."""
+        """Return the sweep that stores ``content.stored``, with its loads and its kernel."""
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
         stores = tuple(row for rows, _ in content.stored for row in rows)
         unknowns = tuple(s for var in content.unknowns for s in self._names(var))

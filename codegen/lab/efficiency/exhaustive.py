@@ -146,12 +146,14 @@ def _key(recipe: Recipe) -> Key:
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
     """Return the smallest ratio of the predicted time for an error to the limit for the same error.
 
-    ``limits`` maps each error to its limit in seconds. A recipe with a ratio above 1 is excluded. The ratio
-    is 0 if the prediction is not reliable and a single step does not exceed all limits. There are three
-    cases. First, the interpreted runs fail. Emitted code may still succeed, because it can solve equations by
-    Newton's method. Second, the prediction is rough and the recipe is implicit, for the same reason. Third,
-    the prediction is rough and the recipe has step-size control (``adaptive``), because the prediction is for
-    equal steps.
+    ``limits`` maps each error to its limit in seconds. A recipe with a ratio above 1 is excluded. If the
+    prediction is not reliable, the time of a single step is compared with the longest limit. The result is
+    then 0 if the step is shorter than this limit.
+
+    There are three kinds of unreliable predictions. First, the interpreted runs fail, but emitted code may
+    succeed by Newton's method. Second, the prediction is rough and the recipe is implicit, for the same
+    reason. Third, the prediction is rough and the recipe has step-size control (``adaptive``), because the
+    prediction is for equal steps.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)

@@ -38,7 +38,7 @@ term increases by one for every factor of two in the predicted time of the recip
 """
 
 FAILED = 4.0
-"""The term of predicted times in the delay of a queue if all predictions for its kind of recipe failed."""
+"""The second term of the delay of a queue if all predictions for its kind of recipe failed."""
 
 
 def usual_order(error: float) -> float:
@@ -68,8 +68,8 @@ class Jobs(Sequence[Job]):
 
     A job is created only when a worker process is free, so its bars use all predictions up to this time. The
     queues take turns, and queues of orders that are usual for an error are first. Queues of slow kinds of
-    recipes are delayed. The delay is log2(a/b), where a is the least predicted time of this kind and b the
-    least predicted time of all kinds.
+    recipes are delayed by log2(a/b), where a is the least predicted time of this kind and b the least
+    predicted time of all kinds.
 
     ``controlled`` maps each recipe that can also run with step-size control to the goals that the recipe may
     then satisfy. The recipes of the methods ``early`` are predicted first, so that slow recipes are
