@@ -67,8 +67,8 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
-"""Methods cannot reach an error if methods of higher order have an error of more than FAR times this
-error."""
+"""A method counts as unable to reach an error if methods of the next two higher orders miss this error by
+more than the factor FAR."""
 
 CALL = 8.0
 """The time in nanoseconds of the loop around a step, which reads and writes the state."""

@@ -157,7 +157,7 @@ class Search:
                 return
 
     def expected(self, recipe: Recipe, error: float) -> float:
-        """Return a short estimate of the time of a recipe for an error, in seconds.
+        """Return an optimistic estimate of the time of a recipe for an error, in seconds.
 
         The estimate is the predicted time, multiplied by the ratio of measured to predicted times for this
         kind of recipe, and divided by a safety factor. The result is infinite if the recipe has no

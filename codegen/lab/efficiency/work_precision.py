@@ -23,7 +23,7 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""If a run takes longer than a run with more steps, one of the two times is probably wrong. Such runs are
+"""If a run takes longer than a run with more steps, one of the two times is probably wrong. Both runs are
 measured again, at most AGAIN times."""
 
 NEAR_ROUNDING = 1e-9

@@ -66,8 +66,8 @@ class StabilityTests(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the stability tests failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence with the number of wrong results of steps with extreme input, the longest usable
-        step, and the methods that have it.
+        """Return a sentence with the number of wrong results of steps with extreme input, and with the
+        methods that have the longest usable step.
         """
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
         wrong = [method for kind, method in answers if kind == "wrong"]

@@ -80,7 +80,8 @@ class FrozenFields:
         self._known: dict[Tree, Vector] = {}
 
     def tree(self, tree: Tree) -> Vector:
-        """Return F(t) in the algebra: the derivative of f along the frozen fields of the branches of t."""
+        """Return F(t) for a tree t: the derivative of the field f along the frozen fields of the branches of
+        t."""
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
             values = evaluate(self.scene.roots, self.domain, self.scene.values(self.domain, point))

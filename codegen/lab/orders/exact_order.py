@@ -68,7 +68,7 @@ class ExactLocalError:
         )
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return plain data, which can be written as JSON."""
         return {
             "scene": self.scene,
             "method": self.method,

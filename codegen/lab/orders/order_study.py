@@ -56,7 +56,7 @@ class OrderStudy:
         return next((v for v in ("fails", "undecided") if v in verdicts), "holds")
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return plain data, which can be written as JSON."""
         return {
             "method": self.method.label,
             "verdict": self.verdict,
