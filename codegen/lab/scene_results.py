@@ -60,7 +60,7 @@ class Measured:
         return self.measurement.lines(self.result, self.subject)
 
     def as_json(self) -> object:
-        """Return plain data."""
+        """Return plain data, which can be written as JSON."""
         return {"failure": self.failure} if self.failure else self.measurement.as_json(self.result)
 
 

@@ -108,7 +108,7 @@ class MethodFailure:
     reason: str
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return plain data, which can be written as JSON."""
         return {"method": self.method, "verdict": "fails", "failure": self.reason}
 
 

@@ -55,7 +55,8 @@ class _Sheet:
 
     @classmethod
     def of(cls, frame: numpy.ndarray, points: numpy.ndarray, top: float) -> _Sheet:
-        """Return the sheet that contains the columns of ``points`` and the coordinate axes."""
+        """Return the map for a picture that contains the coordinate axes and all points (columns of
+        ``points``)."""
         axis = 0.55 * float(numpy.linalg.norm(points, axis=0).max())
         ends = numpy.concatenate([points, 1.1 * axis * numpy.eye(3), numpy.zeros((3, 1))], axis=1)
         right, up, _ = frame @ ends

@@ -51,7 +51,7 @@ class Endurance:
         return bool(self.failure) or (explained and math.isfinite(self.returned or 0.0))
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return plain data, which can be written as JSON."""
         return {
             "name": self.name,
             "steps": self.steps,

@@ -38,7 +38,7 @@ class Limit:
     reason: str
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return plain data, which can be written as JSON."""
         return {"h": self.h, "steps": self.steps, "reason": self.reason}
 
 

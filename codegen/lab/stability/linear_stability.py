@@ -1,9 +1,9 @@
 """Linear stability: the stability function of a tableau and its stability intervals on both axes.
 
-For y' = lambda y, a step of a Runge-Kutta method is y1 = R(h lambda) y0. A method on a group solves the
-frozen linear part of the field exactly, by exponentials. The stability function R of its tableau applies to
-the remaining part of the field. Therefore the stability region of the tableau bounds the step size for the
-remaining part.
+For y' = lambda y, a step of a Runge-Kutta method is y1 = R(h lambda) y0 with the stability function R. A
+method on a group solves equations with a constant field f exactly, by exponentials. The stability function of
+its tableau applies to the variation of the field in a step. Therefore the stability region of the tableau
+bounds the step size only for this variation.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ class OrderReduction:
     verdict: str
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return plain data, which can be written as JSON."""
         return {
             "variant": self.variant,
             "rate": self.rate,

@@ -64,7 +64,7 @@ class Stability:
         return self.honest and not any(a.verdict == SILENT for a in self.findings.answers)
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return plain data, which can be written as JSON."""
         results = self.findings
         return {
             "scene": self.scene,
@@ -90,7 +90,7 @@ class NotTested:
     held = False
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data."""
+        """Return plain data, which can be written as JSON."""
         return {"scene": self.scene, "method": self.method, "verdict": "fails", "failure": self.failure}
 
 
