@@ -73,8 +73,8 @@ class Conditions(Measurement[ConditionTables]):
         }
 
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
-        """Return a sentence with the number of methods that violate a condition of the order above their
-        computed order."""
+        """Return a sentence with the number of methods that violate a condition of the next order. The
+        computed order of these methods is exact."""
         if not result.methods:
             return ""
         exact, total = sum(bool(m.order.failing) for m in result.methods), len(result.methods)
