@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class LatticeRun(ArrayRun):
-    """The result of a run with the states after the last completed step, of shape (n1, ..., nd, size)."""
+    """The result of a run. ``states`` contains the states after the last completed step, as an array of shape
+    (n1, ..., nd, size)."""
 
     states: Floats
 

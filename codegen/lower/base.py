@@ -110,7 +110,7 @@ class Lowering(ABC):
         """Return the scene in the form that programs of this family require.
 
         The family must have no :meth:`objection` to the scene. :class:`codegen.errors.MethodError` is raised
-        if the scene does not suit this method.
+        if this method cannot be used on the scene.
         """
 
     @abstractmethod

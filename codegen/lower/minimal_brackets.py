@@ -18,8 +18,8 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""The bracket programs that have been computed, because the lowering and the certificate need the same
-bracket program. A key contains the ring and the coefficients as text."""
+"""The bracket programs that have been computed. The lowering and the certificate need the same bracket
+program. A key contains the ring and the coefficients as text."""
 
 
 def bracket_program(method: Method) -> BracketProgram:

@@ -35,7 +35,7 @@ def draw(figure: TorusCurves, source: Source) -> Drawn:
     numbers: dict[str, list[float]] = {}
     for run in figure.runs:
         x, y = source.values(run, figure.angles)
-        # If a curve crosses an edge of the chart, the line is interrupted there by a NaN.
+        # If a curve crosses an edge of the chart, a NaN interrupts the line.
         jumps = (numpy.abs(numpy.diff(x)) > math.pi) | (numpy.abs(numpy.diff(y)) > math.pi)
         places = numpy.flatnonzero(jumps) + 1
         curve = numpy.insert(x, places, math.nan), numpy.insert(y, places, math.nan)

@@ -54,8 +54,8 @@ TINY = 2.0**-1022
 """The smallest normal double. Results below TINY count as zero."""
 
 ROUNDINGS = 256.0
-"""Rounding explains the error of a step if the error is at most ROUNDINGS times a certain change of the
-result. One rounding error in every input and every operation causes this change.
+"""The largest error that rounding explains, divided by the effect of one rounding error in every input and
+every operation.
 """
 
 LEAST = 3
