@@ -1,10 +1,10 @@
 """Flows deferred across steps: the leading flow of a step, and flows that commute with all other flows.
 
-A splitting method composes flows of parts of the vector field. If a step ends with the flow of a part, and
-the next step begins with a flow of the same part, these two flows are joined into one. Only the first step of
-a run then needs a separate leading flow. If the flow of a part commutes with all other flows, this flow is
-applied once, after the last step, for all steps. Both changes are exact. :class:`codegen.ir.kernel.Deferred`
-states the identities.
+A splitting method composes flows of parts of the vector field. If one step ends and the next step begins with
+a flow of the same part, these two flows are joined into one. Only the first step of a run then needs a
+separate leading flow. If the flow of a part commutes with all other flows, this flow is applied once, after
+the last step, for all steps. Both changes are exact. :class:`codegen.ir.kernel.Deferred` states the
+identities.
 """
 
 from __future__ import annotations
@@ -50,8 +50,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # The flows are compared numerically at sample points. The formula of a vanishing Lie bracket need not
     # simplify to zero, so a symbolic test could fail.
     commute = commuting(scene)
-    # The flows of a part can be deferred to the end of a run only if all of them have the duration h and read
-    # no stage time.
+    # The flows of a part can be deferred to the end of a run only if their duration is h and they read no
+    # stage time.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     # The flow of a part in ``free`` commutes with all other flows, so it can be applied after the last step.

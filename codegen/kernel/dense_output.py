@@ -2,8 +2,8 @@
 
 The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is a polynomial in theta with values
 in the Lie algebra. One kernel computes the coefficients of sigma from the state at the beginning of the step.
-The other kernel reads the coordinates of an element x of the Lie algebra, and computes the point exp(x).y,
-where y is the state at the beginning of the step.
+Let y be the state at the beginning of the step. The other kernel computes the point exp(x).y from the
+coordinates of an element x of the Lie algebra.
 """
 
 from __future__ import annotations

@@ -76,8 +76,8 @@ def compared(
     The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
     has no residuals, or if the residuals cannot be expanded in h. Later statements may read values that the
     loop body computes. The last change of the unknowns also changes these values. The function corrects a
-    value to first order in the last change, if the correction takes less than half as many operations as
-    computing the value again.
+    value to first order in the last change if this is cheap. The correction must take less than half as many
+    operations as computing the value again.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:

@@ -236,8 +236,8 @@ class _Builder:
         return self.sum(terms)
 
     def element(self, value: _Value) -> Element:
-        """Return a value of the algebra as an :class:`Element`. Its linear combination of matrices h A(t_i)
-        is stored as a letter of the step."""
+        """Return a value of the algebra as an :class:`Element`. The linear combination of matrices h A(t_i)
+        in the value is stored as a letter of the step."""
         letter = None
         if value.nodes:
             key = tuple(sorted(value.nodes.items(), key=lambda item: item[0]))

@@ -50,7 +50,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
-                    # The inverse of the matrix is stored. Its product with the residual takes n^2 products
+                    # The stored inverse of the matrix is multiplied by the residual. This takes n^2 products
                     # and n (n - 1) additions.
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
                     total[matrix_of(label)] = count(statement.newton, statement.matrix)

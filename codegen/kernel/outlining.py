@@ -77,8 +77,8 @@ class Outline:
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
         # The level of a value is the number of the last block on which the value depends. A tree is outlined
-        # only if its inputs and results have the same level (``_even``), because a call must be in the same
-        # loop as its results.
+        # only if its inputs and results have the same level (``_even``). The call is then in the same loop as
+        # its results.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:

@@ -328,7 +328,7 @@ class _Scope:
         return [*before, Assignment(let.name, value)]
 
     def take(self) -> list[Simple]:
-        """Return the pending statements and clear the list. They must precede the next statement."""
+        """Return the pending statements, which must precede the next statement, and clear the list."""
         pending, self.pending = self.pending, []
         return pending
 

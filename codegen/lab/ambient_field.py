@@ -29,7 +29,8 @@ def ambient_field(scene: Problem) -> Evaluate:
 
 
 def ball(number: Number) -> arb:
-    """Return a ball that contains an exact number. Its midpoint has at least the working precision.
+    """Return a ball that contains an exact number. The midpoint of the ball has at least the working
+    precision.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(53):

@@ -51,8 +51,8 @@ class Exhausted:
     measured runs. ``recipes`` is the number of recipes of the library. ``raced`` recipes were emitted and
     timed. ``refused`` recipes cannot be compiled for the scene. ``copies`` recipes have the same code as
     another recipe. ``excluded`` recipes were not timed because their bounds were too large. A sample of
-    recipes with large bounds was timed: ``nearest`` is the smallest ratio of a time in the sample to the best
-    time for the same error. ``complete`` is False if the time limit ended the search.
+    recipes with large bounds was also timed. ``nearest`` is the smallest ratio of a time in this sample to
+    the best time for the same error. ``complete`` is False if the time limit ended the search.
     """
 
     known: Mapping[float, float]

@@ -32,8 +32,8 @@ EVEN = 4.0
 """A constant in the delay of a queue of recipes. The next recipe is taken from the queue with the smallest
 delay.
 
-The delay is the sum of two terms. The first term is (n + d)/EVEN, where n is the number of recipes that were
-taken from the queue, and d is the distance between the order of the queue and the usual order. The second
+The delay is the sum of two terms. The first term is (n + d)/EVEN. Here n is the number of recipes that were
+taken from the queue, and d is the difference between the order of the queue and the usual order. The second
 term increases by one for every factor of two in the predicted time of the recipes.
 """
 
