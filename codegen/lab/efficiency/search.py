@@ -47,7 +47,7 @@ UNSEEN = 4.0
 """The safety factor for recipes of a kind if no recipe of this kind was measured yet."""
 
 LEADERS, CLOSE = 4, 1.4
-"""At most LEADERS recipes are timed again. Their times are at most CLOSE times the best time."""
+"""At most LEADERS recipes are timed again, if their times are at most CLOSE times the best time."""
 
 CONTROLLED = 100.0
 """An additional safety factor for recipes with step-size control if equal steps have large errors.
@@ -307,7 +307,7 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If a recipe did not reach the error, its time is unknown. Its time then counts as twice the
+                # The time of a recipe that did not reach the error is unknown. This time counts as twice the
                 # safety factor times the best time.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):

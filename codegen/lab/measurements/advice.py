@@ -169,8 +169,8 @@ def completed(
     method.
 
     The methods that were measured for the page of the report are used. Of the methods that satisfy the
-    requirement, the fastest fills the gap. Its time is interpolated between measured runs. Gaps remain for
-    requirements that include long times, because only the search makes long runs.
+    requirement, the fastest fills the gap. The time of this method is interpolated between measured runs.
+    Gaps remain for requirements that include long times, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []

@@ -291,8 +291,8 @@ def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a line with the slope of each order of :data:`SLOPES`, in a corner of the figure.
 
     Work-precision curves seldom reach the lower left and the upper right corner of the figure. The lines are
-    drawn in the corner with fewer ``points``. All lines begin at the upper left corner of an invisible box in
-    this corner, and end near the lower side or the right side of the box.
+    drawn in the corner with fewer ``points``. All lines begin at the upper left corner of an invisible box.
+    They end near the lower side or the right side of this box.
     """
     if not points:
         return
