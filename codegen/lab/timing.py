@@ -153,8 +153,8 @@ def span_times(
     """Return the CPU seconds of a run over one time span, without the overhead of a call.
 
     The result contains one value for each batch, in increasing order. ``run(n)`` runs over n time spans and
-    returns the number of steps. A short run is timed over several time spans (:func:`spans`). Its time is
-    multiplied by the fraction of the steps that belong to one time span.
+    returns the number of steps. A short run is timed over several time spans (:func:`spans`). The measured
+    time is then multiplied by the fraction of the steps that belong to one time span.
     """
     steps = run(1)
     count = spans(run, steps)

@@ -1,11 +1,10 @@
 """Discrete gradient methods on groups, which preserve the energy exactly.
 
-The methods are those of section 2.6 of H. Marthinsen's thesis *On symplectic integration in Lie groups and
-manifolds*. A step of size h from x0 to x1 is x1 = exp(h xi).x0 with xi = i_D omega. Here omega is the
-bivector of the scene (:mod:`codegen.scene.energy`) at the midpoint exp(h xi/2).x0. D is a trivialised
-discrete differential of the energy H: <D, eta> = H(x1) - H(x0) with eta = h xi. Let gamma = R* dH be the
-trivialised differential of H. The tableau is read as a quadrature rule with nodes c_i and weights b_i for the
-mean of gamma:
+The source is section 2.6 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds*. A
+step of size h from x0 to x1 is x1 = exp(h xi).x0 with xi = i_D omega. Here omega is the bivector of the scene
+(:mod:`codegen.scene.energy`) at the midpoint exp(h xi/2).x0. D is a trivialised discrete differential of the
+energy H: <D, eta> = H(x1) - H(x0) with eta = h xi. Let gamma = R* dH be the trivialised differential of H.
+The tableau is read as a quadrature rule with nodes c_i and weights b_i for the mean of gamma:
 
     g = sum_i b_i gamma(exp(c_i eta).x0),
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.

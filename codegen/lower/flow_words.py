@@ -95,8 +95,9 @@ class FlowLowering(Lowering):
             return None if listed else Objection(", a lattice without parts", expected, hint)
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
-        # Exact flows are unknown in two cases: a scene with a wrench (an external force and torque) has no
-        # Hamiltonian, and run-time inputs change during a flow.
+        # Exact flows are unknown for a scene with a wrench (an external force and torque), because the scene
+        # has no Hamiltonian. They are also unknown for a scene with run-time inputs, which change during a
+        # flow.
         if scene.forced or scene.inputs:
             what = "a wrench" if scene.forced else "run-time inputs"
             return Objection(

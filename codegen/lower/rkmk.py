@@ -150,8 +150,8 @@ def _program(
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # The stages are the stages of a Runge-Kutta step for the equation u' = dexp^{-1}_u f(exp(u).y0)
-            # in the Lie algebra.
+            # A Runge-Kutta step for the equation u' = dexp^{-1}_u f(exp(u).y0) in the Lie algebra has these
+            # stages.
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.add(element, f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
