@@ -1,8 +1,8 @@
 """Shared angles: arguments that are equal as polynomials become one expression.
 
 Variational methods need the exponentials of h xi, h xi/2 and -h xi/2 in one stage. Each exponential contains
-Stumpff functions of the squared norm of its argument. For example, the squared norms of h xi/2 and of -h xi/2
-are equal numbers but different expressions. The squared norm of h xi is four times this number. Without this
+Stumpff functions of the squared norm of its argument. The squared norm of h xi/2, the squared norm of -h
+xi/2, and a quarter of the squared norm of h xi are equal numbers, but different expressions. Without this
 module a step would compute the Stumpff functions of each expression separately. This module detects that the
 expressions are equal as polynomials in symbols and in the results of earlier calls.
 """
