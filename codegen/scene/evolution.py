@@ -1,10 +1,11 @@
 """The coordinates in which Taylor polynomials of a scene are computed, and their conversion from and to the
 state.
 
-Each product of two series costs a convolution, so the coordinates whose equations contain the fewest products
-are chosen. For a Hamiltonian scene with a body frame, these may be the group element q and the momentum in
-the body frame, P = Ad*_q mu. Their equations are q' = q.W and P' = N (:mod:`codegen.scene.body_frame`).
-Coordinates of q that the other coordinates determine are omitted if no other equation contains them.
+Each product of two series costs a convolution. Therefore the coordinates are chosen whose equations contain
+the fewest products. For a Hamiltonian scene with a body frame, the group element q and the momentum in the
+body frame, P = Ad*_q mu, may need fewer products than q and mu. Their equations are q' = q.W and P' = N, with
+the velocity W and the force N in the body frame (:mod:`codegen.scene.body_frame`). A coordinate of q is
+omitted if the other coordinates determine its value and no other equation contains it.
 """
 
 from __future__ import annotations
@@ -38,10 +39,9 @@ from codegen.scene.problem import TIME, Problem, StateField
 class Evolution:
     """Coordinates in which Taylor polynomials of a scene are computed, and their equations.
 
-    ``inner`` is the problem on R^m in these m coordinates, and ``outer`` is the scene as a field.
-
-    ``body`` is the group if the coordinates contain the momentum in the body frame; it is None if they
-    contain the momentum in space. ``missing`` are the indices of the coordinates that are omitted.
+    ``inner`` is the problem on R^m in these m coordinates. ``outer`` is the scene, written as a field
+    y' = f(y).y. If the coordinates contain the momentum in the body frame, ``body`` is the group, otherwise
+    None. ``missing`` are the indices of the omitted coordinates.
     """
 
     inner: Problem
@@ -66,8 +66,8 @@ class Evolution:
     ) -> Vector[S]:
         """Return the state with the coordinates ``moved``, projected onto the manifold that contains y.
 
-        If the state y contains the momentum in the body frame, so does the result, and ``frame`` is the
-        group. Otherwise ``frame`` is None.
+        If the state y contains the momentum in the body frame, ``frame`` is the group, and the result
+        contains the momentum in the body frame. Otherwise ``frame`` is None.
         """
         z = self._completed(domain, moved)
         if self.body is None:
@@ -166,7 +166,7 @@ def evolution(scene: Problem) -> Evolution:
 
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
-    """Return the evolution in all coordinates of ``outer``; ``roots`` are their time derivatives."""
+    """Return the evolution in all coordinates of ``outer``; ``roots`` are the time derivatives."""
     return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
 
 
@@ -186,7 +186,10 @@ def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) 
 
 
 def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
-    """Return formulas for q' = q.W and P' = N, in which the symbols of mu denote P."""
+    """Return formulas for the derivatives of q and of the momentum P in the body frame.
+
+    The symbols of mu denote P in these formulas.
+    """
     body = scene.body
     assert body is not None
     domain = ExprDomain()

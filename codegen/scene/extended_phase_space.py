@@ -26,7 +26,8 @@ from codegen.scene.problem import TIME, Problem, StateField
 def extended(problem: Problem) -> Problem:
     """Return the problem on the extended phase space.
 
-    SceneError is raised for a field scene that is not linear, and for a Hamiltonian without the time.
+    SceneError is raised for a field scene that is not linear, and for a Hamiltonian that does not depend on
+    time.
 
     A linear problem is extended by :mod:`codegen.scene.linear_extension`. For a Hamiltonian problem the new
     coordinates are called tau and u; underscores are appended to a name that is taken. The summand u is added

@@ -40,9 +40,9 @@ def FieldScene(
     rational time interval. ``invariants`` maps names to scalar formulas. ``velocity`` may contain formulas
     for y', which must equal f.y. ``coordinates`` is the coordinate map of Runge-Kutta-Munthe-Kaas methods:
     "exp", "cayley", "second_kind", or a :class:`codegen.groups.coordinate_maps.CoordinateMap`.
-    :class:`SceneError` is raised for a wrong shape or symbol, an initial point that violates the equations of
-    the manifold, a ``velocity`` that differs from f.y, an invariant that changes, and a coordinate map that
-    the group does not have.
+    :class:`SceneError` is raised for a wrong shape or symbol, and for an initial point that violates the
+    equations of the manifold. The error is also raised for a ``velocity`` that differs from f.y, for an
+    invariant that is not constant, and for a coordinate map that the group does not have.
     """
     check_group(name, group)
     reader = Reader(name, list(y))

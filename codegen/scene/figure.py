@@ -47,7 +47,7 @@ class Run:
     that the run uses in place of this scene; ``+u`` denotes this scene, extended by the momentum conjugate to
     the time. If ``tolerance`` is positive, the method chooses its steps with this relative and absolute
     tolerance, and ``h`` is the interval between output times. With a ``sweep`` there is one run for each
-    value, and the figure shows the final states of these runs.
+    value of the parameter, and the figure shows the final states of these runs.
     """
 
     method: str
@@ -70,7 +70,8 @@ class Figure:
     """A figure: its name in commands, its title, its caption, and the runs that it shows.
 
     ``source`` is the name of the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run
-    with which the other runs are compared. A figure without comparisons shows the reference as a thin line.
+    with which the other runs are compared. If the figure makes no comparison, the reference is drawn as a
+    thin line.
     ``shows_lattices`` is True for the kinds of figures that show chains and lattices, and False for those
     that show single systems.
     """
@@ -140,9 +141,9 @@ class Motion(Figure):
 
     ``bars`` maps labels to the two ends of a bar. The figure also shows the curve that the point ``trace``
     describes, and the bars at ``stills`` equally spaced times. The animation lasts ``seconds`` and is
-    repeated; it stops while the pointer is on the figure. ``fixed`` maps labels to points that do not move.
-    ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees. There is
-    one run.
+    repeated. The animation stops while the pointer is on the figure. ``fixed`` maps labels to points that do
+    not move. ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees.
+    The figure shows only one run.
     """
 
     bars: Mapping[str, tuple[Place, Place]]
@@ -222,8 +223,8 @@ class Deviation(Figure):
 class Scan(Figure):
     """The distance of the final state from the end of the reference run, against the values of a sweep.
 
-    Every run has a sweep. The least distance is marked. A minimisation finds the value of the parameter with
-    the least distance, so this value may lie between two values of the sweep.
+    Every run has a sweep. The parameter value with the least distance is marked. A minimisation finds this
+    value, so it may lie between two values of the sweep.
     """
 
     axis: str = ""
@@ -246,8 +247,8 @@ class Orders(Figure):
 def read_figures(scene: str, value: object) -> tuple[Figure, ...]:
     """Return the value of the variable ``figures`` of a scene file as a tuple.
 
-    Raises :class:`codegen.errors.SceneError` for an object that is no figure, and for two figures with the
-    same name.
+    Raises :class:`codegen.errors.SceneError` for an object that is not a figure, and for two figures with
+    the same name.
     """
     figures: list[Figure] = []
     for figure in value if isinstance(value, Iterable) else [value]:

@@ -1,8 +1,8 @@
 """The interface of exact flows, which advance the state of a problem along one part of its Hamiltonian.
 
 The part H_k of H = sum H_k moves (q, mu) for a time tau along the solution of q' = xi.q, mu' = n - ad*_xi mu.
-Here xi = D_2 H_k and n = -(D_1 H_k).q^-1 (eq. 2.27 of H. Marthinsen's thesis). :mod:`codegen.flows` has one
-class for each kind of flow in closed form.
+Here xi = D_2 H_k and n = -(D_1 H_k).q^-1, where D_1 and D_2 are the derivatives with respect to q and mu
+(eq. 2.27 of H. Marthinsen's thesis). :mod:`codegen.flows` has one class for each kind of flow in closed form.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from codegen.ir.domain import Domain
 
 
 class Flow(ABC):
-    """The exact flow of one part, in closed form over any domain.
+    """The exact flow of one part of the Hamiltonian, in closed form over any number domain.
 
     ``timed`` is True if the part depends on t. The flow then keeps t fixed while the state moves. The
-    argument ``values`` of the methods contains the values of all symbols at the start: the state, the
-    parameters and t.
+    argument ``values`` of the methods maps all symbols (the state, the parameters and t) to their values at
+    the start.
     """
 
     timed: bool = False

@@ -1,4 +1,4 @@
-"""Formulas of a scene: read from sympy into one space of expressions, with parameters and signals."""
+"""Conversion of a scene's sympy formulas to expressions; parameters and signals are collected."""
 
 from __future__ import annotations
 
@@ -59,7 +59,8 @@ class Reader:
     def _admit(self, symbol: Parameter) -> None:
         """Record the default value of a parameter.
 
-        SceneError is raised for a reserved name, for the name of a coordinate, and for a second default.
+        SceneError is raised for a reserved name, for the name of a coordinate, and for a parameter that
+        already has another default value.
         """
         self._allow(symbol.name)
         value = Number.rational(*symbol.default)

@@ -51,16 +51,21 @@ def HamiltonianScene(
 ) -> Problem:
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
-    ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), ``q0`` and ``mu0`` exact
-    initial values, ``parts`` named summands of H. If the compiler does not recognise the exact flow of a
-    part, ``flows`` may contain it, as formulas of (q, mu) after the time ``Symbol("tau")``. xi = D_2 H and n
-    = -(D_1 H).q^-1 (:mod:`codegen.scene.canonical_equations`) are computed by differentiation. If ``xi`` or
-    ``n`` is given, it must equal the computed formulas. ``wrench`` is the column of the ``group.dim``
-    components, in the space frame, of a force without potential. The equation is then mu' = n + wrench -
-    ad*_xi mu, so a given ``n`` does not contain the wrench. A scene with a wrench has no energy, and must not
-    have parts. The parts must add up to H. If H does not depend on time and there is no wrench, the energy is
-    an invariant. The only coordinate map is "exp": other values of ``coordinates`` are refused.
-    :class:`SceneError` is raised in the same cases as by :func:`FieldScene`.
+    ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), and ``q0`` and ``mu0``
+    their exact initial values. The equations are q' = xi.q and mu' = n - ad*_xi mu. The program computes
+    xi = D_2 H and n = -(D_1 H).q^-1 by differentiation (:mod:`codegen.scene.canonical_equations`). If ``xi``
+    or ``n`` is given, it must equal the computed formulas.
+
+    ``parts`` are named summands of H, and must add up to H. If the compiler does not recognise the exact flow
+    of a part, ``flows`` may contain formulas for (q, mu) after the time ``Symbol("tau")``.
+
+    ``wrench`` is a force without potential: a column of ``group.dim`` components in the space frame. The
+    equation is then mu' = n + wrench - ad*_xi mu, so a given ``n`` does not contain the wrench. A scene with
+    a wrench has no energy, and must not have parts. If H does not depend on time and there is no wrench, the
+    energy is an invariant.
+
+    The only permitted value of ``coordinates`` is "exp". :class:`SceneError` is raised in the same cases as
+    by :func:`FieldScene`.
     """
     _check_coordinates(name, coordinates)
     reader = phase_space_reader(name, group, q, mu)
@@ -133,8 +138,8 @@ def phase_space_reader(name: str, group: LieGroup, q: Column, mu: Column) -> Rea
 class _CanonicalSystem:
     """The formulas of H and of its field.
 
-    ``roots`` are xi and n. ``loads`` is the wrench, or () without a wrench. ``open_roots`` are xi and n +
-    wrench.
+    ``roots`` are xi and n. ``loads`` is the wrench, or () if there is no wrench. ``open_roots`` are xi and
+    n + wrench.
     """
 
     reader: Reader

@@ -1,10 +1,11 @@
 """Hamiltonian chains and lattices: each site has a Hamiltonian, and bonds between neighbours have energies.
 
 The total energy E is the sum of h(q_i, mu_i) over all sites i, and of V(q_i, q_{i+d}) over all bonds. Each
-bond has an offset d. The momenta are right-trivialised: q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i
-with xi_i = D_2 h and n_i = -(D_1 E).q_i^-1 (:mod:`codegen.scene.canonical_equations`). A site is the first
-site of one bond and the second site of another bond with the same offset. So n_i contains the derivative of
-V(q_i, q_{i+d}) with respect to q_i, and the derivative of V(q_{i-d}, q_i) with respect to q_i.
+bond has an offset d. The momenta are right-trivialised: q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i.
+Here xi_i is the derivative of h with respect to mu_i, and n_i = -(D_1 E).q_i^-1, where D_1 E is the
+derivative of E with respect to q_i (:mod:`codegen.scene.canonical_equations`). A site is the first site of
+one bond and the second site of another bond with the same offset. So n_i contains the derivatives of
+V(q_i, q_{i+d}) and of V(q_{i-d}, q_i) with respect to q_i.
 """
 
 from __future__ import annotations
@@ -64,9 +65,10 @@ def HamiltonianSiteScene(
     """Return the scene of a Hamiltonian chain or lattice. Emitted code accepts any number of sites.
 
     ``q`` and ``mu`` are the coordinates of a site (``group.point``, ``group.dual``). ``H`` is the Hamiltonian
-    of a site without the energies of its bonds, a formula in these coordinates, parameters and the time. Each
-    element of ``bonds`` is a :class:`Bond`: the program derives the forces on both of its sites. ``q0`` and
-    ``mu0`` are the initial state of every site; emitted code also accepts an array of initial states.
+    of a site without the energies of its bonds, a formula in these coordinates, parameters and the time.
+    ``bonds`` are the bonds of a site (:class:`Bond`); the program derives the forces on both sites of a bond.
+    ``q0`` and ``mu0`` are the initial state of every site. Emitted code also accepts an array of initial
+    states.
 
     The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the element q of a
     neighbour that does not exist: a column of ``group.size`` formulas in q, t and parameters, or a mapping
@@ -149,9 +151,9 @@ def _of_bonds(
                 where=reader.name,
                 expected="a formula in the coordinates of q and of neighbour(q, offset)",
             )
-        # The derivative by q_i for the bond that begins at the site i: V(q_i, q_{i+offset}).
+        # The derivative with respect to q_i of V(q_i, q_{i+offset}), the energy of the bond from site i.
         first = gradient(V, qs)
-        # The derivative by q_i for the bond that ends at the site i: V(q_{i-offset}, q_i).
+        # The derivative with respect to q_i of V(q_{i-offset}, q_i), the energy of the bond to site i.
         moved = {s: space.sym(s) for s in sorted(map(str, read))}
         moved |= {s: space.sym(b) for s, b in zip(qs, back, strict=True)}
         moved |= {s: space.sym(a) for s, a in zip(there, qs, strict=True)}

@@ -27,13 +27,13 @@ if TYPE_CHECKING:
     import sympy
 
     Start = Sequence[sympy.Expr] | Callable[..., sympy.Expr]
-    """An initial state: the numbers row by row, or a function of the row (and of the column, if there are
-    several)."""
+    """An initial state: the numbers row by row, or a function of the row index. If there are several columns,
+    the column index is the second argument of the function."""
 
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of GL(n).
 
-The interpreter of step programs needs these n^2 formulas for n rows; measurements use the interpreter."""
+For n rows these are n^2 formulas. Measurements need them, because they interpret step programs."""
 
 
 def LargeLinearScene(
@@ -48,10 +48,10 @@ def LargeLinearScene(
     """Return the scene y' = A(t) y for vectors y, or for n x k matrices y with k = ``columns``.
 
     ``A`` is the result of :func:`codegen.scene.banded` or :func:`codegen.scene.full`, or a sum of multiples
-    of such matrices. The entries are formulas in the indices, in ``t`` and in parameters; the scalar factors
+    of such matrices. The entries are formulas in the indices, in ``t`` and in parameters. The scalar factors
     are formulas in ``t`` and in parameters. ``y0`` is the initial state row by row, or a function of the
-    indices, counted from 0; by default its columns are the first unit vectors. ``span`` is the rational time
-    interval.
+    indices, counted from 0. By default the columns of ``y0`` are the first unit vectors. ``span`` is the
+    rational time interval.
 
     Emitted steps of the families magnus, cf_magnus and fer, and of rkmk, cf and cg, apply exponentials to y
     by products of A and vectors (:mod:`codegen.ir.linear_array_step`). The length of the code does not depend

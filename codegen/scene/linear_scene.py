@@ -40,12 +40,13 @@ def LinearScene(
     ``A`` is a column of ``group.dim`` formulas in the symbol ``t`` and in parameters. For a group of n x n
     matrices it may also be a square matrix of formulas, which must be in the Lie algebra. ``y`` are the
     coordinate symbols for ``velocity`` and ``invariants``, by default ``y0``, ``y1`` and so on. All other
-    arguments are those of :func:`codegen.scene.FieldScene`, which returns the same problem if the formulas of
-    ``f`` do not contain the state. For y' = y A(t) the action is ``RightMultiplication()``, and -A is
-    given in place of A. ``steps`` maps names to pairs: a formula for M (:mod:`codegen.scene.matrix_step`),
-    and the order of the step y1 = M y0. The method ``step:NAME`` makes such steps. :class:`SceneError` is
-    raised for a matrix outside of the algebra, for an A that depends on the state, and in the same cases as
-    by ``FieldScene``.
+    arguments are those of :func:`codegen.scene.FieldScene`. For y' = y A(t), use the action
+    ``RightMultiplication()`` and pass -A in place of A.
+
+    ``steps`` defines additional methods y1 = M y0 by formulas for the matrix M. It maps the name of each
+    method to a pair: the formula (:mod:`codegen.scene.matrix_step`) and the order. The method is then called
+    ``step:NAME``. :class:`SceneError` is raised for a matrix outside of the algebra, for an A that depends on
+    the state, and in the same cases as by ``FieldScene``.
 
     >>> from sympy import Matrix, Symbol
     >>> from codegen.groups import SL2, Linear
@@ -82,10 +83,11 @@ def LinearScene(
 
 
 def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
-    """Return the steps that the scene states, by name.
+    """Return the methods that the scene defines by formulas, by name.
 
-    SceneError is raised if the group does not act by multiplication with matrices, if an exponential or a
-    logarithm has no closed form, for an order that is no positive integer, and if A is constant.
+    SceneError is raised if the group does not act by multiplication with matrices, or if an exponential or a
+    logarithm has no closed form. The error is also raised if an order is not a positive integer, and if A is
+    constant.
     """
     matrices = scene.group.offers(MatrixElements)
     for name, (formula, order) in steps.items():

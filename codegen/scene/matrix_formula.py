@@ -36,8 +36,8 @@ class MatrixFormula:
     rows: int
     columns: int
     __array_ufunc__: ClassVar[None] = None
-    """None, so that NumPy calls the operators of this class and does not treat a formula as an entry of an
-    array."""
+    """The value None makes NumPy use the operators of this class for ``array * formula``. Otherwise NumPy
+    would treat the formula as an entry of an array."""
 
     @property
     def T(self) -> MatrixFormula:

@@ -1,8 +1,9 @@
 """Formulas of matrices (:mod:`codegen.scene.matrix_formula`) as array programs.
 
-Transposes are moved to the factors of products. Let n be the number of rows of X. Each product is computed in
-its cheapest order, which forms no matrix with n^2 entries. Equal products are computed once. Matrices with
-more columns than rows are stored as their transposes, so each stored matrix has n rows or is small.
+Transposes are moved to the factors of products. Each product is computed in its cheapest order. This order
+forms no matrix with n^2 entries, where n is the number of rows of the unknown X. Equal products are computed
+once. Matrices with more columns than rows are stored as their transposes, so each stored matrix has n rows or
+is small.
 """
 
 from __future__ import annotations
@@ -294,9 +295,11 @@ class _Compiler:
 
 
 def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
-    """Return the statements without a copy at the end: if the last statement only copies the matrix that the
-    second-to-last statement computes, this copy is omitted, and the second-to-last statement computes the
-    result directly."""
+    """Return the statements without a superfluous copy at the end.
+
+    The last statement may only copy the matrix that the second-to-last statement computes. The copy is then
+    omitted, and the second-to-last statement computes the result directly.
+    """
     *before, last = body
     assert isinstance(last, Combination)
     (term,) = last.terms
@@ -306,8 +309,10 @@ def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
 
 
 def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
-    """Return the least number of scalar multiplications for a product of matrices, and the number of factors
-    to the left of the matrix multiplication that is made last."""
+    """Return the least number of scalar multiplications for a product of matrices, and the best split.
+
+    The split is the number of factors to the left of the matrix multiplication that is made last.
+    """
     n = len(factors)
     best: dict[tuple[int, int], tuple[float, int]] = {(i, i + 1): (0.0, i) for i in range(n)}
     for length in range(2, n + 1):
@@ -380,7 +385,7 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
         return ConstantMatrix(name, given.rows, given.columns, (), entry)
     matrix = ConstantMatrix(name, given.rows, given.columns)
     diagonals = []
-    # The main diagonal comes first, because it has an entry in every row: the emitted code can set all rows
+    # The main diagonal comes first, because it has an entry in every row. Emitted code can then set all rows
     # of the product with it, and then add the products with the other diagonals.
     for offset in sorted(given.diagonals, key=lambda x: (abs(x), x)):
         length = matrix.length(Diagonal(offset, ()))

@@ -1,4 +1,4 @@
-"""Steps that a scene states as functions of matrices: y1 = M y0, where M is a formula in A(t + c h) and h.
+"""Methods that a scene defines by a formula: y1 = M y0, where the matrix M is a formula in A(t + c h) and h.
 
 A formula consists of :func:`A`, :data:`IDENTITY`, :data:`h` and numbers, sums and products, and the functions
 :func:`bracket`, :func:`projected`, :func:`expm` and :func:`logm`. Each formula has a type: an element of the
@@ -47,7 +47,7 @@ class Evaluation(Generic[S]):
 
 @dataclass(frozen=True)
 class Scalar:
-    """The scalar ``value`` h^``power``, where h is the step size."""
+    """The scalar ``value`` times h to the power ``power``, where h is the step size."""
 
     value: Fraction
     power: int
@@ -96,7 +96,7 @@ class MatrixFormula(ABC):
         return ()
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield the exponentials and logarithms in the formula that need closed forms.
+        """Yield the exponentials and logarithms in the formula that are computed by closed forms.
 
         The closed forms exist only for 2 x 2 matrices.
         """
@@ -302,9 +302,10 @@ class Exponential(Unary):
         return Place.GROUP if self.of.place is Place.ALGEBRA else Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this formula unless the group computes it, that is, unless its argument is in the algebra.
+        """Yield the exponentials and logarithms in this formula that are computed by closed forms.
 
-        Then yield the formulas in its argument that need closed forms.
+        If the argument of this exponential is in the algebra, the group computes the exponential. Otherwise
+        a closed form is needed.
         """
         if self.of.place is not Place.ALGEBRA:
             yield self
@@ -331,7 +332,7 @@ class Logarithm(Unary):
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this logarithm, and then the formulas in its argument that need closed forms."""
+        """Yield this logarithm, and the functions in its argument that are computed by closed forms."""
         yield self
         yield from super().closed_forms()
 
@@ -375,9 +376,9 @@ def logm(x: MatrixFormula) -> MatrixFormula:
 
 @dataclass(frozen=True)
 class MatrixStep:
-    """A step that the scene states: y1 = M y0, where M is the value of ``formula``.
+    """A method that the scene defines: y1 = M y0, where M is the value of ``formula``.
 
-    ``order`` is the order of the step according to the scene.
+    ``order`` is the order of the method according to the scene.
     """
 
     formula: MatrixFormula
@@ -406,14 +407,18 @@ def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
 
 
 def _split(d: Domain, m: Vector[S]) -> tuple[S, Vector[S], S]:
-    """Return s, N and det N for the 2 x 2 matrix s + N, where s is a number and N has trace zero."""
+    """Return s, N and det N for the 2 x 2 matrix m = s I + N, where s is a number and N has trace zero."""
     half = d.rational(1, 2)
     s, a = half * (m[0] + m[3]), half * (m[0] - m[3])
     return s, (a, m[1], m[2], -a), -(a * a + m[1] * m[2])
 
 
 def _exponential(d: Domain, m: Vector[S]) -> Vector[S]:
-    """Return exp(s + N) = e^s (c_0(det N) + c_1(det N) N) for a 2 x 2 matrix; N has trace zero."""
+    """Return the exponential of a 2 x 2 matrix m = s I + N, where s is a number and N has trace zero.
+
+    exp m = e^s (c_0(det N) I + c_1(det N) N) with the Stumpff functions c_0(z) = cos(sqrt z) and
+    c_1(z) = sin(sqrt z)/sqrt z.
+    """
     s, traceless, z = _split(d, m)
     scale = d.call("exp", s)
     c0, c1 = scale * d.call("signed_stumpff0", z), scale * d.call("signed_stumpff1", z)
@@ -422,10 +427,10 @@ def _exponential(d: Domain, m: Vector[S]) -> Vector[S]:
 
 
 def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
-    """Return log(s + N) = log(det)/2 + g N for a 2 x 2 matrix, where det = s^2 + det N.
+    """Return the logarithm of a 2 x 2 matrix m = s I + N, where s is a number and N has trace zero.
 
-    With z = det N and r = sqrt(|z|), g = atan2(r, s)/r for z > 0, g = 1/s for z = 0, and
-    g = log((s + r)/(s - r))/(2 r) for z < 0.
+    log m = log(det m)/2 I + g N. With z = det N and r = sqrt(|z|), g = atan2(r, s)/r for z > 0, g = 1/s for
+    z = 0, and g = log((s + r)/(s - r))/(2 r) for z < 0.
     """
     s, traceless, z = _split(d, m)
     one, half = d.rational(1), d.rational(1, 2)

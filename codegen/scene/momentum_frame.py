@@ -21,8 +21,8 @@ def with_frame(problem: Problem, frame: str) -> Problem:
     """Return the problem for which emitted code accepts and returns momenta in the given frame.
 
     ``frame`` is ``space`` for the right-trivialised momentum mu or ``body`` for the left-trivialised momentum
-    Ad*_q mu. Step programs compute with mu in both cases. A :class:`SceneError` is raised if ``frame`` is
-    ``body`` and the problem has no momenta or its group is abelian.
+    Ad*_q mu. Step programs compute with mu in both cases. If ``frame`` is ``body``, :class:`SceneError` is
+    raised for a problem without momenta and for an abelian group.
     """
     if frame not in FRAMES:
         raise UnknownName(f"unknown frame {frame}", expected=" or ".join(FRAMES))

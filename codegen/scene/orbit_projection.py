@@ -1,7 +1,7 @@
 """Tests whether the projection of a scene's action reaches the orbit of the initial state.
 
-The projection is :meth:`Action.to_orbit`. If the group has no projection, this method returns the point
-unchanged. A numerical method that relies on the projection then stays on the orbit only if the orbit is open.
+The projection is :meth:`Action.to_orbit`. If the group has no projection, ``to_orbit`` returns the point
+unchanged. A numerical method that relies on ``to_orbit`` then stays on the orbit only if the orbit is open.
 """
 
 from __future__ import annotations
@@ -57,8 +57,7 @@ def _orthonormal(
     """
     basis: list[list[float]] = []
     for vector in vectors:
-        # The projection is made twice, because the second projection removes the rounding errors of the first
-        # projection.
+        # Project twice: the second projection removes the rounding errors of the first projection.
         rest = _remainder(_remainder(vector, [*known, *basis]), [*known, *basis])
         length = math.hypot(*rest)
         if length > INDEPENDENT * max(1.0, math.hypot(*vector)):

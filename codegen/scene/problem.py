@@ -1,8 +1,8 @@
 """Problems: scenes in the form that step programs evaluate, over any number domain.
 
-A scene is read once. Its sympy formulas become exact, hash-consed expressions, and derivatives are taken by
-reverse differentiation. The problem can then be evaluated over any domain: the interpreter and the compiler
-evaluate the operations of step programs in this way.
+The sympy formulas of a scene are converted once to exact expressions, in which equal subexpressions are
+shared. Derivatives are computed by reverse differentiation. The interpreter and the compiler then evaluate
+the formulas over their own number domains, such as floats, series or expressions.
 """
 
 from __future__ import annotations
@@ -66,26 +66,29 @@ class Problem:
 
     ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
     state's symbols, the parameters and ``t``. ``paired`` is True if the state is (q, mu). ``parts`` are named
-    summands of the Hamiltonian, and ``flows`` are the exact flows that a splitting composes. The scene may
-    state the flow of a part itself: ``stated`` then contains the formulas of (q, mu) after the time tau.
+    summands of the Hamiltonian, and ``flows`` are the exact flows that a splitting composes. If the scene
+    gives formulas for the flow of a part, ``stated`` contains (q, mu) after the time tau.
 
-    ``runtime`` are the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value
-    is not the default. ``roots`` contain the formulas of the signals; ``open_roots`` are the same
-    components with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that
-    emitted code reads at run time. ``forced`` is True if n contains a force that is not a derivative of the
-    Hamiltonian. If emitted code reads and returns momenta in the body frame, ``body_group`` is the group.
-    ``evolution`` contains the coordinates in which a step of Taylor's method computes. ``coordinates`` is
-    the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential
-    map. ``matrices`` is the field if it is given by formulas of whole matrices; for large matrices
-    ``roots`` is then empty. If ``carries_momentum`` is true, the problem is linear in (q, p), and the last
-    coordinate is the momentum conjugate to the time (:mod:`codegen.scene.linear_extension`). ``steps`` are
-    the steps that the scene states as functions of matrices (:mod:`codegen.scene.matrix_step`). If
-    ``sites`` is given, the problem is the equation of one site of a lattice, and ``roots`` also contain the
-    coordinates of neighbours (:mod:`codegen.scene.sites`). If ``semilinear`` is given, the problem is u' =
-    L u + N(u) on a periodic interval, and ``roots`` is empty (:mod:`codegen.scene.semilinear`). ``figures``
-    are the figures that the file of the scene declares (:mod:`codegen.scene.figure`). ``derived`` is a
-    cache of the problems that families derive from this problem; the key is the kind of the family. A
-    search uses each of these problems for hundreds of methods.
+    ``runtime`` are the parameters that stay inputs of emitted code. ``fixed`` are the parameters whose value
+    is not the default. ``roots`` contain the formulas of the signals; ``open_roots`` contain the symbols of
+    ``signals`` in place of these formulas. ``inputs`` are the signals that emitted code reads at run time.
+    ``forced`` is True if n contains a force that is not a derivative of the Hamiltonian.
+
+    If emitted code reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution``
+    contains the coordinates for steps of Taylor's method. ``coordinates`` is the map with which
+    Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential map.
+
+    If the field is given by formulas of whole matrices, ``matrices`` is the field, and ``roots`` is empty for
+    large matrices. If ``carries_momentum`` is true, the problem is linear in (q, p), and the last coordinate
+    is the momentum conjugate to the time (:mod:`codegen.scene.linear_extension`). ``steps`` are the methods
+    that the scene defines by formulas of matrices (:mod:`codegen.scene.matrix_step`). If ``sites`` is given,
+    the problem is the equation of one site of a lattice, and ``roots`` also contain the coordinates of
+    neighbours (:mod:`codegen.scene.sites`). If ``semilinear`` is given, the problem is u' = L u + N(u) on a
+    periodic interval, and ``roots`` is empty (:mod:`codegen.scene.semilinear`).
+
+    ``figures`` are the figures in the file of the scene (:mod:`codegen.scene.figure`). ``derived`` is a cache
+    of the problems that families derive from this problem; the key is the kind of the family. A search uses
+    each of these problems for hundreds of methods.
     """
 
     name: str
@@ -126,8 +129,10 @@ class Problem:
 
     @property
     def autonomous(self) -> bool:
-        """True if the field depends neither on the time nor on signals that are read at run time. On a
-        lattice, the same is required of the states outside an open boundary."""
+        """True if the field depends neither on the time nor on signals that are read at run time.
+
+        On a lattice, the states outside an open boundary must not depend on these either.
+        """
         if self.matrices is not None:
             return not self.matrices.reads(TIME)
         if self.semilinear is not None:
@@ -251,7 +256,7 @@ class Problem:
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return F v, where F is the product of the functions of ad_x that are listed in ``word``.
+        """Return F v, where F is the product of the functions of ad_x that ``word`` lists.
 
         If ``dual`` is true, they are functions of ad*_x.
         """
@@ -264,8 +269,11 @@ class Problem:
 
     @cached_property
     def body(self) -> BodyField | None:
-        """The field in the body frame. It is None without a Hamiltonian, for a group without body frame, for
-        signals that are read at run time, and if ``forced``."""
+        """The field in the body frame, or None.
+
+        It is None if there is no Hamiltonian, if the group has no body frame, if signals are read at run
+        time, or if ``forced`` is true.
+        """
         group = self.group.offers(BodyFrame)
         if group is None or not self.paired or self.inputs or self.forced or self.hamiltonian is None:
             return None
@@ -299,7 +307,7 @@ class Problem:
         return (result[: self.group.dim], result[self.group.dim :]) if self.paired else (result,)
 
     def stated_step(self, domain: Domain, name: str, y: Vector[S], t: S) -> Vector[S]:
-        """Return the point after a step that the scene states as a function of matrices."""
+        """Return the point after a step of a method that the scene defines by a formula of matrices."""
         from codegen.scene.matrix_step import Evaluation
 
         product = self.group.offers(DirectProduct) if self.carries_momentum else None

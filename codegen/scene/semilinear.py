@@ -22,14 +22,15 @@ and the eigenvalue of the model is below 1/4, so the omitted terms are below (1/
 class Semilinear:
     """The operator and the nonlinear term of a semilinear problem, as formulas.
 
-    ``symbol`` contains the real part of the eigenvalue of L as a formula in the wave number and, unless it is
-    zero, the imaginary part. ``wave`` and ``space`` are the symbols of the wave number and of x. ``length``
-    is the period and ``initial`` the initial state as a formula in x.
+    ``symbol`` contains the real part of the eigenvalue of L as a formula in the wave number. If the imaginary
+    part is not zero, ``symbol`` contains a second formula for this part. ``wave`` is the symbol of the wave
+    number and ``space`` the symbol of x. ``length`` is the period and ``initial`` the initial state as a
+    formula in x.
 
-    N is a sum of derivatives of pointwise formulas. ``inner`` are the orders of the derivatives of u that
-    these formulas read, with their symbols. N is the sum of the derivatives of ``formulas`` with the orders
-    ``outer``. If ``kept`` is less than one, only this fraction of the modes is kept in the values of N.
-    ``timed`` is true if N depends on the time.
+    N is a sum of derivatives of pointwise formulas: ``formulas`` are these formulas, and ``outer`` the orders
+    of the derivatives. The formulas may contain u and derivatives of u; ``inner`` contains the orders of
+    these derivatives, with their symbols. If ``kept`` is less than one, only this fraction of the Fourier
+    modes is kept in the values of N. ``timed`` is true if N depends on the time.
     """
 
     wave: str
@@ -72,10 +73,10 @@ class ExactExponential(CoordinateMap):
 
 
 def model_of(scene: Problem) -> Problem:
-    """Return the problem of one mode with the eigenvalue -1/2 and N(u) = u^2, or u^2 + t if N depends on the
-    time.
+    """Return a model problem that verifies step programs: u' = -u/2 + N(u) for one number u.
 
-    A step program is the same for all eigenvalues and all N. Therefore it is verified with this model.
+    N(u) is u^2, or u^2 + t if the nonlinear term of the given problem depends on the time. A step program is
+    the same for all eigenvalues and all N, so one model suffices.
     """
     assert scene.semilinear is not None
     (block,) = scene.state

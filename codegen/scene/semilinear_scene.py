@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     import sympy
 
 TWO_THIRDS = Fraction(2, 3)
-"""The fraction of the modes that ``dealias=True`` keeps. A product of two of these modes has no alias among
-the modes that are kept."""
+"""The fraction of the Fourier modes that ``dealias=True`` keeps. A product of two of these modes has no alias
+among these modes."""
 
 SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
 """Wave numbers at which the symbol is compared with its complex conjugate."""
@@ -53,12 +53,13 @@ def SemilinearScene(
 ) -> Problem:
     """Return the scene u_t = L u + N(u) for a function u of x and t that is periodic in x.
 
-    ``L`` is the symbol of a linear operator with constant coefficients: a formula in the wave number ``k``
-    and parameters, by which L multiplies exp(i k x). It may be complex; for example, d/dx has the symbol I*k.
-    ``N`` is a formula in ``u``, ``x``, t and parameters. It may contain derivatives of u, written Dx(u) or
-    Dx(u, m). Multiples of derivatives Dx(g) of such formulas g may be added (:class:`Dx`). ``length`` is the
-    period, ``u0`` the initial state as a formula in ``x``, and ``span`` the rational time interval. With
-    ``dealias`` only two thirds of the modes, or the given fraction, are kept in the values of N.
+    ``L`` is the symbol of a linear operator with constant coefficients: the factor by which the operator
+    multiplies exp(i k x). The symbol is a formula in the wave number ``k`` and parameters, and may be
+    complex; for example, d/dx has the symbol I*k. ``N`` is a formula in ``u``, ``x``, t and parameters. ``N``
+    may contain derivatives of u, written Dx(u) or Dx(u, m). Multiples of derivatives Dx(g) of such formulas g
+    may be added (:class:`Dx`). ``length`` is the period, ``u0`` the initial state as a formula in ``x``, and
+    ``span`` the rational time interval. With ``dealias`` only two thirds of the Fourier modes, or the given
+    fraction, are kept in the values of N.
 
     Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
     Explicit methods of the families rkmk, cf and cg are possible. They use the action of affine maps

@@ -2,8 +2,8 @@
 
 A part consists of formulas for elements of the Lie algebra, the generators. The velocity of a site is the sum
 of the velocities f(y).y for the generators f of all parts. If the generators of a part are constant along the
-solutions of this part alone, the flow of the part is y -> exp(tau f(y)).y, which is exact. The flows of pairs
-that have no site in common commute. The pairs along an axis of the lattice therefore form two sets: in one
+solutions of this part alone, the exact flow of the part is y -> exp(tau f(y)).y. The flows of pairs that have
+no site in common commute. The pairs along an axis of the lattice are therefore divided into two sets. In one
 set the first site of each pair has an even index, in the other set an odd index.
 """
 
@@ -139,8 +139,8 @@ def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> d
 def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
     """Raise SceneError if the velocities of all parts do not add up to the velocity of f.
 
-    At an open boundary some neighbours do not exist. There the test is repeated without each neighbour, and
-    without all of them.
+    At an open boundary some neighbours do not exist. The test is therefore repeated without each neighbour in
+    turn, and without all neighbours.
     """
     axes = [part.axis for part in sites.parts if part.symbols]
     offsets = {*sites.offsets}

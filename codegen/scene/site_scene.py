@@ -59,11 +59,14 @@ def SiteScene(
     that does not exist: a column of formulas in ``y``, t and parameters, or a mapping from each offset to
     such a column. Zeros describe a free end if the forces are linear in the neighbours. ``y`` itself
     describes a free end if the forces depend on differences. Constants describe a clamped end, and formulas
-    in t a driven end. ``parts`` are summands of the field with exact flows, which splittings compose: a
-    column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for the interaction of two
-    neighbours. :class:`SceneError` is raised for the same errors as in a field scene. It is also raised for
-    offsets of different lengths, for a neighbour outside an open boundary without a formula, and for parts
-    that do not add up to the field or have no exact flow.
+    in t a driven end.
+
+    ``parts`` are summands of the field whose exact flows are composed by splittings. A part is a column of
+    formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for the interaction of two neighbours.
+
+    :class:`SceneError` is raised for the same errors as in a field scene. The error is also raised for
+    offsets of different lengths, and for a missing formula of a neighbour outside an open boundary. Parts
+    that do not add up to the field, or that have no exact flow, raise the error too.
     """
     check_group(name, group)
     reader = Reader(name, list(y))

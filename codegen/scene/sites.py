@@ -1,7 +1,7 @@
 """Sites: the points of a chain or lattice, each with a state of its own, and the neighbours of a site.
 
-The equation of a site contains the coordinates of its own state and those of some neighbours. A neighbour is
-named by its offset, the difference of the indices: ``(1,)`` is the right neighbour in a chain, ``(0, -1)`` a
+The equation of a site contains the coordinates of its own state and those of some neighbours. The offset of a
+neighbour is the difference of the indices: ``(1,)`` is the right neighbour in a chain, ``(0, -1)`` a
 neighbour in a plane lattice.
 """
 

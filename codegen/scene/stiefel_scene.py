@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of SO(n).
 
-Measurements need these formulas, and so do methods that compute with these coordinates. The length of the
-formulas grows as n^3."""
+Measurements need these formulas, and so do methods that compute with these coordinates. For n rows, the
+length of the formulas grows as n^3."""
 
 TOLERANCE = 1e-10
 """The largest permitted entry of y0^T y0 - 1.
@@ -55,8 +55,8 @@ def StiefelScene(
     row; by default its columns are the first k unit vectors. ``span`` is the rational time interval.
 
     The generator of the motion is W X^T - X W^T with W = V - X (X^T V)/2. Emitted steps of the families rkmk,
-    cf and cg cost O(n k^2) operations besides V. The length of the code does not depend on n, unless a
-    matrix in V is given by a list of its entries.
+    cf and cg cost O(n k^2) operations besides V. The length of the code does not depend on n if no matrix in
+    V is given by a list of its entries.
     :class:`SceneError` is raised for a wrong size, an initial matrix without orthonormal columns, and a
     velocity that is not tangent.
     """

@@ -1,7 +1,7 @@
-"""Stiff variants of a scene: the same problem with a time scale far below its span, or near a singularity.
+"""Stiff variants of a scene: the same problem with a very short time scale, or near a singularity.
 
-A scene file may define ``stiff_variants()``, which returns a list of them. ``orderconds stability`` measures
-the order of methods on each variant.
+A scene file may define the function ``stiff_variants()``, which returns a list of variants. ``orderconds
+stability`` measures the order of methods on each variant.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ class TableData(sympy.Atom):  # type: ignore[misc]
     __slots__ = ("function",)
 
     def __new__(cls, polynomial: PiecewisePolynomial) -> TableData:
-        """Return the argument for a piecewise polynomial."""
+        """Return the sympy argument that contains a piecewise polynomial."""
         data: TableData = sympy.Atom.__new__(cls)
         data.function = polynomial
         return data
@@ -72,7 +72,7 @@ def table(
     """Return a formula with the value ys[k] at x = xs[k], for a scene.
 
     The numbers in ``xs`` must increase. ``smoothness`` is ``cubic``, the natural cubic spline (its second
-    derivative is continuous, and zero at both ends), or ``linear``. The coefficients are computed exactly
+    derivative is continuous, and zero at both ends), or ``linear``. Coefficients are computed exactly
     from the given numbers. A float denotes the decimal number that Python prints for it. ``outside`` is the
     rule before the first and after the last point: ``hold`` continues with the value at the nearest point,
     ``extrapolate`` with the polynomial of the nearest interval. :class:`SceneError` is raised if the numbers

@@ -93,9 +93,9 @@ def register(name: str, scene: Problem, about: str = "") -> Problem:
     """Register a scene under a name for all commands of this process, and return the scene with this name.
 
     ``about`` describes the scene in reports. If the name is already registered, the new scene replaces the
-    old scene. :class:`SceneError` is raised for an object that is no scene, for a name of the gallery, and
-    for a name that is no identifier. A scene in a Python file needs no registration: the path of the file is
-    its name.
+    old scene. :class:`SceneError` is raised for an object that is not a scene, for a name of the gallery, and
+    for a name that is not an identifier. A scene in a Python file needs no registration: commands accept the
+    path of the file as a name.
     """
     if not isinstance(scene, Problem):
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
@@ -169,7 +169,7 @@ def with_one_system(scene: Problem) -> Problem:
     """Return the scene; raise :class:`SceneError` if its number of sites or points is not fixed.
 
     The number is not fixed for chains, for lattices, and for semilinear equations whose linear operator is
-    given by its symbol.
+    given by its Fourier symbol.
 
     >>> with_one_system(load("dipole")).name
     'dipole'

@@ -2,8 +2,8 @@
 
 H. Marthinsen's thesis, section 3.6. The gravity term has a plus sign in the Hamiltonian that the thesis
 prints; in this scene the sign is minus. With minus and h = 0.01, the energy errors over (0, 1000) are 1.0e-3
-(vcg:midpoint) and 1.4e-7 (vrkmk(2):gauss2), as in Fig. 3.3, where about 1e-3 and 1e-7 are stated. With plus
-they are 1.0e-4 and 1.3e-9.
+(vcg:midpoint) and 1.4e-7 (vrkmk(2):gauss2). Fig. 3.3 of the thesis shows the same errors, about 1e-3 and
+1e-7. With plus the errors are 1.0e-4 and 1.3e-9.
 
 VRKMK(r) truncates the series of dexp^{-1} after the power r of ad. Let p be the order of its partitioned
 Runge-Kutta method. By Theorem 3.5.3, VRKMK(r) has order p if r >= p - 2. More precisely, its order is

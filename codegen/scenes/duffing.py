@@ -2,10 +2,10 @@
 
 H. Marthinsen's thesis, section 2.2: x' = y, y' = -a x - b x^3 with a = b = 1. Three scenes contain this
 equation with three groups. The group determines which part of the equation a Lie group method keeps constant
-in a step. In this scene this part is the whole field, so every family reduces to its classical method. In
-``duffing_sl2`` it is the stiffness of the spring, and in ``duffing_se2`` the cubic part of the force. The
-errors of Lie-Euler with 50 steps to t = 2 are 9.2e-2 for ``duffing``, 1.1e-2 for ``duffing_sl2`` and 1.6e-2
-for ``duffing_se2``.
+in a step. In this scene the whole field is kept constant, so every family reduces to its classical method. In
+``duffing_sl2`` the stiffness of the spring is kept constant, and in ``duffing_se2`` the cubic part of the
+force. The errors of Lie-Euler with 50 steps to t = 2 are 9.2e-2 for ``duffing``, 1.1e-2 for ``duffing_sl2``
+and 1.6e-2 for ``duffing_se2``.
 """
 
 from collections.abc import Sequence
@@ -23,9 +23,7 @@ field = Matrix([y, -x - x**3])
 
 
 def duffing(frame: str, group: LieGroup, action: Action, f: Sequence[Expr]) -> Problem:
-    """Return the scene of Duffing's equation for a group that acts on the plane; f(z) is in its Lie
-    algebra.
-    """
+    """Return the scene of Duffing's equation z' = f(z).z for a group that acts on the plane."""
     return FieldScene(
         title=f"Duffing's equation, {frame}",
         group=group,

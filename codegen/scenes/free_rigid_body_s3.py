@@ -21,14 +21,15 @@ axis = Matrix(q[1:])
 
 
 def turned(real: Expr, v: Matrix) -> Matrix:
-    """Return the vector v, rotated by the quaternion with the real part ``real`` and the imaginary part of
-    q.
+    """Return the vector v rotated by a unit quaternion.
+
+    The quaternion has the real part ``real`` and the same imaginary part as q.
     """
     c = 2 * axis.cross(v)
     return v + real * c + axis.cross(c)
 
 
-m = turned(-q[0], m0)  # the momentum in the body
+m = turned(-q[0], m0)  # the angular momentum in the body frame
 
 scene = FieldScene(
     title="Free rigid body with attitude, S^3",

@@ -1,8 +1,8 @@
-"""Neighbours of a scene file: modules in the same folder, which the scene may import.
+"""Neighbours of a scene file: modules in the same folder that the scene may import.
 
 A neighbour with the name of a module of the standard library or of an installed package is ignored. Any other
-neighbour is found before other modules of the same name. It is loaded for one scene only and removed
-afterwards, so that a scene in another folder can import its own neighbour with the same name.
+neighbour takes precedence over other modules of the same name. The neighbour is removed after the scene has
+been loaded. A scene in another folder can therefore import its own neighbour of the same name.
 """
 
 from __future__ import annotations

@@ -3,8 +3,8 @@
 The impulse of body and fluid in the frame of the body is mu = (m, p, r), with the angular impulse m and the
 linear impulse (p, r). H = m^2/(2 J) + p^2/(2 A) + r^2/(2 B) + D m p, where A and B contain the added masses
 of the fluid. mu' = ad*_{dH} mu (H. Lamb, Hydrodynamics, 6th edition, section 124; H. Marthinsen's thesis,
-section 2.2.2). Every step keeps the Casimir function p^2 + r^2 up to rounding. ``body_in_fluid`` is the body
-in space.
+section 2.2.2). Every step preserves the Casimir function p^2 + r^2 up to rounding. ``body_in_fluid`` is the
+same problem in three dimensions.
 """
 
 from sympy import Matrix, Rational, symbols
