@@ -6,8 +6,8 @@ tuples. In a tuple, each part may have its own shape, such as a 3 x 3 matrix q a
 flattened by rows. A batch is an array with a state in each row, or a tuple of such arrays.
 
 The parts of a tuple are in the order of the fields in the entry ``state`` of the manifest; on T*G this order
-is (q, mu). The size of each part must agree with the fields. If two parts of equal size are exchanged, this
-cannot be detected.
+is (q, mu). The size of each part must agree with the fields. An exchange of two parts of equal size is not
+detected.
 """
 
 from __future__ import annotations

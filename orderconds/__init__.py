@@ -1,7 +1,7 @@
 """Derive, prove and compile Lie group integrators.
 
-A method is a tableau plus a family. The family determines the series of the method, and a comparison of this
-series with the exact flow gives the order conditions. The package ``orderconds`` contains the symbolic
+A method is given by a tableau and a family. The family determines the series of the method. A comparison of
+this series with the exact flow gives the order conditions. The package ``orderconds`` contains the symbolic
 computations. The package ``codegen`` compiles a method and a scene into code; a scene is the description of
 one mechanical system. ``orderconds`` never imports ``codegen``.
 
@@ -10,19 +10,22 @@ Conventions
 All modules use these conventions.
 
 *Action and trivialisation.* A Lie group G acts from the left and is trivialised from the right: the equation
-is y' = f(y).y with f: M -> g. In exp(h b_s k_s) ... exp(h b_1 k_1).y0 **the first stage acts first**: it is
-the rightmost factor. For a right action, every bracket in a method has the opposite sign.
+is y' = f(y).y, where f maps the manifold M to the Lie algebra g. In exp(h b_s k_s) ... exp(h b_1 k_1).y0 with
+weights b_i and stage values k_i, **the first stage acts first**: the first stage is the rightmost factor. For
+a right action, every bracket in a method has the opposite sign.
 
 *Brackets.* [A, B] = AB - BA; ad_x y = [x, y]; Ad_g is T L_g T R_{g^-1}. Ad*_g is the dual map of Ad_g, not of
 its inverse, so Ad*_{gh} = Ad*_h Ad*_g; ad*_x is the dual map of ad_x. On SO(3), so(3) and its dual are
 identified with R^3; then Ad*_g mu = g^T mu and ad*_x mu = -x x mu (cross product).
 
-*The derivative of exp.* dexp_x = sum_k ad_x^k/(k+1)! and dexp^{-1}_x = sum_k B_k/k! ad_x^k with B_1 = -1/2;
-dexp^{-1}_{(r),x} is the sum of the terms k <= r. For r = 0 it is the identity; r = 3 gives the same map as r
-= 2, because B_3 = 0. On SO(3) dexp*_x = dexp_{-x}; in general dexp_x o dexp^{-1}_{-x} = Ad_{exp x}.
+*The derivative of exp.* dexp_x = sum_k ad_x^k/(k+1)! and dexp^{-1}_x = sum_k B_k/k! ad_x^k, where B_k are the
+Bernoulli numbers with B_1 = -1/2. The truncated series dexp^{-1}_{(r),x} is the sum of the terms k <= r. For
+r = 0 the truncated series is the identity. The values r = 2 and r = 3 give the same map, because B_3 = 0. On
+SO(3) dexp*_x = dexp_{-x}; in general dexp_x o dexp^{-1}_{-x} = Ad_{exp x}.
 
 *Phase space.* T*G is G x g* with (g, mu)(h, nu) = (gh, mu + Ad*_{g^-1} nu). A Hamiltonian H(q, mu) gives
-f(q, mu) = (xi, n) = (D_2 H, -(D_1 H).q^{-1}) and the flow q' = xi.q, mu' = n - ad*_xi mu.
+f(q, mu) = (xi, n) = (D_2 H, -(D_1 H).q^{-1}), where D_1 and D_2 are the derivatives with respect to q and mu.
+The flow is q' = xi.q, mu' = n - ad*_xi mu.
 
 *Symplectic partitioned tableaux.* bhat = b, ahat_ij = b_j - b_j a_ji/b_i, c_i = sum_j a_ij, chat_i = sum_j
 ahat_ij; these formulas require b_i != 0.

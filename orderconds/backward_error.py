@@ -66,9 +66,9 @@ class Term:
 class ModifiedEquation:
     """The modified field of a method up to h^(order - 1), and the modified Hamiltonian if there is one.
 
-    ``family`` is the label of the family in which the method was read. ``terms`` contains no term whose
-    coefficient is known to be zero. ``hamiltonian`` is None unless the series is a B-series and the field is
-    proved to be Hamiltonian.
+    ``family`` is the label of the family to which the method belongs. Terms whose coefficient is known to be
+    zero are omitted from ``terms``. ``hamiltonian`` is given if the series is a B-series and the field is
+    proved to be Hamiltonian; otherwise ``hamiltonian`` is None.
     """
 
     family: str
@@ -103,12 +103,13 @@ def modified_equation(
     """Return the modified equation of ``tableau``, with the terms up to h^(order - 1).
 
     ``family`` is a family of B-series (``rk``) or of Lie-Butcher series (``cg``, ``cf``, ``rkmk(1)``). The
-    default is the first of :func:`default_families` that can read the tableau. With ``modifying`` the result
-    is the modifying equation: the method, applied to the modifying equation, follows the exact flow of f. A
-    modifying equation exists only for families of B-series.
+    default is the first of :func:`default_families` that accepts the tableau. If ``modifying`` is true, the
+    result is the modifying equation: if the method is applied to the modifying equation, the result is the
+    exact flow of f. A modifying equation exists only for families of B-series.
 
-    Raises :class:`~orderconds.errors.InputError` for a family without such a series, for a tableau that is
-    not a method of the family, for an order below 1, and for a modifying equation of a Lie-Butcher series.
+    Raises :class:`~orderconds.errors.InputError` for a family without such a series, and for a tableau that
+    is not a method of the family. The error is also raised for an order below 1, and for a modifying equation
+    of a Lie-Butcher series.
 
     >>> from orderconds.checking import read
     >>> for term in modified_equation(read("euler"), 3).terms:
@@ -138,7 +139,7 @@ def modified_equation(
 def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
     """Return the label of the family and the series of a step in this family.
 
-    If ``family`` is None, the family is the first of :func:`default_families` that can read the tableau.
+    If ``family`` is None, the family is the first of :func:`default_families` that accepts the tableau.
     """
     for name in default_families() if family is None else (family,):
         candidate = families.get(name)

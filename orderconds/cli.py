@@ -179,8 +179,10 @@ class Program(click.Group):
 
 
 def _offered() -> Iterable[EntryPoint]:
-    """Return the entry points of the commands of other packages. The import of ``importlib.metadata`` is
-    slow, so this function imports it when it is called."""
+    """Return the entry points of the commands of other packages.
+
+    The module ``importlib.metadata`` is imported inside this function, because the import is slow.
+    """
     from importlib import metadata
 
     return metadata.entry_points(group=COMMAND_GROUP)

@@ -108,9 +108,9 @@ def derive(
     in ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises
-    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 20, for an order
-    above the highest order for which the family has conditions, and for an order with too many trees. The
-    same error is raised if ``stages`` is not an integer from 1 to 12.
+    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 20, and for an order
+    with too many trees. The same error is raised if the family has no conditions of this order, and if
+    ``stages`` is not an integer from 1 to 12.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts

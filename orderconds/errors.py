@@ -29,8 +29,11 @@ class InputError(Exception):
 
 
 class TableauError(InputError):
-    """A tableau file that is not valid, for example because of an unknown key, a matrix of wrong shape, an
-    invalid coefficient, or a name that is defined twice."""
+    """A tableau file that is not valid.
+
+    Examples are an unknown key, a matrix of wrong shape, an invalid coefficient, or a name that is defined
+    twice.
+    """
 
 
 class UnknownName(InputError):

@@ -4,8 +4,9 @@ Each site has a spin S of length one, which turns about the effective field H: S
 the sum of J S over the four neighbours, an anisotropy, and an external field. This is the equation of
 L. D. Landau and E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) without damping. The lattice is
 periodic, and the energy is constant. The energy is split as in J. Frank, W. Huang and B. Leimkuhler
-(J. Comput. Phys. 133 (1997) 160-172). The parts have exact flows: two spins turn about their sum, and the
-anisotropy and the external field turn a spin about the third axis.
+(J. Comput. Phys. 133 (1997) 160-172). Each part has an exact flow. In the flow of the exchange between two
+neighbours, both spins turn about their sum. The anisotropy and the external field turn a spin about the third
+axis.
 """
 
 from sympy import Matrix, Rational, symbols, zeros

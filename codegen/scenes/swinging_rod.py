@@ -3,8 +3,8 @@
 The rod is that of ``free_rod``: a chain of N cross sections. The clamp is a further section before the first
 one, and does not move. The distance of section i from the clamp is i ds. Each section carries the mass of the
 piece around it, so the last section is at the distance ds/2 from the free end. The rod therefore has the
-length (N + 1/2) ds. J. C. Simo and
-L. Vu-Quoc (Comput. Methods Appl. Mech. Engrg. 66 (1988) 125-161) compute the motion of such rods.
+length (N + 1/2) ds. J. C. Simo and L. Vu-Quoc (Comput. Methods Appl. Mech. Engrg. 66 (1988) 125-161) compute
+the motion of such rods.
 """
 
 from sympy import eye

@@ -28,7 +28,9 @@ links = [x for k in axes for x in symbols(f"v{k}_0:6(0:3)", real=True)]
 
 
 def link(axis: int, *steps: tuple[int, int]) -> Matrix:
-    """Return the link along ``axis`` from the site to which ``steps`` lead; a step is an axis and a sign.
+    """Return the link along ``axis`` from the site that is reached by ``steps``.
+
+    A step is a pair: an axis, and a sign for the direction.
 
     The link is a real 6 x 6 matrix. The transposed matrix is the inverse link.
     """

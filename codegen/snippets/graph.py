@@ -1,6 +1,6 @@
 """The dependency graph of snippets.
 
-A node is a helper or a function of the target's mathematical library, an edge is a call. The folder
+A node is a helper, or a function of the target's mathematical library. An edge is a call. The folder
 ``snippets/TARGET`` has a template for each helper. The template ``number.j2`` in this folder writes the
 numbers in helpers.
 """
@@ -170,14 +170,16 @@ def needed(
 ) -> Needed:
     """Return the helpers and library functions that a module of a target needs, and no others.
 
-    ``functions`` are the functions that the module calls. ``sweeps`` is true if the module calls them in
-    sweeps over equations. C compilers may then inline all branches of Stumpff functions, because a function
-    call in a sweep would force the compiler to move many values from registers to memory. ``wide`` is the
-    common number of rows of all inverted matrices, and 0 if their sizes differ or are large; in C, loops over
-    rows of this length are unrolled. ``widest`` is the number of rows of the largest inverted matrix; C code
-    reserves memory for one row of this length. ``chain`` is the number of angles that depend on one another
-    (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of helpers in C, so that two modules
-    can share one translation unit. ``batch`` is true if the module can integrate many systems at once.
+    ``functions`` are the functions that the module calls. ``sweeps`` is true if the module calls these
+    functions in sweeps over equations. C compilers may then inline all branches of Stumpff functions, because
+    a call in a sweep would move many values from registers to memory.
+
+    ``wide`` is the common number of rows of all inverted matrices, and 0 if their sizes differ or are large.
+    In C, loops over rows of this length are unrolled. ``widest`` is the number of rows of the largest
+    inverted matrix. C code reserves memory for one row of this length. ``chain`` is the number of angles that
+    depend on one another (:func:`codegen.snippets.stumpff.limit`). In C, the names of all helpers begin with
+    ``prefix``, so two modules can share one translation unit. ``batch`` is true if the module can integrate
+    many systems at once.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())

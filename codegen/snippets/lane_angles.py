@@ -1,9 +1,10 @@
 """Sine and cosine without branches, for loops over many systems: constants of the reduction, and polynomials.
 
 An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. The constant ``round`` is so
-large that the floating-point addition 2x/pi + round rounds to an integer. The number pi/2 is a sum of parts:
-the products of k with all parts but the last are exact, because each part has few bits. sin r = r c_1(r^2)
-and cos r = c_0(r^2) are the polynomials of :func:`codegen.snippets.stumpff.economised`.
+large that the floating-point addition 2x/pi + round rounds to an integer. The number pi/2 is stored as a sum
+of parts with few bits. The products of k with all parts except the last are therefore exact. The functions
+sin r = r c_1(r^2) and cos r = c_0(r^2) are evaluated by the polynomials that
+:func:`codegen.snippets.stumpff.economised` returns for c_0 and c_1.
 """
 
 from __future__ import annotations

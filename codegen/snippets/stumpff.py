@@ -42,13 +42,12 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     the rotated vector would be correct.
 
     Let ``a`` denote the angle. A relative rounding error of 2^-bits in the angle gives an error of a*2^-bits
-    in the rotated vector, and an error about eight times as large in the field at this vector. Along a
+    in the rotated vector. The error of the field at this vector is about eight times as large. Along a
     ``chain`` of angles (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain * 8^(chain-1) *
     2^-bits; the bound on this error is 2^-LEFT. The stages of a long chain rotate by fractions of the step's
     angle and lose no more digits than the stages of a short chain. Hence an angle of 2^(bits/6) is always
-    allowed. No angle may exceed 2^(2 bits/5), because the sums that give the rotated momentum, and therefore
-    their rounding errors, grow with the square of the angle. A step with a larger angle reports a state that
-    is not finite.
+    allowed. No angle may exceed 2^(2 bits/5). The reason is that the rounding errors of the rotated momentum
+    grow with the square of the angle. A step with a larger angle reports a state that is not finite.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -82,8 +81,8 @@ def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     """Return a short polynomial for c_k on 0 <= z <= ``last``, with an error of at most 1/16 of the last bit.
 
     Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial to lower its degree. Among
-    the polynomials with a given leading term, Chebyshev polynomials have the smallest maximum. They are
-    stretched so that they vanish at zero; the value at zero therefore stays exact.
+    the polynomials with a given leading term, Chebyshev polynomials have the smallest maximum. The Chebyshev
+    polynomials are stretched so that they vanish at z = 0. The value of c_k at z = 0 therefore stays exact.
 
     The bound is small because errors accumulate. In a steady motion z is nearly constant, so the error has
     the same sign in every step. With an error of half a bit, the norm of a quaternion would drift by 4e-12 in

@@ -1,11 +1,12 @@
 """The claimable families of a tableau: the families in which the file of the tableau should claim an order.
 
-A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
-and ``vrkmk``. For ``rkmk`` and ``vrkmk``, a claim with any value of the cut-off suffices. A commutator-free
-method claims ``rk``, ``cf`` and, with non-zero weights, ``vcf``. A partitioned method (a pair of tableaux)
-claims ``prk``; a symplectic pair claims ``sprk_separable`` and not ``prk``. A family is omitted if the order
-in the family follows from the order in another family. For example, ``prk`` is omitted for an ``rk`` tableau.
-The method :meth:`orderconds.families.Family.claimable` decides for each family.
+A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. If all weights are non-zero, the tableau also claims
+``sprk``, ``vcg`` and ``vrkmk``. For ``rkmk`` and ``vrkmk``, a claim for one truncation order suffices, such
+as ``rkmk(1)``. A commutator-free method claims ``rk`` and ``cf``. If all weights are non-zero, a
+commutator-free method also claims ``vcf``. A partitioned method (a pair of tableaux) claims ``prk``; a
+symplectic pair claims ``sprk_separable`` and not ``prk``. A family is omitted if the order in the family
+follows from the order in another family. For example, ``prk`` is omitted for an ``rk`` tableau. The method
+:meth:`orderconds.families.Family.claimable` decides for each family.
 """
 
 from __future__ import annotations

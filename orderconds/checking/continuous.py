@@ -1,7 +1,8 @@
 """The order of a continuous extension, which has the weights b_i(theta) at the fraction theta of a step.
 
-The left-hand side of the order condition of a tree t is a polynomial in theta. Each of its coefficients is
-compared with the coefficient of theta^|t|/gamma(t), where gamma(t) is the density of t.
+The left-hand side of the order condition of a tree t is a polynomial in theta. The right-hand side is
+theta^|t|/gamma(t), where |t| is the number of vertices and gamma(t) the density of t. The check compares the
+coefficients of both sides.
 """
 
 from __future__ import annotations
@@ -71,8 +72,10 @@ def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
 
 
 def _is_smooth(method: RungeKutta, extension: Extension, ring: Ring) -> bool | None:
-    """Return True if the derivative of the extension is the field at the old state at the beginning of a
-    step, and the field at the new state at its end. Return None if the ring cannot decide."""
+    """Return True if the derivative of the extension equals the field at both ends of a step.
+
+    Return None if the ring cannot decide.
+    """
     s = len(method.b)
     first, last = (tuple(ring.one if i == k else ring.zero for i in range(s)) for k in (0, s - 1))
     ends = extension.combined(tuple(ring.rational(p) for p in range(1, extension.degree + 1)))

@@ -1,8 +1,9 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
 Each coefficient is compared with fractions of small denominator, then with numbers p + q sqrt(d), where d is
-the same for all coefficients. The exact numbers are accepted only if the tableau with these numbers has at
-least the order that the given digits support, and if this order has the certificate ``exact``.
+the same for all coefficients. The exact numbers are accepted under two conditions. The tableau with the exact
+numbers must have at least the order that the given digits support, and this order must have the certificate
+``exact``.
 """
 
 from __future__ import annotations
@@ -97,7 +98,10 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 
 
 def _fraction(x: Constant) -> Fraction | None:
-    """Return the simplest fraction within the uncertainty of a number, or None if it may be a coincidence."""
+    """Return the simplest fraction within the uncertainty of a number.
+
+    Return None if the agreement of the fraction with the number may be a coincidence.
+    """
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
 

@@ -38,7 +38,7 @@ Tree = tuple[Key, Callable[[], OrderCondition]]
 class FamilyOrder:
     """The order of one tableau in one family, and the claimed or required order.
 
-    ``decided`` is False if the coefficients have too few digits for the next order. ``failing`` are the
+    ``decided`` is False if the coefficients have too few digits to decide the next order. ``failing`` are the
     conditions of order ``order + 1`` that fail, and ``error_norm`` is the 2-norm of their residuals.
     If a search limit or a limit on work ended the search, ``limit`` is the last order whose conditions all
     hold; otherwise it is None. ``stopped`` is the number of evaluated conditions if a limit on work ended the
@@ -123,12 +123,13 @@ def family_order(
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
     ``bound`` is the result for another family, whose conditions are a subset of the conditions of ``family``.
-    Hence ``bound.order`` is an upper bound of the order in ``family``. ``family.search_limit`` is the highest
-    order that is evaluated for a file without a claim in ``family``. The search stops at the order
-    ``bound.order`` if this order is at least ``family.search_limit``, or if ``brief`` is true. The result
-    then contains the failing conditions of ``bound``. Conditions that follow from other conditions, or from
-    the orders ``proved`` in other families, are not evaluated (:mod:`orderconds.families.reductions`). The
-    search also ends when ``meter`` reports that a limit is reached.
+    Hence ``bound.order`` is an upper bound of the order in ``family``. At the order ``bound.order`` the
+    search stops if this order is at least ``family.search_limit``, or if ``brief`` is true. The result then
+    contains the failing conditions of ``bound``. Without a claimed or required order, the search also stops
+    at ``family.search_limit``. The search ends early when ``meter`` reports that a limit is reached.
+
+    Conditions that follow from other conditions, or from the orders ``proved`` in other families, are not
+    evaluated (:mod:`orderconds.families.reductions`).
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -207,8 +208,8 @@ class _Search:
         """Return three values: the verdicts on the conditions of order n, the conditions that fail, and
         whether all conditions were evaluated.
 
-        ``unlikely`` is true if most conditions probably fail. ``decimal`` is true if the certificate of the
-        lower orders is ``decimal``.
+        ``unlikely`` is true if most conditions of this order probably fail; balls are then evaluated before
+        exact residuals. ``decimal`` is true if the certificate of the lower orders is ``decimal``.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()

@@ -18,9 +18,10 @@ from orderconds.tableau import Tableau, dumps
 class Refinement:
     """The result of :func:`refine`: the refined ``tableau``, and how its coefficients were obtained.
 
-    If the file has a table ``[proof]``, ``decimals`` maps the names of the coefficients to their new
-    decimals, ``pinned`` contains the names of the decimals that were kept fixed, and ``proof`` is the proof.
-    Otherwise ``exact`` maps the names of doubles and rounded decimals to the recognised exact numbers.
+    If the file has a table ``[proof]``, ``proof`` is the proof, and ``decimals`` maps the names of the
+    coefficients to their new decimals. ``pinned`` contains the names of the decimals that were kept fixed.
+    For a file without this table, ``exact`` maps the names of doubles and rounded decimals to the recognised
+    exact numbers.
     """
 
     tableau: Tableau
@@ -43,7 +44,7 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
 
     If the file has a table ``[proof]``, which states equations for the decimals, the decimals are computed
     and proved to ``digits`` places (10 to 1000). Otherwise doubles and rounded decimals are replaced by
-    fractions or numbers p + q sqrt(d); the exact method has at least the order of the given method.
+    fractions or numbers p + q sqrt(d). The exact method has at least the order of the given method.
     ``tableau`` may also be a file or a name of the library.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if

@@ -20,8 +20,9 @@ UNCLAIMED = "unclaimed"
 
 
 class EmbeddedOrder(Struct, frozen=True):
-    """The orders of the embedded method. It consists of second weights, or of a second update, and serves to
-    estimate the error.
+    """The orders of the embedded method, which estimates the error.
+
+    An embedded method consists of second weights, or of a second update by exponentials.
 
     The family ``own`` is ``rk`` if the embedded method consists of weights, and ``cf`` if it is an update by
     exponentials. ``claimed`` is the claimed order in this family, and ``failing`` are its failing conditions
@@ -72,9 +73,9 @@ class RegisterForm(Struct, frozen=True):
     none.
 
     ``A`` and ``B`` are the coefficients of K <- A_i K + F(Y), Y <- exp(h B_i K) Y as text. ``space`` is
-    ``group`` if the scheme is equal to the method on every Lie group. It is ``vector space`` for a tableau
-    (A, b): the scheme is then equal to the method on vector spaces. ``holds`` states whether there is such a
-    scheme; it is None if rounded decimals do not decide this.
+    ``group`` if the scheme is equal to the method on every Lie group. For a tableau (A, b), ``space`` is
+    ``vector space``, because the scheme is then equal to the method on vector spaces. ``holds`` states
+    whether there is such a scheme; None means that rounded decimals do not decide the question.
     """
 
     holds: bool | None

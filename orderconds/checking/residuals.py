@@ -34,7 +34,7 @@ RESOLUTION = Decimal("1e-3")
 number 1/n! is the least of the integrals of order n in the series of the exact flow."""
 
 BITS = 256
-"""The precision of the balls in bits. It usually gives twenty correct digits of a non-zero residual."""
+"""The precision of the balls in bits. A non-zero residual then usually has 20 correct digits."""
 
 ENCLOSING = Balls(BITS)
 DIGITS = 20

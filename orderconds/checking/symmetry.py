@@ -2,9 +2,9 @@
 
 Let Phi_h be a step. The composition of Phi_h and Phi_{-h} is the identity for symmetric methods. A method
 that is not symmetric has a largest number q such that this composition differs from the identity by O(h^(q +
-1)). The number q is odd, because the leading term of the logarithm of the composition is an even power of h;
-a method of order p has q >= p. If q is larger than the least odd number >= p, the method is called
-effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
+1)). The logarithm of the composition begins with an even power of h, so q is odd. A method of order p has
+q >= p. If q is larger than the least odd number >= p, the method is called effectively symmetric (Shmelev,
+Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
 """
 
 from __future__ import annotations

@@ -42,12 +42,13 @@ def check(
 ) -> Report:
     """Find the exact order of ``tableau`` (or of a file, or of a library name) in each family that it claims.
 
-    With ``family`` (``"vcg"``, ``"rkmk(1)"``) only that family is checked, whether or not the file claims it.
-    With ``order`` the order must be at least this number, and claims are ignored. With ``complete`` the check
-    fails unless the file claims an order in each claimable family. With ``certified`` the check fails if an
-    order is supported by digits but not proved. A tableau without claims is checked in the family of its
-    format, and its verdict is ``unclaimed``. ``limits`` bound the work; if a limit is reached, the order in
-    the report is a lower bound. ``tolerance`` is explained in :mod:`orderconds.tableau.doubles`.
+    If ``family`` is given (``"vcg"``, ``"rkmk(1)"``), only this family is checked, even if the file claims no
+    order in it. If ``order`` is given, the order must be at least this number, and claims are ignored. If
+    ``complete`` is true, the check fails if the file claims no order in one of the claimable families. If
+    ``certified`` is true, the check fails if an order is supported by digits but not proved. A tableau
+    without claims is checked in the family of the tableau's format, and the verdict is ``unclaimed``.
+    ``limits`` bound the work. If a limit is reached, the order in the report is a lower bound. ``tolerance``
+    is explained in :mod:`orderconds.tableau.doubles`.
 
     Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
     formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
@@ -302,8 +303,8 @@ def _settled(
     """Return the order in ``family`` if it follows from the orders in other families and is at least the
     search limit of ``family``; otherwise return None.
 
-    The failing conditions in the result belong to the family that bounds the order from above. If the result
-    requires orders with the certificate ``decimal``, it has this certificate, unless ``facts`` imply the
+    The failing conditions in the result belong to the family that bounds the order from above. The result has
+    the certificate ``decimal`` if it requires orders with this certificate and ``facts`` do not imply the
     order.
     """
     proved = [f for f in computed if f.certificate != "decimal"]

@@ -1,9 +1,10 @@
 """Options with several values, such as ``--method A B C``, for commands whose arguments precede the options.
 
-An option of click has a fixed number of values. In commands of the class :class:`Variadic`, the values of a
-repeatable option are all words up to the next option, if an argument of the command precedes the option. For
-example, ``bench dipole --method cf4 rkmk:rk4`` names two methods. In ``bench --method cf4 dipole`` no
-argument precedes the option, so the option has one value, and the last word is the scene.
+An option of click has a fixed number of values. In commands of the class :class:`Variadic`, a repeatable
+option may have several values if an argument of the command precedes the option. All words up to the next
+option are then values. For example, ``bench dipole --method cf4 rkmk:rk4`` names two methods. In ``bench
+--method cf4 dipole`` no argument precedes the option, so the option has one value, and the last word is the
+scene.
 """
 
 from __future__ import annotations

@@ -4,9 +4,9 @@ Every format is translated to and from the keys of a tableau file
 (:func:`orderconds.tableau.record.from_data`). An imported tableau therefore obeys the grammar of tableau
 files, and its text is never executed as code. Importing an exported method gives exactly the same method;
 rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other formats omit the
-proof (:func:`left_out`). A decimal from another program counts as a double if it has the digits of a double,
-as rounded (``~``) if it has at least 12 significant digits, and otherwise as exact. The floats of a NumPy
-archive are doubles.
+proof (:func:`left_out`). A decimal from another program counts as a double if it has the digits of a double.
+Any other decimal counts as rounded (``~``) if it has at least 12 significant digits, and otherwise as exact.
+The floats of a NumPy archive are doubles.
 """
 
 from __future__ import annotations

@@ -1,11 +1,12 @@
 """A tableau as named arrays of coefficients in text form: the content of tables, matrices and C arrays.
 
-The proof of rounded decimals is left out, because it refers to names in the file. The arrays of a family are:
-for ``rk`` A, b and embedded_b with embedded_order; for ``prk`` A, b, A_hat, b_hat; for ``composition`` gamma,
-or alpha and beta. For ``cf`` they are ``exponentials``, ``count`` and ``start``. The rows of ``exponentials``
-are the exponentials of all stages and of the update. ``count`` contains the number of exponentials of each
-stage and, as its last entry, of the update. ``start`` contains the index of the stage from which each product
-starts, or 0 if the product starts from y0. With embedded_order the last product is the embedded update.
+The proof of rounded decimals is left out, because the proof refers to names in the file. The arrays of a
+family are: for ``rk`` A, b and embedded_b with embedded_order; for ``prk`` A, b, A_hat, b_hat; for
+``composition`` gamma, or alpha and beta. The arrays for ``cf`` are ``exponentials``, ``count`` and ``start``.
+The rows of ``exponentials`` are the exponentials of all stages and of the update. ``count`` contains the
+number of exponentials of each stage and, as its last entry, of the update. ``start`` contains the index of
+the stage from which each product starts, or 0 if the product starts from y0. If there is an
+``embedded_order``, the last product is the embedded update.
 """
 
 from __future__ import annotations
@@ -96,8 +97,8 @@ def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
 
 
 def _exact(entry: str | int) -> str:
-    """Return the text of an entry. An exact decimal with many digits becomes a fraction, because readers take
-    such a decimal for a rounded number.
+    """Return the text of an entry. An exact decimal with many digits becomes a fraction, because
+    :func:`coefficient` would read such a decimal as a rounded number.
 
     >>> _exact("0.123456789012"), _exact("0.5"), _exact("0.123456789012~")
     ('30864197253/250000000000', '0.5', '0.123456789012~')
