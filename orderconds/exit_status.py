@@ -1,5 +1,5 @@
-"""The end of a run: the exit status of the program, one message on stderr, and with ``--json`` one document
-on stdout.
+"""The exit status of the program, and its messages about errors. A message is one line on stderr. With
+``--json``, one document is also written to stdout.
 
 =====  ===============================================================================
 0      success
@@ -31,7 +31,7 @@ INTERNAL = 70
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 SIGNALS = ("SIGTERM", "SIGHUP")
-"""The signals that the program handles like Ctrl-C. Before it exits, the program removes temporary files and
+"""The signals that the program handles like Ctrl-C. Before the exit, the program removes temporary files and
 ends its worker processes."""
 
 MAX_TEXT = 300

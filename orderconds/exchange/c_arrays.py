@@ -1,7 +1,7 @@
 """C arrays of correctly rounded doubles. A comment beside a rounded number contains its exact value.
 
-The reader accepts initialisers ``... NAME_A[..][..] = {{...}};``. If a number has such a comment, the reader
-uses the exact value in the comment.
+The reader accepts initialisers ``... NAME_A[..][..] = {{...}};``. If the exact value of a number is in a
+comment, the reader uses the exact value.
 """
 
 from __future__ import annotations

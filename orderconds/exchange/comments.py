@@ -2,7 +2,7 @@
 would end a comment in some languages.
 
 Backslashes are escaped as in Python, and so are characters that could end a line or change the direction of
-writing. In ``*/`` and ``/*`` a backslash separates the two characters, because they delimit comments in C.
+writing. ``*/`` and ``/*`` delimit comments in C, so a backslash is inserted between the two characters.
 """
 
 from __future__ import annotations

@@ -82,8 +82,11 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _is_plain(table: Table) -> bool:
-    """Return True if a table is a plain Butcher tableau: no row begins with the name of a matrix, and some
-    row does not begin with a name."""
+    """Return True if a table is a plain Butcher tableau.
+
+    In a plain Butcher tableau no row begins with the name of a matrix, and at least one row does not begin
+    with a name.
+    """
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)
 

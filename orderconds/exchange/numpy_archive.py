@@ -1,6 +1,6 @@
 """NumPy: an ``.npz`` archive with float64 arrays (``A``) and with their exact entries as text (``A_exact``).
 
-If an archive contains an array without such texts, the entries of the array are read as doubles
+If an archive contains an array without the exact texts, the entries of the array are read as doubles
 (:mod:`orderconds.tableau.doubles`). Arrays of Python objects are refused and never unpickled. An entry
 ``order=4`` or ``claims="rk=4"`` of the archive states claims.
 """
@@ -102,7 +102,7 @@ def nearest(text: str, roots: str = "{}") -> float:
     """
     fraction = re.fullmatch(r"(-?[0-9]{1,300})(?:/([1-9][0-9]{0,299}))?", text)
     try:
-        if fraction:  # fast, and Python rounds the quotient correctly
+        if fraction:  # this is fast, and Python rounds the quotient correctly
             return int(fraction[1]) / int(fraction[2] or 1)
         data = {"name": "x", "family": "rk", "A": [[]], "b": [text], "numbers": json_table(roots, "numbers")}
         tableau = from_data(data)
@@ -118,8 +118,8 @@ def nearest(text: str, roots: str = "{}") -> float:
 def read(content: bytes, where: str) -> Data:
     """Read a tableau from an archive, and return it as the keys and values of a tableau file.
 
-    If an array ``A`` has exact texts ``A_exact``, raise an error unless each float in ``A`` is the double
-    nearest to the exact value.
+    If an array ``A`` has exact texts ``A_exact``, each float in ``A`` must be the double nearest to the exact
+    value. Otherwise an error is raised.
 
     >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
     [['1/3']]

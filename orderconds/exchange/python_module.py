@@ -22,7 +22,7 @@ def execute(path: str | Path) -> Data:
     the module prints goes to stderr.
 
     Raises :class:`~orderconds.errors.TableauError` if the module raises an error, ends the program, or
-    assigns values that are no coefficients.
+    assigns values that are not coefficients.
 
     >>> execute("/no/such/file.py")  # doctest: +ELLIPSIS
     Traceback (most recent call last):
@@ -65,7 +65,7 @@ def _arrays(assigned: Mapping[str, object], where: str) -> Arrays:
 
 def _cells(value: object, where: str) -> Cells:
     """Return a number as the text of a coefficient, and a nested list or an array as nested lists of texts.
-    Raise TableauError for a value that is no real number."""
+    Raise TableauError for a value that is not a real number."""
     listed = getattr(value, "tolist", None)
     value = listed() if listed is not None else value
     if isinstance(value, list | tuple):

@@ -1,11 +1,11 @@
 """Python modules that assign arrays: ``A = np.array([[0, 0], [1/2, 0]])``, ``b = [0, 1]``, ``order = 2``.
 
-A module is parsed, not executed. Its assignments at the top level are read in order. They may contain lists,
-tuples, numbers, arithmetic, square roots, names with values from earlier assignments, ``np.zeros``, entries
-(``A[1, 0] = 1``), and the constructors of arrays and exact numbers of NumPy, SymPy and ``fractions``.
-Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. If a statement that is not understood may
-change an array, the file is refused; :mod:`orderconds.exchange.python_module` executes a module if the user
-asks for it.
+A module is parsed, not executed. The assignments at the top level of the module are read in order. The
+assignments may contain lists, tuples, numbers, arithmetic, square roots and names with values from earlier
+assignments. Constructors of arrays and exact numbers of NumPy, SymPy and ``fractions`` are evaluated as well,
+and so are ``np.zeros`` and assignments to entries (``A[1, 0] = 1``). Arithmetic is exact: ``1/3`` is the
+fraction 1/3 and not a double. The file is refused if a statement that the reader cannot evaluate may change
+an array. If the user asks for it, :mod:`orderconds.exchange.python_module` executes the module instead.
 """
 
 from __future__ import annotations
@@ -79,8 +79,9 @@ def reason_to_skip(content: bytes) -> str:
 
 
 def is_plainly_other(content: bytes) -> bool:
-    """Return True if a Python module is valid and no value that it assigns to A, a or b contains a list or
-    tuple.
+    """Return True if a Python module is valid and certainly contains no tableau.
+
+    No value that the module assigns to A, a or b may contain a list or tuple.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
     [True, False, True]
@@ -141,8 +142,8 @@ def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
 
 
 def _follow(statement: ast.stmt, values: Values) -> None:
-    """Update the known values of all names by one statement at the top level of the module. If the statement
-    is not understood, the values of all names in it become unknown."""
+    """Update the known values of all names by one statement at the top level of the module. If the reader
+    cannot evaluate the statement, the values of all names in the statement become unknown."""
     if isinstance(statement, ast.Import) or (isinstance(statement, ast.Expr) and _is_harmless(statement)):
         return
     if isinstance(statement, ast.ImportFrom):
@@ -236,7 +237,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
                 raise TableauError(f"two arrays {name}", where=where, expected="one")
             cells = texts(value, f"{where}: {name}")
             entries[name] = _row(cells) if name in ROWS else cells
-        elif isinstance(value, Computed) and name != "c":  # c may be unknown: it follows from A
+        elif isinstance(value, Computed) and name != "c":  # c may be unknown, because A determines c
             raise TableauError(
                 f"not a literal value: {value.reason}",
                 where=f"{where}: {name}: line {value.line}",

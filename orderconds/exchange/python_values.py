@@ -259,7 +259,7 @@ def _is_integral(value: Value) -> bool:
 
 
 def _copy(value: Value, integral: bool) -> Value:
-    """Return a copy of an array, in which the rows are copied as well. Return any other value unchanged."""
+    """Return a copy of an array and of its rows. Return a value of any other type unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 

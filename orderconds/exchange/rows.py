@@ -25,16 +25,16 @@ class Rows:
 
     @property
     def plainly_other(self) -> bool:
-        """True if the table has a header whose first name is not c, so it is not the header of a tableau."""
+        """True if the table has a header that is not the header of a tableau: its first name is not c."""
         return bool(self.header) and self.header[0] != "c"
 
 
 def read(text: str, names: tuple[str, ...]) -> Rows:
     """Return the rows of a table.
 
-    The delimiter is the one that occurs in the most lines. If all cells of the first row are words, this row
-    is a header, unless its first cell is one of ``names``. A first row that begins with ``c`` follows another
-    rule: it is a header iff all its other cells are names of columns of A, such as ``a1``. Raises
+    The delimiter is the character (comma, semicolon or tab) that occurs in the most lines. The first row is a
+    header if all its cells are words and its first cell is not one of ``names``. A first row that begins with
+    ``c`` is a header if all its other cells are names of columns of A, such as ``a1``. Raises
     :class:`csv.Error` for misplaced or unmatched quotation marks.
 
     >>> read("# Heun\\nc;a1;a2\\n0;0;0\\n1;1;0\\n;1/2;1/2\\n", ("c",)).rows

@@ -57,8 +57,8 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield each named number with its definition, which is a text or a root. If the definition of a number
-    contains other named numbers, these are yielded first.
+    """Yield each named number with its definition, which is a text or a root. A number is yielded after all
+    named numbers that occur in its definition.
 
     A root is given by the descending coefficients of its polynomial and by its index among the real roots, as
     in ``CRootOf``.

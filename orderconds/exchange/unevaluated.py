@@ -3,8 +3,8 @@
 A tableau file may name a formula and use the name in coefficients. Tables and arrays in other formats cannot
 contain such names, so the formula replaces the name. Only the names of roots of polynomials remain.
 
-The expressions are not evaluated: a rounded decimal must keep its digits, and a computed ball would not
-contain these digits. The coefficients of the method are the expressions in the file. For low-storage schemes
+The expressions are not evaluated. Evaluation would replace a rounded decimal by a ball, and the digits in the
+file would be lost. The coefficients of the method are the expressions in the file. For low-storage schemes
 the coefficients are sums and products of these expressions. Only operations with 0 and 1 are simplified.
 """
 
@@ -104,7 +104,7 @@ class UnevaluatedNumbers:
 
     def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
         """Return a constant of the file as an expression. If ``unit`` is zero, the constant is exact.
-        Otherwise it is the ball of radius ``unit`` around ``value``."""
+        Otherwise the constant is the ball of radius ``unit`` around ``value``."""
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
@@ -119,8 +119,7 @@ class UnevaluatedNumbers:
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0: no number is refused here because of its size. Numbers that are too large were already
-        refused when the file was read."""
+        """Return 0, because numbers that are too large were already refused when the file was read."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:
@@ -149,8 +148,8 @@ class UnevaluatedNumbers:
 
 
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
-    """Return a copy of the tableau whose coefficients are the expressions in ``file``. They are not
-    evaluated, and each name of a formula is replaced by the formula.
+    """Return a copy of the tableau whose coefficients are the expressions in ``file``. The expressions are
+    not evaluated, and each name of a formula is replaced by the formula.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'

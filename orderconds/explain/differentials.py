@@ -27,8 +27,8 @@ def differential(tree: levels.Tree) -> str:
 def hamiltonian(tree: levels.Tree) -> str:
     r"""Return the elementary Hamiltonian of a free tree (HLW IX.9.2).
 
-    The free tree is given as a rooted tree. Each vertex may be the root: another choice can change only the
-    sign of the elementary Hamiltonian. ``f`` denotes the Hamiltonian vector field.
+    The free tree is given as a rooted tree. Any vertex may be the root. The choice of the root affects only
+    the sign of the elementary Hamiltonian. ``f`` denotes the Hamiltonian vector field.
 
     >>> hamiltonian(b"\0\1\1")
     "H''(f, f)"

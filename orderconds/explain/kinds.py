@@ -1,4 +1,4 @@
-"""The kinds of trees. A kind enumerates and counts its trees. It also returns the text, the drawing and the
+"""The kinds of trees. A kind enumerates and counts its trees. A kind also gives the text, the drawing and the
 elementary differential of each tree.
 
 The modules that a kind needs are imported when they are first used.
@@ -32,11 +32,12 @@ number of trees grows exponentially with the order."""
 class Kind:
     """One kind of trees, words or forests.
 
-    Five attributes are functions. ``members`` enumerates the members of an order; ``count`` computes their
-    number from generating functions, without enumeration. ``text`` returns a member as text, ``diagram``
-    returns its drawing, and ``names`` returns its elementary differential or Hamiltonian as text. One family
-    provides the conditions of the members. If ``independent`` is true, the members correspond to a set of
-    independent conditions of the family. Otherwise they correspond to all conditions of the family.
+    Five attributes are functions. ``members`` enumerates the trees of an order, the members of the kind.
+    ``count`` computes the number of members from generating functions, without enumeration. For one member,
+    ``text`` returns its text, ``diagram`` its drawing, and ``names`` its elementary differential or
+    Hamiltonian as text. One family provides the conditions of the members. If ``independent`` is true, the
+    members correspond to a set of independent conditions of the family. Otherwise the members correspond to
+    all conditions of the family.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -112,8 +113,8 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of the trees that index the conditions of a family. Return None if the conditions are
-    indexed by words, which have no drawing.
+    r"""Return the kind of the trees that index the conditions of a family. Return None if words, which have
+    no drawing, index the conditions.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
@@ -285,7 +286,7 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # To write the elementary differential, the tree is converted to a tree with coloured vertices. An
+        # For the elementary differential, the tree is converted to a tree with coloured vertices. An
         # edge of the second kind then leads to a white vertex, any other edge to a black vertex. The
         # conditions do not depend on the colour of the root, so black is chosen.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),

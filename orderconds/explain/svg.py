@@ -31,8 +31,8 @@ class Layout:
     """A vertex with its branches and its horizontal position ``x``. The position is relative to the parent of
     the vertex; the unit is the distance between neighbours.
 
-    ``left`` and ``right`` contain one number for each level of the drawing of the vertex and its branches:
-    the position, relative to the vertex, of the left or right end of this level.
+    ``left`` and ``right`` are the outlines of the drawing of the vertex and its branches. Each contains one
+    number for each level: the left or right end of the level, relative to the vertex.
     """
 
     x: float
@@ -43,8 +43,8 @@ class Layout:
 
 
 def lay_out(vertex: Vertex) -> Layout:
-    r"""Return the layout of a vertex. The branches are as close to each other as their outlines allow, and
-    the vertex is centred below its branches.
+    r"""Return the layout of a vertex. The branches are as close together as their outlines allow, and the
+    vertex is centred below the branches.
 
     The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
 
@@ -70,8 +70,8 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # If the position of the edge to the parent in a word matters, a note at the right of the vertex shows
-    # this position. The outline then leaves room for the note.
+    # If the position of the edge to the parent in a word matters, a note at the right of the vertex shows the
+    # position. The outline then leaves room for the note.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 

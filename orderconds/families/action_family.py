@@ -37,9 +37,9 @@ class ActionFamily(Family):
     t. The number ``tau_t(i)`` is the coefficient of t in the velocity of stage i.
 
     The conditions of order n belong to the trees with n vertices. Each vertex denotes one copy of the
-    Hamiltonian H. ``conditions`` selects independent conditions: it evaluates the conditions for random
-    methods and computes ranks of the matrices of values. ``decisive_conditions`` selects a larger set that
-    implies all conditions; it computes no ranks and does not import NumPy.
+    Hamiltonian H. The method ``conditions`` selects independent conditions: the conditions are evaluated for
+    random methods, and the rank of the matrix of values is computed. The method ``decisive_conditions``
+    selects a larger set that implies all conditions. This selection needs no rank and does not import NumPy.
     """
 
     needs_nonzero_weights = True
@@ -54,10 +54,10 @@ class ActionFamily(Family):
 
     @abstractmethod
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random methods of the family. An element of ``ring`` is a vector of
-        samples, and each sample belongs to one of the methods.
+        """Return the action series of random methods of the family. An element of ``ring`` is a vector with
+        one value for each method.
 
-        These methods have enough stages to distinguish the independent conditions up to ``order``.
+        The methods have enough stages to distinguish the independent conditions up to ``order``.
         """
 
     @abstractmethod
@@ -76,8 +76,8 @@ class ActionFamily(Family):
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
-        """Return, for each dependent tree, its printed left-hand side as a polynomial in the printed
-        left-hand sides of independent trees.
+        """Return a polynomial for each dependent tree: the printed left-hand side of the tree, expressed by
+        the printed left-hand sides of independent trees.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -105,9 +105,11 @@ class ActionFamily(Family):
         return hold_over_rationals(partial(self.random_series, order=order + 2), polynomials)
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order. Trees that differ only in the choice of
-        the root form a class with equal conditions. For each class, only the condition of the simplest tree
-        is returned."""
+        """Return conditions that imply all conditions of this order.
+
+        Trees that differ only in the choice of the root have equal conditions. Of these trees, only the
+        condition of the simplest tree is returned.
+        """
         return tuple(map(self.condition, representatives(order)))
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Velocity, Callable[[], OrderCondition]]]:
@@ -196,8 +198,8 @@ def longest_word(tree: Velocity) -> int:
 
 @lru_cache(maxsize=1 << 14)
 def _longest_in_momentum(tree: Momentum) -> int:
-    """Return the length of the longest word that contributes to the value of a momentum tree. In such a word,
-    the velocity whose variation is taken counts as one letter."""
+    """Return the length of the longest word that contributes to the value of a momentum tree. The velocity
+    whose variation is taken counts as one letter of the word."""
     if isinstance(tree, Transport):
         return max(len(tree.word) + 1, *map(longest_word, tree.word))
     assert isinstance(tree, Force)

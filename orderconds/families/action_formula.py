@@ -1,12 +1,12 @@
 """The conditions of action trees as readable index sums. One traversal of a tree computes its index sum,
 with symbols in place of numbers.
 
-A word's coefficient in a product of exponentials is a sum over indices ``j_1 <= ... <= j_k`` with a factor
-1/r! for each run of r equal indices. This module writes the coefficient as several sums with strict
-inequalities, one sum for each division of the word into runs. A word that repeats one letter k times does not
-need such sums: its coefficient is a power of one sum, divided by k!. If a condition contains such a word,
-both sides are multiplied by k! (:func:`multiplier`). For example, the printed condition is ``sum_i b_i c_i^2
-= 1/3`` and not ``1/2 sum_i b_i c_i^2 = 1/6``.
+Consider the coefficient of a word in a product of exponentials. The coefficient is a sum over indices
+``j_1 <= ... <= j_k`` with a factor 1/r! for each run of r equal indices. This module writes the coefficient
+as several sums with strict inequalities, one for each division of the word into runs. A word that repeats one
+letter k times needs only one sum: its coefficient is the k-th power of this sum, divided by k!. If a
+condition contains such a word, both sides are multiplied by k! (:func:`multiplier`). For example, the printed
+condition is ``sum_i b_i c_i^2 = 1/3`` and not ``1/2 sum_i b_i c_i^2 = 1/6``.
 """
 
 from __future__ import annotations
@@ -37,13 +37,13 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word of trees. One letter may be the index of a stage instead of a tree. This letter denotes a variation
-of the velocity of the stage with this index."""
+"""A word of trees. One letter may be the index of a stage instead of a tree; the letter then denotes a
+variation of the velocity of this stage."""
 
 
 def multiplier(tree: Velocity) -> int:
-    """Return the factor by which a condition is multiplied to clear the factorials of repeated letters in its
-    tree.
+    """Return the factor by which the condition of a tree is multiplied. The factor clears the factorials of
+    repeated letters in the tree.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -149,8 +149,7 @@ class ExponentialsFormula(ActionFormula):
         this side."""
         if not word:
             return one()
-        # The divisions are reversed. In the term that is printed first, all letters then come from different
-        # exponentials.
+        # The divisions are reversed, so that all letters come from different exponentials in the first term.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
@@ -201,7 +200,7 @@ class CrouchGrossmanFormula(ExponentialsFormula):
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
         """Return the coefficient of the word u x v, where u is ``before`` and v is ``after``. The letter x
-        comes from the exponential with index j = ``stage``. Its factor is ``a_ij`` with i = ``row``, or
+        comes from the exponential with index j = ``stage``. The factor of x is ``a_ij`` with i = ``row``, or
         ``b_j`` for the update. :meth:`around` computes the other factor, for u and v."""
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -244,8 +243,8 @@ class MuntheKaasFormula(ActionFormula):
     """Index sums for methods with one exponential exp(X_i) in stage i.
 
     The exponent is ``X_i = sum_j a_ij dexpinv^(r)(X_j) xi_j``. Here xi_j is the velocity of stage j, and
-    dexpinv^(r) is dexpinv truncated after the r-th power. The update is exp(Y); in Y, the weights b_j replace
-    a_ij.
+    dexpinv^(r) is dexpinv truncated after the r-th power. The update is exp(Y) with
+    ``Y = sum_j b_j dexpinv^(r)(X_j) xi_j``.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity

@@ -39,8 +39,8 @@ Kind = TypeVar("Kind")
 class Family(ABC):
     """A family of methods.
 
-    A subclass sets ``name``, ``description`` and ``formats`` and implements :meth:`conditions` and
-    :meth:`evaluate`; all other attributes and methods have default values.
+    A subclass sets ``name``, ``description`` and ``formats``, and implements :meth:`conditions` and
+    :meth:`evaluate`. All other attributes and methods have defaults. The function
     :func:`orderconds.families.register` makes the family available to every command. The options of a family,
     such as ``cutoff`` of RKMK, are integer parameters of the constructor.
     """
@@ -87,23 +87,23 @@ class Family(ABC):
     """A map from the names of the coefficients that occur in printed conditions to their definitions in
     LaTeX."""
 
-    # Other families
+    # Relations to other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """A map from the names of other families to theorems. By the theorem, the order of every method in the
-    other family is at least its order in this family. At each order, the conditions of the other family are a
-    subset of the conditions of this family."""
+    """A map from the names of other families to theorems. By the theorem, every method has at least the same
+    order in the other family as in this family, because the conditions of the other family are a subset of
+    the conditions of this family."""
     abelian: ClassVar[str | None] = None
     """The family to which this family reduces on an abelian group, where all brackets are zero; None if no
     such family accepts all tableaux of this family."""
     low_order: ClassVar[str | None] = None
-    """The name of another family with the same conditions up to order 2. The conditions are the same because,
-    up to order 2, they contain no bracket and no momentum."""
+    """The name of another family with the same conditions up to order 2. Conditions of these orders contain
+    no bracket and no momentum."""
     bounds_others: ClassVar[bool] = False
     """True if ``check`` computes the order in this family to obtain bounds of the orders in other
     families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of other families. The order of every 2N (low-storage) scheme in these families is equal to
-    its order in this family."""
+    """The names of other families in which every 2N (low-storage) scheme has the same order as in this
+    family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -150,7 +150,7 @@ class Family(ABC):
     @abstractmethod
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions of exactly this order that imply all conditions of this order. In most families
-        they are independent of each other; see :meth:`essential_conditions`."""
+        these conditions are independent of each other; see :meth:`essential_conditions`."""
 
     @abstractmethod
     def evaluate(
@@ -206,8 +206,8 @@ class Family(ABC):
             yield condition.key, partial(_itself, condition)
 
     def decisive_count(self, order: int) -> int | None:
-        """Return the number of conditions in :meth:`decisive_conditions` if there is a formula for it, else
-        None."""
+        """Return the number of conditions in :meth:`decisive_conditions`, or None if no formula gives this
+        number."""
         return None
 
     def residuals(
@@ -227,7 +227,7 @@ class Family(ABC):
         if not conditions:
             return ()
         if isinstance(ring, Balls):
-            with precision(ring.bits):  # set once, because it takes time to set it in each operation
+            with precision(ring.bits):  # set once, because setting the precision in each operation is slow
                 differences = self._residuals(*_UNWRAPPED(method, ring), conditions)
             if not all(x.is_finite() for x in differences):
                 raise ZeroDivisionError("division by a ball that contains zero")
@@ -333,8 +333,8 @@ class Family(ABC):
     # Theorems
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order of a method in this family, or 0 if no bound is known. Theorems
-        derive the bound from the orders of the method in other families.
+        """Return a lower bound of the order of a method in this family, or 0 if no bound is known. The bound
+        follows from the orders of the method in other families.
 
         ``orders`` maps the labels of the other families to these orders. A subclass need not derive bounds
         that already follow from :attr:`implies`.
@@ -342,8 +342,8 @@ class Family(ABC):
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order of a method in this family, or 0 if no bound is known. A theorem
-        about the coefficients proves the bound. No order condition is evaluated."""
+        """Return a lower bound of the order of a method in this family, or 0 if no bound is known. The bound
+        follows from a theorem about the coefficients; no order condition is evaluated."""
         return 0
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -351,9 +351,11 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return another family, and the method in a format of the other family. For this method, the
-        conditions of the other family are fewer and imply the conditions of this family. Return None if there
-        is no such family."""
+        """Return another family with fewer conditions, and the method in a format of that family.
+
+        For this method, the conditions of that family imply the conditions of this family. Return None if
+        there is no such family.
+        """
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
@@ -367,9 +369,9 @@ class Family(ABC):
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
-        """Return the reductions that apply to a method: theorems that reduce the number of conditions to
-        evaluate. ``orders`` maps the labels of other families to the proved orders of the method in these
-        families.
+        """Return the reductions for a method, which are theorems that make some conditions superfluous.
+
+        ``orders`` maps the labels of other families to the proved orders of the method in these families.
 
         >>> from orderconds.families import get
         >>> from orderconds.ring import QQ

@@ -1,9 +1,10 @@
 """Cayley methods Y_1 = cay(Omega) Y_0 for Y' = A(t) Y on quadratic groups; cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. All of these
-terms are elements of the algebra {X: X^T P + P X = 0}. In Omega, the coefficients of a word of length n and
-of its reverse differ by the factor (-1)^(n+1). There is no other relation between the coefficients. Hence
-there is one condition for each pair (word, reverse word), and one condition for each palindrome of odd length
+Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. Here A_i is
+h A(c_i h), with the nodes c_i. All terms of Omega are elements of the algebra {X: X^T P + P X = 0}, where the
+matrix P defines the quadratic group. In Omega, the coefficients of a word of length n and of its reverse
+differ by the factor (-1)^(n+1). There is no other relation between the coefficients. Hence there is one
+condition for each pair (word, reverse word), and one condition for each palindrome of odd length
 (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998) 317).
 """
 
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 @register
 class CayleyFamily(MagnusFamily):
     """Cayley methods cay(Omega), or products of Cayley transforms. In printed conditions omega_{ij...} is the
-    coefficient of the product ... A_j A_i.
+    coefficient of the product ... A_j A_i in Omega.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)

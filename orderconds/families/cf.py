@@ -3,9 +3,9 @@ combination of the k_j, where k_j is the value of the vector field at stage j.
 
 The update is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts
 first. In stage i, the coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003)
-341). If a stage starts from the value of an earlier stage, the product of the later stage also contains the
-exponentials of the earlier stage, which act first. In printed conditions b_j = sum_J beta_Jj, a_ij = sum_J
-alpha_iJj and c_i = sum_j a_ij.
+341). A stage may start from the value of an earlier stage. The product of this stage then also contains the
+exponentials of the earlier stage, and these act first. In printed conditions b_j = sum_J beta_Jj,
+a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a commutator-free method, else None. For a tableau (A, b) the result is
-        None, because its file claims the order in the family ``cg``."""
+        None, because the file of such a tableau claims the order in the family ``cg``."""
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -151,8 +151,8 @@ def _word(
     """Return length! times the coefficient of a word in a product of exponentials, where ``length`` is the
     length of the word.
 
-    The coefficient of k_j in exponential J is ``row(J, j)``, and its sum over J is ``row_total(j)``. If
-    ``row_sum`` is not None, it is the formula of the sum of ``row_total(j)`` over j, such as c_i.
+    The coefficient of k_j in exponential J is ``row(J, j)``, and the sum over J is ``row_total(j)``.
+    ``row_sum`` is a formula such as c_i for the sum of ``row_total(j)`` over j, or None.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:

@@ -91,8 +91,8 @@ def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
     """Return True if the Crouch-Grossman method of a tableau is proved to be symmetric.
 
     The function verifies a sufficient condition: the products of exponentials that lead to the stages are
-    symmetric. Then the discrete Lagrangian of the same tableau is symmetric, too. Therefore the variational
-    method of this tableau is also symmetric.
+    symmetric. Under this condition the discrete Lagrangian of the tableau is symmetric, too. Therefore the
+    variational method of the tableau is also symmetric.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))
@@ -108,12 +108,12 @@ def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) 
     """Return length! times the coefficient of a word in a product of exponentials, where ``length`` is the
     length of the word.
 
-    The coefficient of k_i in the exponential with index i is ``row(i)``. If ``row_sum`` is not None, it is
-    the formula of the sum of ``row(i)`` over i, such as c_i.
+    The coefficient of k_i in the exponential with index i is ``row(i)``. ``row_sum`` is a formula such as c_i
+    for the sum of ``row(i)`` over i, or None.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # All k letters are the same tree t. Exponentials of multiples of t commute. Hence the coefficient of
+        # All letters are the same tree t. Exponentials of multiples of t commute. Hence the coefficient of
         # the word t^k is the k-th power of the coefficient of t, divided by k!.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None

@@ -144,8 +144,8 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""A function of a word and of a summation index, which denotes a stage. It returns a pair (formula, n). The
-value of this stage on the word is the formula divided by the integer n."""
+"""A function of a word and of a summation index, which denotes a stage. The function returns a pair
+(formula, n). The value of the stage on the word is the formula divided by the integer n."""
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:

@@ -1,9 +1,9 @@
 """Families in which the series of dexpinv is truncated after the power r, where r is the option ``cutoff``.
 
 Without truncation, RKMK applies the Runge-Kutta method of the tableau in canonical coordinates of the first
-kind. VRKMK applies the symplectic partitioned Runge-Kutta method of the tableau in these coordinates.
-Therefore RKMK and VRKMK have the orders of these two classical methods (HLW IV.8, Theorem 8.4; Bogfjellmo and
-Marthinsen, Section 3.4.1).
+kind. RKMK therefore has the order of the Runge-Kutta method. VRKMK applies the symplectic partitioned
+Runge-Kutta method of the tableau in the same coordinates, and has the order of this partitioned method (HLW
+IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
 
 For even r >= 2 the Bernoulli number B_(r+1) is zero. Hence truncation after the powers r and r + 1 gives the
 same method. Let R = r + 1 for these r, and R = r for all other r. The truncation changes one step by
@@ -67,9 +67,12 @@ class DexpinvCut(Family):
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return min(p, R + 2), where p is the order of the method in the family :attr:`abelian`. R is
-        ``cutoff`` + 1 if ``cutoff`` is even and at least 2; otherwise R is ``cutoff``. If dexpinv is not
-        truncated, return p. A larger bound of the base class replaces these values."""
+        """Return a lower bound of the order, computed from the order p in the family :attr:`abelian`.
+
+        The bound is min(p, R + 2), or p if dexpinv is not truncated. R is ``cutoff`` + 1 if ``cutoff`` is
+        even and at least 2; otherwise R is ``cutoff``. If the bound of the base class is larger, return the
+        bound of the base class.
+        """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
 

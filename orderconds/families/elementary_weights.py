@@ -55,7 +55,7 @@ def elementary_weight(
 ) -> Formula:
     r"""Return the elementary weight of a tree as an index sum.
 
-    The tree may have any encoding whose ``len`` is the number of vertices. The function ``below`` returns the
+    The tree may be any sequence whose length is the number of vertices. The function ``below`` returns the
     pairs (kind of edge, subtree) at the root.
 
     >>> from orderconds.formula import named
@@ -76,8 +76,8 @@ def weight_conditions(
 ) -> tuple[OrderCondition, ...]:
     """Return, for each tree, the condition that its elementary weight is 1/gamma, where gamma is its density.
 
-    ``switching`` expresses the weights of all trees by the weights of independent trees. If it is given, each
-    dependent condition contains its relation to independent conditions.
+    ``switching`` expresses the weights of all trees by the weights of independent trees. If ``switching`` is
+    given, each dependent condition contains its relation to independent conditions.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]

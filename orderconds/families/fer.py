@@ -4,8 +4,9 @@ Let Y be the exact flow, and let F_2 = sum_{ij} phi_ij A_j A_i + ... be the loga
 factors except exp(F_1). Conditions on single letters are the conditions of a quadrature rule for F_1.
 Conditions on longer Lyndon words compare F_2 with the logarithm of exp(-F_1) Y (Fer 1958; Iserles,
 Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3; Blanes, Casas, Oteo and Ros, J.
-Phys. A 31 (1998) 259). This F_2 contains only brackets. Up to order six it is equal to the F_2 of Fer's
-expansion, because the F_3 of Fer's expansion contains only terms of weight seven or more.
+Phys. A 31 (1998) 259). F_2 contains only brackets. Fer's expansion is a product exp(F_1) exp(F_2) exp(F_3)
+and so on. F_3 contains only terms of weight seven or more, so up to order six F_2 is equal to the F_2 of
+Fer's expansion.
 """
 
 from __future__ import annotations
@@ -77,14 +78,17 @@ class FerFamily(MagnusFamily):
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as a sum over nodes. The terms of the sum are
-        b_i c_i^(k-1) for the single letter k. For a longer word k_1 k_2 ... they are phi_{ij...} c_i^(k_1-1)
-        c_j^(k_2-1) ...."""
+        """Return the left-hand side of the condition of a word as a sum over nodes. For the single letter k,
+        the terms are b_i c_i^(k-1). For a longer word k_1 k_2 ..., the terms are
+        phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ...."""
         return node_sum("b" if len(word) == 1 else "phi", word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return a function of a word. For a single letter its value is the coefficient of the letter in F_1;
-        for a longer word it is the coefficient in the logarithm of the other factors."""
+        """Return a function that maps each word to the value of one step on this word.
+
+        The value on a single letter is the coefficient of the letter in F_1. The value on a longer word is
+        the coefficient of the word in the logarithm of the other factors.
+        """
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)
         return lambda word: last(word) if len(word) == 1 else rest(word)

@@ -1,10 +1,10 @@
 """Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the values A_i = h A(c_i h).
 
-Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + ...; in printed conditions omega_{ij...} is the
-coefficient of the product in which A_i acts first. Let A(t) = X_1 + t X_2 + ... and let letter k, of weight
-k, denote X_k. The expansion of Omega in the X_k must agree with the Magnus expansion on every Lyndon word
-(Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of
-exponentials, Omega is the logarithm of the product.
+Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + ..., where c_i are the nodes. In printed conditions
+omega_{ij...} is the coefficient of the product in which A_i acts first. Let A(t) = X_1 + t X_2 + ... and let
+letter k, of weight k, denote X_k. The expansion of Omega in the X_k must agree with the Magnus expansion on
+every Lyndon word (Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a
+product of exponentials, Omega is the logarithm of the product.
 """
 
 from __future__ import annotations
@@ -103,8 +103,10 @@ class MagnusFamily(WordFamily):
         return expansions.magnus(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of the word k_1 k_2 ...: the sum of omega_{ij...}
-        c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j, ... of nodes."""
+        """Return the left-hand side of the condition of the word k_1 k_2 ...
+
+        It is the sum of omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j, ... of nodes.
+        """
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:

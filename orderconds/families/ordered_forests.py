@@ -1,8 +1,8 @@
 """Families whose conditions are indexed by Lyndon words of ordered trees, that is, by ordered forests.
 
-The step of a Lie group method and the exact flow are group-like: their values on words satisfy the shuffle
-relations. The values on Lyndon words therefore determine all other values (see ``words.lyndon``). The letters
-of a word are ordered trees, sorted by decreasing size; trees of equal size are in the order of enumeration.
+The values of a Lie group method, and of the exact flow, on words satisfy the shuffle relations. The values on
+Lyndon words therefore determine all other values (:mod:`orderconds.words.lyndon`). The alphabet consists of
+the ordered trees, sorted by decreasing size; trees of equal size are in the order of enumeration.
 
 Each condition is multiplied by the factorial of the length of its word, and by the factorial of the number of
 branches at each vertex. For example, the printed condition is sum_i b_i c_i^2 = 1/3, and not 1/2 sum_i b_i
@@ -46,8 +46,10 @@ class OrderedForestFamily(Family):
 
     @abstractmethod
     def formula(self, forest: Forest) -> Formula:
-        """Return the left-hand side of the condition of a forest as an index sum: ``scale(forest)`` times the
-        value of the method."""
+        """Return the left-hand side of the condition of a forest as an index sum.
+
+        The left-hand side is ``scale(forest)`` times the value of the method on the forest.
+        """
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of this order, one for each Lyndon word over ordered trees."""

@@ -76,8 +76,8 @@ class PartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a pair of tableaux that is not symplectic, else None. For a symplectic pair,
-        a family with fewer conditions determines the order."""
+        """Return this family for a pair of tableaux that is not symplectic, else None. The file of a
+        symplectic pair claims its order in a family with fewer conditions."""
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
             return None
@@ -112,7 +112,7 @@ def as_pair(method: Method) -> PartitionedRungeKutta:
 
 def rooted_weight(tree: BicolouredTree) -> Formula:
     r"""Return the elementary weight of a coloured tree as an index sum. The weights are b if the root is
-    black, and bhat if it is white.
+    black, and bhat if the root is white.
 
     >>> from orderconds.formula import named
     >>> named(rooted_weight(b"\1\2")).text()
