@@ -104,8 +104,8 @@ def derive(
     If ``stages`` is given, the sums are expanded for methods with this number of stages. If ``explicit`` is
     also true, the sums are expanded for explicit methods (:func:`orderconds.stage_expansion.expand_stages`).
 
-    ``options`` are options of the family, such as ``cutoff`` for RKMK. They may also be part of the name, as
-    in ``"rkmk(1)"``.
+    ``options`` are options of the family, such as ``cutoff`` for RKMK. Options may also be part of the name,
+    as in ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises
     :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 20, and for an order

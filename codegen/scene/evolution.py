@@ -88,9 +88,9 @@ class Evolution:
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
         """Return the coordinates after a step from the state y at the time t.
 
-        They are the values of the Taylor polynomial of the solution, of the given degree, at t + h.
+        The coordinates are the values, at t + h, of the solution's Taylor polynomial of the given degree.
         """
-        # Each coefficient contains its power of h, so the polynomial is the sum of the coefficients.
+        # The coefficient of degree k includes h^k, so the polynomial is the sum of the coefficients.
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:

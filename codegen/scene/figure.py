@@ -211,7 +211,7 @@ class Deviation(Figure):
 
     The deviation is the difference from the same quantity along the reference run, or from its initial value
     if there is no reference. The figure shows the maximum over each group of ``window`` consecutive
-    steps. If ``window`` is 0, it shows the maximum over all steps so far.
+    steps. If ``window`` is 0, the figure shows the maximum over all steps so far.
     """
 
     quantity: Quantity

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of GL(n).
 
-For n rows these are n^2 formulas. Measurements need them, because they interpret step programs."""
+For n rows these are n^2 formulas. Measurements interpret step programs, and therefore need the formulas."""
 
 
 def LargeLinearScene(
@@ -54,8 +54,9 @@ def LargeLinearScene(
     rational time interval.
 
     Emitted steps of the families magnus, cf_magnus and fer, and of rkmk, cf and cg, apply exponentials to y
-    by products of A and vectors (:mod:`codegen.ir.linear_array_step`). The length of the code does not depend
-    on n, unless the entries are given as lists.
+    by products of A and vectors (:mod:`codegen.ir.linear_array_step`). If no entries are given as lists, the
+    length of the code does not depend on n.
+
     :class:`SceneError` is raised for a matrix that is not square, for a matrix that contains an unknown, and
     for a state of a wrong size.
     """

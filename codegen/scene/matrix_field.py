@@ -15,8 +15,8 @@ from codegen.ir.expr import walk
 class MatrixField:
     """A tangent field V(X) on the matrices with orthonormal columns; ``program`` computes V.
 
-    The generator of the motion at X is the skew matrix W X^T - X W^T with W = V - X (X^T V)/2. It satisfies
-    V = (W X^T - X W^T) X, and its rank is at most twice the number of columns of X.
+    The generator of the motion at X is the skew matrix S = W X^T - X W^T with W = V - X (X^T V)/2. Then
+    V = S X, and the rank of S is at most twice the number of columns of X.
     """
 
     program: ArrayProgram

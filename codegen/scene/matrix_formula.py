@@ -142,7 +142,7 @@ def unknown(rows: int, columns: int) -> Unknown:
 
 
 def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None = None) -> Constant:
-    """Return a matrix that is zero outside some diagonals; it is square unless ``columns`` is given.
+    """Return a matrix that is zero outside some diagonals. By default the matrix is square.
 
     ``diagonals`` maps an offset j - i to the entries a_ij: one scalar that is the value of all entries, a
     function of the row i, or the list of all entries of the diagonal. Rows and columns are counted from 0.

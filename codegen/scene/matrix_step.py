@@ -268,7 +268,7 @@ class Multiple(MatrixFormula):
 class Projected(Unary):
     """The orthogonal projection of a matrix onto the algebra, for the scalar product tr(X^T Y).
 
-    For sp(2n) it is (X + J X^T J)/2, the projection in equation (4.18) of H. Marthinsen's thesis.
+    For sp(2n) the projection of X is (X + J X^T J)/2, as in equation (4.18) of H. Marthinsen's thesis.
     """
 
     @property
@@ -394,7 +394,8 @@ class MatrixStep:
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
     """Return the matrix of the orthogonal projection onto the algebra.
 
-    It acts on the column of all entries of a matrix, row by row.
+    The projection is a linear map of matrices with n rows. The result has n^2 rows, and is multiplied by the
+    column of all entries of a matrix, row by row.
     """
     from sympy import Matrix, Rational
 

@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 
 DIGITS = 40
 TOLERANCE = Fraction(1, 10**20)
-"""The allowed rounding error of a sum, relative to the size of its terms. It is much larger than the unit
-roundoff, because the terms may contain cancellation errors.
+"""The allowed rounding error of a sum, relative to the size of its terms. This bound is much larger than the
+unit roundoff, because the terms may contain cancellation errors.
 """
 
 FLOOR = Fraction(1, 10**28)
-"""The allowed absolute error. It is needed if all terms are small because each term is a difference of nearly
+"""The allowed absolute error. A relative bound alone would fail if every term is a small difference of nearly
 equal numbers."""
 
 POINTS = 4

@@ -72,9 +72,9 @@ def param(name: str, default: object) -> Parameter:
 def signal(name: str, formula: object = 0) -> Signal:
     """Return a sympy symbol for a function of time, for example a control input or a measured load.
 
-    Emitted code evaluates ``formula``, which may contain t and parameters, unless the signal is requested as
-    a run-time input (``emit --input NAME``). :class:`SceneError` is raised for a formula that sympy cannot
-    read.
+    ``formula`` may contain t and parameters. Emitted code evaluates ``formula``, or reads the signal at run
+    time if the option ``emit --input NAME`` is given. :class:`SceneError` is raised for a formula that sympy
+    cannot read.
     """
     try:
         return Signal(name, sympy.sympify(formula, strict=True))

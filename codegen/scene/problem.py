@@ -164,7 +164,7 @@ class Problem:
     def require_formulas(self) -> None:
         """Raise :class:`codegen.errors.SceneError` if the field has no formulas in coordinates.
 
-        This is the case for semilinear equations and for large matrices.
+        Semilinear equations and equations of large matrices have no such formulas.
         """
         if self.semilinear is not None:
             raise SceneError(

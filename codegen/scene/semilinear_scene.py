@@ -62,10 +62,12 @@ def SemilinearScene(
     fraction, are kept in the values of N.
 
     Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
-    Explicit methods of the families rkmk, cf and cg are possible. They use the action of affine maps
-    exp(t L) u + c, and so they are exponential integrators. :class:`SceneError` is raised for an operator
-    that does not map real functions to real functions, for nested derivatives, and for formulas that contain
-    other symbols or a choice between formulas, such as Piecewise.
+    Explicit methods of the families rkmk, cf and cg are possible. These methods use the action of affine maps
+    exp(t L) u + c, and are therefore exponential integrators.
+
+    :class:`SceneError` is raised for an operator that does not map real functions to real functions, and for
+    nested derivatives. The error is also raised for formulas that contain other symbols or a choice between
+    formulas, such as Piecewise.
     """
     parser = _Parser(name, u, k, x)
     reader, symbol = parser.reader, parser.symbol(L)
@@ -110,7 +112,7 @@ class _Parser:
         self.reader.coordinates = []
 
     def symbol(self, L: sympy.Expr) -> tuple[Expr, ...]:
-        """Return the real part of the symbol, and the imaginary part unless it is zero."""
+        """Return the real part of the symbol and, if it is not zero, the imaginary part."""
         import sympy
 
         real = sympy.Symbol(self.k, real=True)
@@ -247,8 +249,11 @@ def _check(
     period: Expr,
     parameters: dict[str, Number],
 ) -> None:
-    """Raise :class:`SceneError` unless the period is positive, and L maps real functions to real
-    functions: its symbol at -k is the complex conjugate of its symbol at k."""
+    """Raise :class:`SceneError` if the period is not positive, or if L maps a real function to a complex one.
+
+    L maps real functions to real functions if the symbol of L at -k is the complex conjugate of the symbol at
+    k.
+    """
     domain = FloatDomain(0.0)
     values: dict[str, float] = {name: float(number) for name, number in parameters.items()}
     (size,) = evaluate([period], domain, values)

@@ -76,8 +76,10 @@ def _read(
 
 
 def check_parts(scene: Problem, orbit: Orbit) -> None:
-    """Raise SceneError if a part depends on time, if its generators are not constant along its own flow, or
-    if the sum of the velocities of all parts differs from the velocity of the field.
+    """Raise SceneError if a part depends on time or has no exact flow, or if the parts do not add up.
+
+    The generators of a part must be constant along the flow of the part. The sum of the velocities of all
+    parts must be equal to the velocity of the field.
 
     ``orbit`` contains the sample points of one site.
     """

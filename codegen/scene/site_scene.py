@@ -95,7 +95,7 @@ def SiteScene(
 
 
 def with_frozen_neighbours(scene: Problem) -> Problem:
-    """Return the problem of one site whose neighbours do not move: their coordinates are parameters.
+    """Return the problem of one site with fixed neighbours. The coordinates of the neighbours are parameters.
 
     The values of these parameters are near the initial state of a site. Only comparisons of formulas use
     these values; emitted code reads the states of the neighbours.

@@ -72,12 +72,12 @@ LATTICES = (
     "swinging_rod",
     "wilson_lattice",
 )
-"""The scenes of chains and lattices. Their number of sites is not fixed, so commands that run a scene
-from its initial state do not accept them."""
+"""The scenes of chains and lattices. These scenes do not fix the number of sites, so commands that run a
+scene from its initial state do not accept them."""
 
 SEMILINEAR = ("allen_cahn_periodic", "kuramoto_sivashinsky")
-"""The semilinear equations whose linear operator is given by its symbol. Their number of points is not fixed,
-so commands that run a scene from its initial state do not accept them."""
+"""The semilinear equations whose linear operator is given by its Fourier symbol. These scenes do not fix the
+number of points, so commands that run a scene from its initial state do not accept them."""
 
 BUILT_IN = frozenset((*GALLERY, *LATTICES, *SEMILINEAR))
 """The names of all scenes of the package."""

@@ -2,7 +2,7 @@
 
 g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). Here g is the attitude, I the inertia, and W
 and P are the angular velocity and momentum in the body frame. The right-trivialised momentum mu = g P is the
-angular momentum in space. It is constant, because n = ad*_xi mu in mu' = n - ad*_xi mu.
+angular momentum in space. mu is constant, because n = ad*_xi mu in mu' = n - ad*_xi mu.
 """
 
 from sympy import Matrix, Rational, diag, eye

@@ -35,7 +35,7 @@ _NAMED = re.compile(r"([A-Za-z_\\{}]{1,64})\s{0,9}=\s{0,9}$")
 
 
 def write(data: Data) -> bytes:
-    r"""Return a tableau as LaTeX for a displayed formula. Its name and other texts become comments.
+    r"""Return a tableau as LaTeX for a displayed formula. The name and other texts become comments.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode())
     % name: m

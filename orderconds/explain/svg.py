@@ -129,8 +129,8 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Yield the SVG elements of the diagram and its caption. Their left end is at x. The roots are half a
-        step above the horizontal line at ``ground``, and the caption is below this line."""
+        """Yield the SVG elements of the diagram and its caption. The left end of both is at x. The roots are
+        half a step above the horizontal line at ``ground``, and the caption is below this line."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)

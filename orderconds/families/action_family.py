@@ -1,5 +1,5 @@
-"""The base class of the variational families. Their order conditions are indexed by action trees, which are
-defined in :mod:`orderconds.series.action_trees`."""
+"""The base class of the variational families. Action trees (:mod:`orderconds.series.action_trees`) index
+the order conditions of these families."""
 
 from __future__ import annotations
 

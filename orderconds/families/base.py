@@ -190,8 +190,8 @@ class Family(ABC):
         return True
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order. Their selection must not need the rank
-        of a matrix.
+        """Return conditions that imply all conditions of this order. The selection of these conditions must
+        not need the rank of a matrix.
 
         By default the result is :meth:`conditions`.
         """

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 class CompositionFamily(WordFamily):
     """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h} of any basic method.
 
-    If the basic method is symmetric, then X_2, X_4, ... vanish.
+    The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...). If it is symmetric, then X_2, X_4, ... vanish.
 
     >>> for condition in CompositionFamily().conditions(2):
     ...     print(condition.tree, condition)

@@ -149,8 +149,8 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
 
 
 def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
-    """Return a product of ``size`` exponentials or Cayley transforms, as ``transform`` specifies. Their
-    arguments are random combinations of the values of A at ``size`` random nodes.
+    """Return a product of ``size`` exponentials or Cayley transforms, as ``transform`` specifies. The
+    arguments of these maps are random combinations of the values of A at ``size`` random nodes.
 
     >>> import numpy as np
     >>> from orderconds.ring import Residues

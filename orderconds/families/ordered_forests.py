@@ -41,8 +41,8 @@ class OrderedForestFamily(Family):
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the Lie-Butcher series of one step of ``method``. Its values on ordered forests are elements
-        of ``ring``."""
+        """Return the Lie-Butcher series of one step of ``method``. The values of the series on ordered
+        forests are elements of ``ring``."""
 
     @abstractmethod
     def formula(self, forest: Forest) -> Formula:
