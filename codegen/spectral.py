@@ -47,10 +47,11 @@ class Spectral(ArrayModule, ABC):
     def run(self, u: object, h: float, steps: int, t: float = 0.0, **parameters: object) -> SpectralRun:
         """Return the values after ``steps`` steps of size h from time t.
 
-        ``u`` contains the values at an even number of equally spaced points. If a step fails, no error is
-        raised: the result contains the status and the values after the last successful step. Raises
-        ValueError for an array with more than one axis, an odd number of points, and values that are not
-        finite. Raises TypeError for values that are not real numbers, and for unknown parameters.
+        ``u`` contains the values at an even number of equally spaced points. If a step fails, the result
+        contains the status and the values after the last successful step; no error is raised.
+
+        Raises ValueError for an array with more than one axis, an odd number of points, and values that are
+        not finite. Raises TypeError for values that are not real numbers, and for unknown parameters.
         """
         import numpy as np
 
@@ -81,7 +82,8 @@ class Spectral(ArrayModule, ABC):
     def _call(
         self, u: Floats, moment: tuple[float, float, int], values: list[float]
     ) -> tuple[Floats, Status, int]:
-        """Run from ``u``; ``moment`` is (t, h, steps), and ``values`` are the values of the parameters.
+        """Make steps from the values ``u``. ``moment`` is (t, h, steps): the start time, the step size and
+        the number of steps. ``values`` are the values of the parameters.
 
         Return the last values of the solution, the status, and the number of successful steps.
         """

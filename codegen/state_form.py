@@ -66,8 +66,8 @@ class StateForm:
 def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[float]]:
     """Return the form of a state and its numbers.
 
-    The state must have ``size`` real numbers, and each part of a tuple must have the size of its field, or
-    of several consecutive fields. Otherwise ValueError is raised.
+    The state must have ``size`` real numbers. Each part of a tuple must have the size of its field, or the
+    total size of several consecutive fields. Otherwise ValueError is raised.
 
     >>> form, numbers = read(([[1, 0], [0, 1]], [2, 3]), 6)
     >>> numbers, form.restore(numbers)

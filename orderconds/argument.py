@@ -95,8 +95,8 @@ def texts(x: object, name: str, example: str) -> tuple[str, ...]:
 
 @contextmanager
 def named_as_arguments() -> Iterator[None]:
-    """Return a context that changes the messages of InputErrors: options of the command line become names of
-    Python arguments, such as ``fix`` for ``--fix``.
+    """Return a context manager that changes the messages of InputErrors. Options of the command line become
+    names of Python arguments, such as ``fix`` for ``--fix``.
 
     >>> with named_as_arguments():
     ...     raise InputError("the prefix '1a'", where="--prefix", expected="a letter")
@@ -115,8 +115,10 @@ _OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 
 
 def described(x: object) -> str:
-    """Return the text that describes an object in a message: the value of an integer, the value and the type
-    of another number or a text, and only the type of any other object.
+    """Return the text that describes an object in a message.
+
+    The text contains the value of an integer, and the value and the type of another number or of a string.
+    For all other objects, the text contains only the type.
 
     >>> described(None), described("4"), described(0)
     ('an object of type NoneType', "'4' of type str", '0')

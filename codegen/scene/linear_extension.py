@@ -63,8 +63,8 @@ def without_momentum_rate(problem: Problem) -> Problem:
 
 
 def _hamiltonian(problem: Problem) -> Expr:
-    """Return H = (q'.p - p'.q)/2; raise SceneError if its canonical equation is not the equation of the
-    problem, or if H does not depend on the time."""
+    """Return H = (q'.p - p'.q)/2. Raise SceneError if H does not depend on the time, or if Hamilton's
+    equation for H is not the equation of the problem."""
     refusal = f"the linear problem {problem.name} has no momentum u"
     if not problem.roots:
         problem.require_formulas()

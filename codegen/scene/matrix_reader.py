@@ -187,7 +187,7 @@ class _Compiler:
                 return self.reader.space.one, (self.factor(formula, transposed),)
 
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
-        """Yield the summands of c times a product.
+        """Yield the summands of c times a product, where c is a coefficient.
 
         A factor that is a sum is multiplied out if one of its terms is a constant matrix, or if both its
         numbers of rows and columns exceed the number of columns of X. Other sums stay factors.
@@ -260,8 +260,8 @@ class _Compiler:
         """
         assert factor.constant is not None
         constant = self.constant(factor.constant)
-        # C Z^T = (Z C^T)^T: instead of transposing the stored matrix Z, the program multiplies it from the
-        # other side by the transposed constant matrix.
+        # If Z^T is needed and Z is stored, the program does not transpose Z. It computes Z C^T with the
+        # transposed constant matrix C, because C Z^T = (Z C^T)^T.
         transposed = factor.transposed is not other.transposed
         right = from_right is not other.transposed
         rows = other.rows if from_right else factor.rows

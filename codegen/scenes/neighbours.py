@@ -1,7 +1,7 @@
 """Neighbours of a scene file: modules in the same folder that the scene may import.
 
-A neighbour with the name of a module of the standard library or of an installed package is ignored. Any other
-neighbour takes precedence over other modules of the same name. The neighbour is removed after the scene has
+A neighbour with the name of a module of the standard library or of an installed package is ignored. All other
+neighbours take precedence over other modules of the same name. The neighbours are removed after the scene has
 been loaded. A scene in another folder can therefore import its own neighbour of the same name.
 """
 
@@ -37,8 +37,8 @@ class Neighbours(MetaPathFinder):
 
 @contextmanager
 def neighbours_of(file: Path) -> Iterator[None]:
-    """Return a context in which imports find the neighbours of a scene file. At the end of the context the
-    neighbours are removed from ``sys.modules``.
+    """Return a context manager; in its block, imports find the neighbours of a scene file. At the end of the
+    block the neighbours are removed from ``sys.modules``.
     """
     folder = file.resolve().parent
     names = frozenset(name for name in _modules(folder) if not _installed(name))

@@ -1,4 +1,4 @@
-"""The dependency graph of snippets.
+"""The dependency graph of snippets, which are run-time helpers of emitted code.
 
 A node is a helper, or a function of the target's mathematical library. An edge is a call. The folder
 ``snippets/TARGET`` has a template for each helper. The template ``number.j2`` in this folder writes the
@@ -35,10 +35,10 @@ class Snippet:
 
 
 def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippet, ...]:
-    """Return every snippet; the names are the same for all targets.
+    """Return all helpers. Their names are the same for all targets.
 
-    If ``batch`` is True, sine, cosine and the Stumpff functions also have variants without branches. Stumpff
-    functions use shorter polynomials near zero only in double precision and if ``batch`` is False. In single
+    If ``batch`` is True, sine, cosine and the Stumpff functions also have variants without branches. If
+    ``batch`` is False, Stumpff functions in double precision use shorter polynomials near zero. In single
     precision the full polynomial is already short.
     """
     listed = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]

@@ -12,10 +12,10 @@ equations for its decimals, and interval arithmetic proves that the equations ha
 one unit of the last digits. The method whose coefficients are this solution has the stated order
 (:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain zero. The digits in the file
 support the order, but do not prove it. ``double``: the coefficients are doubles
-(:mod:`orderconds.tableau.doubles`), and some residuals are balls that contain zero. The residuals are so
-small that a few roundings of the coefficients can explain them, but the order is not proved. If a ball is too
-wide to decide a condition (see :data:`orderconds.checking.residuals.RESOLUTION`), the order is ``undecided``
-and its certificate is ``none``. A ball that does not contain zero proves that the condition fails.
+(:mod:`orderconds.tableau.doubles`), and some residuals are balls that contain zero. A few roundings of the
+coefficients can explain these residuals, but the order is not proved. If a ball is too wide to decide a
+condition (see :data:`orderconds.checking.residuals.RESOLUTION`), the order is ``undecided`` and its
+certificate is ``none``. A ball that does not contain zero proves that the condition fails.
 """
 
 from __future__ import annotations

@@ -41,9 +41,9 @@ class FamilyOrder:
     ``decided`` is False if the coefficients have too few digits to decide the next order. ``failing`` are the
     conditions of order ``order + 1`` that fail, and ``error_norm`` is the 2-norm of their residuals.
     If a search limit or a limit on work ended the search, ``limit`` is the last order whose conditions all
-    hold; otherwise it is None. ``stopped`` is the number of evaluated conditions if a limit on work ended the
-    search; otherwise it is None. If ``required`` is given, the order must be at least ``required``. Otherwise
-    the order must equal ``claimed``.
+    hold; otherwise ``limit`` is None. If a limit on work ended the search, ``stopped`` is the number of
+    evaluated conditions; otherwise ``stopped`` is None. If ``required`` is given, the order must be at least
+    ``required``. Otherwise the order must equal ``claimed``.
     """
 
     family: str

@@ -110,12 +110,12 @@ def judge(
 ) -> tuple[set[str], tuple[Failure, ...]]:
     """Return the set of verdicts that occur for the given conditions, and the conditions that fail.
 
-    If ``sizes`` is a list, the residuals are balls and no condition fails, the largest absolute value of a
-    residual is appended to ``sizes``.
+    The largest absolute value of a residual is appended to the list ``sizes`` if the residuals are balls and
+    no condition fails. If ``sizes`` is None, nothing is appended.
 
     Verdicts are ``zero``, ``fails``, ``supported`` (the residual is a narrow ball around zero) and
-    ``undecided`` (it is a wide ball around zero). If ``balls_first`` is true, ball arithmetic is used before
-    exact arithmetic. This is faster if most conditions fail, and the result is the same.
+    ``undecided`` (the residual is a wide ball around zero). If ``balls_first`` is true, ball arithmetic is
+    used before exact arithmetic. The result is the same, but is found faster if most conditions fail.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))

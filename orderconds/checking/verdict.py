@@ -228,8 +228,8 @@ order."""
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """If a claimed or required order reaches the search limit of its family, return further families whose
-    orders may imply this order. Otherwise return an empty list."""
+    """Return further families whose orders may imply a claimed or required order. Return an empty list if
+    all claimed and required orders are below the search limits of their families."""
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
     return _bounding(tableau, {family.label() for family, _ in wanted})
@@ -239,7 +239,7 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
     """Return the families whose orders give lower or upper bounds of the orders in other families. Families
     in ``labels`` are omitted.
 
-    A tableau (A, b) that is a composition of midpoint rules is also read as a composition.
+    A tableau (A, b) that is a composition of midpoint rules is also examined as a composition.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -335,8 +335,8 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """Return ``computed``. If its certificate is ``decimal`` and the proved ``facts`` imply the order, the
-    certificate becomes ``ball``."""
+    """Return the order ``computed`` with its best certificate. If the proved ``facts`` imply the order, the
+    certificate ``decimal`` becomes ``ball``."""
     if computed.certificate != "decimal" or not facts:
         return computed
     from orderconds.proof.implications import implied

@@ -220,8 +220,8 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Return a context that disables garbage collection if there is only one job. A check uses almost all of
-    its objects until it ends, so garbage collection would only cost time."""
+    """Return a context manager that disables garbage collection if there is only one job. A check needs
+    almost all of its objects until the end, so garbage collection would only cost time."""
     collects = gc.isenabled()
     if len(jobs) == 1:
         gc.disable()

@@ -45,8 +45,8 @@ def drawing_style(plain: bool = False) -> Style:
 
 @contextmanager
 def working(message: str) -> Iterator[Callable[[str], object]]:
-    """Return a context that shows a message while a computation runs. The context returns a function that
-    replaces the message.
+    """Return a context manager that shows a message while a computation runs. The value after ``as`` is a
+    function that replaces the message.
 
     The message is shown on a terminal. If the output is not a terminal, each message is a line on stderr, but
     only with ``--verbose``.
@@ -68,8 +68,8 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 
 @contextmanager
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
-    """Return a context that shows the progress of work on several items. The context returns a function,
-    which the caller calls with the name of each finished item.
+    """Return a context manager that shows the progress of work on several items. The value after ``as`` is a
+    function that the caller calls with the name of each finished item.
 
     ``total`` is the number of items; if it is known, the remaining time is shown. On a terminal a progress
     bar is shown. If the output is not a terminal, each finished item is a line on stderr, but only with

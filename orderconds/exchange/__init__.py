@@ -5,7 +5,7 @@ Every format is translated to and from the keys of a tableau file
 files, and its text is never executed as code. Importing an exported method gives exactly the same method;
 rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other formats omit the
 proof (:func:`left_out`). A decimal from another program counts as a double if it has the digits of a double.
-Any other decimal counts as rounded (``~``) if it has at least 12 significant digits, and otherwise as exact.
+All other decimals count as rounded (``~``) if they have at least 12 significant digits, otherwise as exact.
 The floats of a NumPy archive are doubles.
 """
 

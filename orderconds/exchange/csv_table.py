@@ -1,9 +1,9 @@
 """CSV: each line consists of a name and an array, or of a name and one row of a matrix.
 
-A plain Butcher tableau can be read as well. Each of its lines contains c_i and a row of A. A line that begins
-with an empty cell contains b; a second such line contains the embedded weights. Blank cells elsewhere are
-zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are ignored
-(:mod:`orderconds.exchange.rows`).
+A plain Butcher tableau can be read as well. The line of stage i contains c_i and row i of A. A line that
+begins with an empty cell contains b. A second line of this form contains the embedded weights. Blank cells
+elsewhere are zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are
+ignored (:mod:`orderconds.exchange.rows`).
 
 Lines ``claims,rk=4`` or ``order,4`` state claims, also in a plain Butcher tableau. The line
 ``embedded_order,3`` states the order of an embedded method. Without this line the order is computed.

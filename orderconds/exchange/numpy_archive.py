@@ -135,7 +135,7 @@ def read(content: bytes, where: str) -> Data:
     entries: Arrays = {}
     for name, value in members.items():
         if not isinstance(value, np.ndarray):
-            raise TableauError(f"the member {name} is no array", where=where, expected="arrays")
+            raise TableauError(f"the member {name} is not an array", where=where, expected="arrays")
         if name.endswith(EXACT) and value.dtype.kind != "U":
             raise TableauError(f"the array {name} of type {value.dtype}", where=where, expected="texts")
     for name, value in members.items():

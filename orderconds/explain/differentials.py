@@ -27,7 +27,7 @@ def differential(tree: levels.Tree) -> str:
 def hamiltonian(tree: levels.Tree) -> str:
     r"""Return the elementary Hamiltonian of a free tree (HLW IX.9.2).
 
-    The free tree is given as a rooted tree. Any vertex may be the root. The choice of the root affects only
+    The free tree is given as a rooted tree. Every vertex may be the root. The choice of the root affects only
     the sign of the elementary Hamiltonian. ``f`` denotes the Hamiltonian vector field.
 
     >>> hamiltonian(b"\0\1\1")

@@ -33,8 +33,10 @@ if TYPE_CHECKING:
 
 
 class ActionFamily(Family):
-    """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact value, one for each g-valued action tree
-    t. The number ``tau_t(i)`` is the coefficient of t in the velocity of stage i.
+    """A family with one condition for each action tree t whose value is in the Lie algebra.
+
+    The condition is ``sum_i b_i tau_t(i)`` = exact value, where the number ``tau_t(i)`` is the coefficient of
+    t in the velocity of stage i.
 
     The conditions of order n belong to the trees with n vertices. Each vertex denotes one copy of the
     Hamiltonian H. The method ``conditions`` selects independent conditions: the conditions are evaluated for

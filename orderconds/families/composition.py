@@ -2,9 +2,9 @@
 
 The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k
 of the alphabet denotes X_k and has weight k. On letter k, the logarithm of Phi_{alpha h} has the value
-alpha^k, and the logarithm of the adjoint Phi*_{beta h} has the value -(-beta)^k. The exact flow has the value
-1/n! on the word of n letters 1, and zero on all other words (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans.
-R. Soc. A 357 (1999) 1079).
+alpha^k, and the logarithm of the adjoint Phi*_{beta h} has the value -(-beta)^k. On the word of n letters 1,
+the exact flow has the value 1/n!. On all other words, its value is zero (HLW III.3.1; Murua and Sanz-Serna,
+Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
