@@ -97,7 +97,7 @@ def HamiltonianScene(
 
 
 def _check_coordinates(name: str, coordinates: str) -> None:
-    """Raise SceneError unless the coordinate map is the exponential map."""
+    """Raise SceneError if the coordinate map is not the exponential map."""
     if coordinates != EXPONENTIAL:
         raise SceneError(
             f"coordinates={coordinates!r} on T*G",

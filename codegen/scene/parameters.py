@@ -54,8 +54,8 @@ def param(name: str, default: object) -> Parameter:
     """Return a sympy symbol for a parameter with a rational default.
 
     A float denotes the decimal number that Python prints for it: 0.1 is 1/10. Emitted code contains the
-    default as a constant, unless the parameter is requested as a run-time argument. :class:`SceneError` is
-    raised for a default that is not rational.
+    default as a constant. A parameter may also be requested as a run-time argument of emitted code.
+    :class:`SceneError` is raised for a default that is not rational.
     """
     value = exact(default)
     if value is None:

@@ -110,7 +110,10 @@ def _roots(
 
 
 def _check(problem: Problem, field: MatrixField) -> None:
-    """Raise :class:`SceneError` unless the initial matrix is orthonormal and V is tangent at two points."""
+    """Raise :class:`SceneError` if the initial matrix is not orthonormal or V is not tangent.
+
+    V is tested at two points.
+    """
     domain = FloatDomain(0.0)
     start = [float(value) for value in problem.initial(domain)]
     error = _largest(_gram(start, start, field.columns), unit=True)

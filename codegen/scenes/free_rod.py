@@ -58,7 +58,7 @@ momentum."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
-    """Return the scene of a rod, with gravity in the direction of -e1 unless ``gravity`` is None.
+    """Return the scene of a rod. If ``gravity`` is given, gravity acts in the direction of -e1.
 
     An end in ``ends`` is joined by a bond to the cross section that is given there; other ends are free.
     """

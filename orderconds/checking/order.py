@@ -174,8 +174,8 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest residual of each batch of conditions in which no condition fails; None unless the
-    coefficients are doubles."""
+    """The largest residual of each batch of conditions in which no condition fails. None if the coefficients
+    are not doubles."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool

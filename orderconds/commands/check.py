@@ -299,12 +299,12 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 
 
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
-    """Yield the files to check. An argument that is a directory yields the tableau files below it, sorted;
-    every other argument is yielded unchanged. If ``skip_others`` is true, files that are arguments may be
-    skipped, too.
+    """Yield the files to check. For a directory, the tableau files below the directory are yielded, sorted.
+    All other arguments are yielded unchanged.
 
-    The names of skipped files are written to stderr, with the reason. Files without a tableau are skipped; if
-    ``strict`` is true, such a file is not skipped if it resembles a tableau.
+    Files without a tableau below a directory are skipped. If ``skip_others`` is true, such files are also
+    skipped if they are arguments. If ``strict`` is true, a file that resembles a tableau is not skipped. The
+    names of skipped files are written to stderr, with the reason.
     """
     for argument in arguments:
         if not argument.strip():

@@ -170,8 +170,8 @@ def from_arrays(entries: Arrays, where: str) -> Data:
 
 
 def _verify_types(entries: Arrays, where: str) -> None:
-    """Raise an error unless each value is a text, a row of texts or a matrix of texts, as its name
-    requires."""
+    """Raise an error if a value does not have the type that its name requires: a text, a row of texts or a
+    matrix of texts."""
     for name, value in entries.items():
         depth = 0 if name in TEXTS else 2 if name in MATRICES else 1
         if not _has_depth(value, depth):

@@ -44,8 +44,8 @@ class Folder:
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
 
-    Some files resemble tableaux but cannot be read as tableaux. Such a file is skipped unless ``strict`` is
-    true.
+    Some files resemble tableaux but cannot be read as tableaux. If ``strict`` is false, such a file is
+    skipped.
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())

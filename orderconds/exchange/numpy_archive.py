@@ -176,7 +176,7 @@ def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndar
 
 
 def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> None:
-    """Raise an error unless the array ``name`` is a row or a matrix of integers or doubles."""
+    """Raise an error if the array ``name`` is not a row or a matrix of integers or doubles."""
     if axes not in (1, 2) and kind in "fiu":
         raise TableauError(f"the array {name} with {axes} axes", where=where, expected=EXPECTED)
     if kind == "c":

@@ -102,7 +102,7 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value) -> None:
-        """Assign a value to a name, unless the comments of the module define a number of this name."""
+        """Assign a value to a name. Numbers that the comments of the module define keep their values."""
         if name not in self.named:
             self.known[name] = value
 

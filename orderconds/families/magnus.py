@@ -67,7 +67,7 @@ class MagnusFamily(WordFamily):
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` unless the method uses :attr:`transform`, the map
+        """Raise :class:`~orderconds.errors.InputError` if the method does not use :attr:`transform`, the map
         of this family from the algebra to the group."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:

@@ -88,8 +88,8 @@ class PartitionedFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return the family whose conditions are indexed by free trees (HLW VI.7, Theorem 7.4). Return None
-        unless the pair is symplectic, b = bhat, and all weights are non-zero."""
+        """Return the family whose conditions are indexed by free trees (HLW VI.7, Theorem 7.4). The pair must
+        be symplectic with b = bhat and non-zero weights; otherwise return None."""
         if not isinstance(method, PartitionedRungeKutta):
             return None
         same = all(ring.is_zero(x - y) is True for x, y in zip(method.b, method.b_hat, strict=True))
