@@ -54,18 +54,14 @@ def HamiltonianScene(
     ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), and ``q0`` and ``mu0``
     their exact initial values. The equations are q' = xi.q and mu' = n - ad*_xi mu. The program computes
     xi = D_2 H and n = -(D_1 H).q^-1 by differentiation (:mod:`codegen.scene.canonical_equations`). If ``xi``
-    or ``n`` is given, it must equal the computed formulas.
+    or ``n`` is given, it must equal the computed formulas. ``parts`` are named summands of H, and must add up
+    to H. If the compiler does not recognise the exact flow of a part, ``flows`` may contain formulas for
+    (q, mu) after the time ``Symbol("tau")``.
 
-    ``parts`` are named summands of H, and must add up to H. If the compiler does not recognise the exact flow
-    of a part, ``flows`` may contain formulas for (q, mu) after the time ``Symbol("tau")``.
-
-    ``wrench`` is a force without potential: a column of ``group.dim`` components in the space frame. The
-    equation is then mu' = n + wrench - ad*_xi mu, so a given ``n`` does not contain the wrench. A scene with
-    a wrench has no energy, and must not have parts. If H does not depend on time and there is no wrench, the
-    energy is an invariant.
-
-    The only permitted value of ``coordinates`` is "exp". :class:`SceneError` is raised in the same cases as
-    by :func:`FieldScene`.
+    ``wrench`` is a force without potential: a column of ``group.dim`` components in the space frame. Then
+    mu' = n + wrench - ad*_xi mu. A scene with a wrench has no energy, and must not have parts. If H does not
+    depend on time and there is no wrench, the energy is an invariant. The only permitted value of
+    ``coordinates`` is "exp". :class:`SceneError` is raised in the same cases as by :func:`FieldScene`.
     """
     _check_coordinates(name, coordinates)
     reader = phase_space_reader(name, group, q, mu)

@@ -67,8 +67,7 @@ def HamiltonianSiteScene(
     ``q`` and ``mu`` are the coordinates of a site (``group.point``, ``group.dual``). ``H`` is the Hamiltonian
     of a site without the energies of its bonds, a formula in these coordinates, parameters and the time.
     ``bonds`` are the bonds of a site (:class:`Bond`); the program derives the forces on both sites of a bond.
-    ``q0`` and ``mu0`` are the initial state of every site. Emitted code also accepts an array of initial
-    states.
+    ``q0`` and ``mu0`` are the initial state of every site. Emitted code also accepts an array of states.
 
     The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the element q of a
     neighbour that does not exist: a column of ``group.size`` formulas in q, t and parameters, or a mapping

@@ -59,10 +59,8 @@ def SiteScene(
     that does not exist: a column of formulas in ``y``, t and parameters, or a mapping from each offset to
     such a column. Zeros describe a free end if the forces are linear in the neighbours. ``y`` itself
     describes a free end if the forces depend on differences. Constants describe a clamped end, and formulas
-    in t a driven end.
-
-    ``parts`` are summands of the field whose exact flows are composed by splittings. A part is a column of
-    formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for the interaction of two neighbours.
+    in t a driven end. ``parts`` are summands of the field whose exact flows are composed by splittings. A
+    part is a column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
 
     :class:`SceneError` is raised for the same errors as in a field scene. The error is also raised for
     offsets of different lengths, and for a missing formula of a neighbour outside an open boundary. Parts
