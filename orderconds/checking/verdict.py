@@ -46,8 +46,8 @@ def check(
     order in it. If ``order`` is given, the order must be at least this number, and claims are ignored. If
     ``complete`` is true, the check fails if the file claims no order in one of the claimable families. If
     ``certified`` is true, the check fails if an order is supported by digits but not proved. A tableau
-    without claims is checked in the family of the tableau's format, and the verdict is ``unclaimed``. If one
-    of the ``limits`` is reached, the order is a lower bound. ``tolerance``: :mod:`orderconds.tableau.doubles`.
+    without claims is checked in the family of its format; the verdict is ``unclaimed``. If one of the limits
+    is reached, the order is a lower bound. For ``tolerance`` see :mod:`orderconds.tableau.doubles`.
 
     Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
     formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
