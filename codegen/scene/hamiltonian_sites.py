@@ -83,7 +83,7 @@ def HamiltonianSiteScene(
     hamiltonian = reader.scalar(H, "H")
     summands = {key: reader.scalar(part, f"part {key}") for key, part in (parts or {}).items()}
     offsets = _offsets(name, bonds)
-    pull = _of_bonds(reader, group, q, bonds)
+    pull, energies = _of_bonds(reader, group, q, bonds, offsets)
     slopes = gradient(hamiltonian, (*qs, *mus))
     own = force(reader.space, group, qs, slopes[: len(qs)])
     total = tuple(a + b for a, b in zip(own, pull, strict=True))
@@ -100,7 +100,7 @@ def HamiltonianSiteScene(
         *(None, {}, read_span(name, span), reader.parameters()),
         paired=True,
         parts=summands,
-        sites=Sites(len(offsets[0]), offsets, symbols, ends, force=pull),
+        sites=Sites(len(offsets[0]), offsets, symbols, ends, (), pull, _sum(hamiltonian, energies), energies),
     )
     check_problem(with_frozen_neighbours(problem), {})
     _check_parts(problem, hamiltonian)
@@ -127,12 +127,19 @@ def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
 
 
 def _of_bonds(
-    reader: Reader, group: LieGroup, q: Sequence[sympy.Symbol], bonds: Sequence[Bond]
-) -> tuple[Expr, ...]:
-    """Return the components of the force that all bonds together exert on a site."""
+    reader: Reader,
+    group: LieGroup,
+    q: Sequence[sympy.Symbol],
+    bonds: Sequence[Bond],
+    offsets: Sequence[Offset],
+) -> tuple[tuple[Expr, ...], tuple[tuple[int, Expr], ...]]:
+    """Return the components of the force that all bonds together exert on a site, and the energies of these
+    bonds, each with the index of the offset of the other site. Each bond occurs twice, because the site is
+    first in one bond and second in another."""
     space = reader.space
     qs = tuple(reader.coordinates[: len(q)])
     total = (space.zero,) * group.dim
+    energies: list[tuple[int, Expr]] = []
     for number, bond in enumerate(bonds):
         there, back = (
             tuple(str(s.name) for s in neighbour(q, offset))
@@ -156,10 +163,19 @@ def _of_bonds(
         moved |= {s: space.sym(b) for s, b in zip(qs, back, strict=True)}
         moved |= {s: space.sym(a) for s, a in zip(there, qs, strict=True)}
         second = evaluate(gradient(V, there), ExprDomain(space), moved)
+        offset = tuple(int(x) for x in bond.offset)
+        (last,) = evaluate([V], ExprDomain(space), moved)
+        back_offset = tuple(-x for x in offset)
+        energies += [(offsets.index(offset), V), (offsets.index(back_offset), last)]
         for slope in (first, second):
             pairs = zip(total, force(space, group, qs, slope), strict=True)
             total = tuple(a + b for a, b in pairs)
-    return total
+    return total, tuple(energies)
+
+
+def _sum(hamiltonian: Expr, energies: Sequence[tuple[int, Expr]]) -> Expr:
+    """Return the sum of all energies that contain the state of a site."""
+    return sum((V for _, V in energies), hamiltonian)
 
 
 def _with_momenta(

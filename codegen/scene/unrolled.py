@@ -24,7 +24,8 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
     """Return a lattice of the given shape as a field on the product of the groups of its sites.
 
     The coordinates of site 0 come first; the last index of a site changes fastest. Every site has the initial
-    state of the scene. A Hamiltonian scene becomes a field on the product of the groups T*G of its sites.
+    state of the scene. A Hamiltonian scene becomes a field on the product of the groups T*G of its sites, and
+    its total energy is the Hamiltonian of the result.
     :class:`SceneError` is raised for a scene without sites, for a shape whose length is not the dimension of
     the lattice, and for too few or too many sites.
     """
@@ -45,10 +46,13 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
     coordinates = [tuple(map(space.sym, names)) for names in symbols]
     shared = {name: space.sym(name) for name in (TIME, *scene.parameters)}
     roots: list[Expr] = []
+    energy: Expr | None = None
     for place, index in enumerate(product(*map(range, shape))):
         values = shared | dict(zip(scene.symbols, coordinates[place], strict=True))
+        exists: list[bool] = []
         for k, offset in enumerate(sites.offsets):
             there = neighbour_place(sites, index, offset, shape)
+            exists.append(there is not None)
             state = (
                 tuple(evaluate(list(sites.outside[k]), domain, values))
                 if there is None
@@ -56,6 +60,9 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
             )
             values |= dict(zip(sites.symbols[k], state, strict=True))
         roots += evaluate(list(scene.roots), domain, values)
+        if sites.energy is not None:
+            (own,) = evaluate([sites.share(exists)], domain, values)
+            energy = own if energy is None else energy + own
     first = tuple(e for block in scene.state for e in block.initial)
     flat = tuple(s for names in symbols for s in names)
     state = (replace(scene.state[0], symbols=flat, initial=first * number),)
@@ -66,7 +73,9 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
         action=FactorwiseAction(*[scene.action] * number),
         state=state,
         roots=tuple(roots),
+        hamiltonian=energy,
         invariants={},
+        parts={},
         sites=None,
     )
 

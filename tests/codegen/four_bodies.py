@@ -60,10 +60,17 @@ def plane_states():
 
 @cache
 def turning_bodies():
-    """Return a chain of asymmetric rigid bodies with fixed points; one end is clamped, the other end is
-    free."""
+    """Return a chain of asymmetric rigid bodies with fixed points. One end is clamped. The state outside the
+    other end follows the last site, and exerts a force that has no energy."""
     q = SO3().point("q")
     return spinning(boundary="open", outside={(-1,): CLAMP, (1,): q * CLAMP}, name="turning_bodies")
+
+
+@cache
+def clamped_bodies():
+    """Return the same chain with clamps at both ends."""
+    ends = {(-1,): CLAMP, (1,): [1, 0, 0, 0, 0, -1, 0, 1, 0]}
+    return spinning(boundary="open", outside=ends, name="clamped_bodies")
 
 
 def frames():

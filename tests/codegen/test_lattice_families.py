@@ -26,6 +26,7 @@ from codegen.lower import lower, method_for, problem_for
 from codegen.scene.problem import Problem
 from codegen.scene.unrolled import unrolled
 from tests.codegen.four_bodies import (
+    clamped_bodies,
     frames,
     plane_states,
     pushed_spins,
@@ -52,16 +53,28 @@ CASES = {
         Case("rk:kutta3", 3, quartic_springs, plane_states),
         Case("rk:gauss2", 4, quartic_springs, plane_states),
     ),
-    "rkmk": (Case("rkmk:rk4", 4, pushed_spins, unit_spins), Case("rkmk:gauss1", 2, turning_bodies, frames)),
+    "rkmk": (
+        Case("rkmk:rk4", 4, pushed_spins, unit_spins),
+        Case("rkmk:gauss1", 2, turning_bodies, frames),
+    ),
     "cg": (Case("cg:cg3", 3, pushed_spins, unit_spins),),
-    "cf": (Case("cf:cf4", 4, pushed_spins, unit_spins), Case("cf:cf3", 3, turning_bodies, frames)),
+    "cf": (
+        Case("cf:cf4", 4, pushed_spins, unit_spins),
+        Case("cf:cf3", 3, turning_bodies, frames),
+    ),
     "ambient": (Case("ambient:kutta3", 3, pushed_spins, unit_spins),),
     "taylor": (
         Case("taylor(3)", 3, pushed_spins, unit_spins),
         Case("taylor(2)", 2, turning_bodies, frames),
         Case("taylor(5)", 5, quartic_springs, plane_states),
     ),
+    "discrete_gradient": (
+        Case("discrete_gradient:midpoint", 2, quartic_springs, plane_states),
+        Case("discrete_gradient:euler", 1, clamped_bodies, frames),
+        Case("discrete_gradient:gauss2", 2, clamped_bodies, frames),
+    ),
 }
+"""The cases by the name of the family. Tests in C of the first case are in every run of the tests."""
 
 ALL = [
     pytest.param(case, id=case.method, marks=() if case is cases[0] else pytest.mark.slow)
