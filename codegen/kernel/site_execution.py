@@ -154,12 +154,27 @@ class Execution:
         return Sweep(content.about, kernel, loads, stores, outside, OWN, *own)
 
     def _scheduled(self, ends: list[Expr]) -> Kernel:
-        schedule = Assignments((), ends, self.hints, self._fresh)
-        body = tuple(_lets(schedule.run()))
-        symbols = tuple(self.loads)
-        scalars = (TIME, "h", *self.problem.runtime)
-        state = (StateBlock("site", symbols, "the numbers that the sweep reads"),)
-        return Kernel(self.name, state, scalars, body, schedule.outputs)
+        return kernel_of_sweep(self.name, self.problem, tuple(self.loads), ends, self.hints, self.taken)
+
+
+def kernel_of_sweep(
+    name: str,
+    problem: Problem,
+    symbols: tuple[str, ...],
+    ends: list[Expr],
+    hints: dict[int, str],
+    taken: set[str],
+) -> Kernel:
+    """Return the kernel that computes expressions from the numbers ``symbols`` that a sweep reads.
+
+    ``hints`` are names for the values of expressions, and ``taken`` are the names that are used already; the
+    names of new values are added to them.
+    """
+    schedule = Assignments((), ends, hints, lambda base: unique_name(base, taken))
+    body = tuple(_lets(schedule.run()))
+    scalars = (TIME, "h", *problem.runtime)
+    state = (StateBlock("site", symbols, "the numbers that the sweep reads"),)
+    return Kernel(name, state, scalars, body, schedule.outputs)
 
 
 def _lets(body: Iterable[object]) -> Iterator[Let]:

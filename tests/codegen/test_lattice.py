@@ -374,8 +374,6 @@ def test_impossible_offsets_are_refused(offset):
 
 
 def test_other_methods_and_targets_are_refused():
-    with pytest.raises(MethodError, match="the operation taylor_polynomial of"):
-        emit(chain(), "taylor(3)", target="c")
     with pytest.raises(MethodError, match="an error estimate is not available on a chain or lattice"):
         emit(chain(), "cf:cf43", target="c", adaptive=True)
     with pytest.raises(InputError, match="python has no code for chains and lattices"):

@@ -1,0 +1,76 @@
+"""Chains with polynomial equations, and rational states of four sites that are all different."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+
+from sympy import Matrix, Rational, Symbol, eye
+
+from codegen.groups import SO3, Rn
+from codegen.scene import Bond, HamiltonianSiteScene, neighbour
+from tests.codegen.bodies import CLAMP, spinning
+from tests.codegen.chains import S, spins
+
+F = Fraction
+T = Symbol("t")
+
+
+@cache
+def pushed_spins():
+    """Return an open chain of damped spins with a driven end, in a field that depends on time."""
+    ends = {(-1,): [T, T**2, Rational(1, 2)], (1,): [S[1], 0, S[0]]}
+    return spins([(1,), (-1,)], "pushed_spins", Matrix([T, 0, 0]), boundary="open", outside=ends)
+
+
+def unit_spins():
+    """Return four points of the unit sphere."""
+    pairs = [(F(1, 2), F(1, 3)), (F(-1, 4), F(2, 3)), (F(3, 2), F(1, 5)), (F(-2, 3), F(-1, 2))]
+    return [[2 * a / (1 + r), 2 * b / (1 + r), (r - 1) / (1 + r)] for a, b in pairs for r in [a * a + b * b]]
+
+
+@cache
+def quartic_springs():
+    """Return an open chain of particles on a line, coupled by springs with cubic forces; one end is
+    clamped."""
+    G = Rn(1)
+    (x,), (p,) = G.point("x"), G.dual("p")
+    kinetic, well = p**2 / 2, x**4 / 4 + x**3 / 3
+    (y,) = neighbour([x], (1,))
+    return HamiltonianSiteScene(
+        group=G,
+        q=[x],
+        mu=[p],
+        H=kinetic + well,
+        parts={"kinetic": kinetic, "well": well},
+        bonds=[Bond((1,), (y - x) ** 2 / 2 + (y - x) ** 4 / 4)],
+        q0=[0],
+        mu0=[Rational(1, 2)],
+        span=(0, 1),
+        boundary="open",
+        outside={(-1,): [Rational(1, 3)], (1,): [x]},
+        name="quartic_springs",
+    )
+
+
+def plane_states():
+    """Return positions and momenta of four particles."""
+    return [[F(1, 2), F(-1, 3)], [F(-1, 4), F(1)], [F(2, 3), F(1, 5)], [F(-1), F(-1, 2)]]
+
+
+@cache
+def turning_bodies():
+    """Return a chain of asymmetric rigid bodies with fixed points; one end is clamped, the other end is
+    free."""
+    q = SO3().point("q")
+    return spinning(boundary="open", outside={(-1,): CLAMP, (1,): q * CLAMP}, name="turning_bodies")
+
+
+def frames():
+    """Return four rotations, each with a momentum."""
+    listed = []
+    for a, b, c in ((1, 2, 0), (0, -1, 3), (2, 1, 1), (-1, 1, 2)):
+        x = Matrix([[0, -c, b], [c, 0, -a], [-b, a, 0]]) / 6
+        R = (eye(3) - x).inv() * (eye(3) + x)
+        listed.append([F(int(e.p), int(e.q)) for e in R] + [F(a, 3), F(b, 4), F(c, 5)])
+    return listed
