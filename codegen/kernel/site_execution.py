@@ -152,16 +152,18 @@ class Execution:
                 ghosts = evaluate(list(self.sites.outside[offset]), self.domain, values)
             for k, place in enumerate(blocks_of(self.problem)):
                 if k in self.coupled:
-                    loaded = self._neighbour(variables[k], offset)
+                    loaded = self._neighbour(variables[k], offset, ghosts[place])
                     symbols = self.sites.symbols[offset][place]
                     values |= dict(zip(symbols, map(self.domain.space.sym, loaded), strict=True))
                     self.ghosts |= dict(zip(loaded, ghosts[place], strict=False))
         return values
 
-    def _neighbour(self, var: Var, offset: int) -> list[str]:
-        """Return the symbols of a variable at a neighbour, and record their loads."""
+    def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
+        """Return the symbols of a variable at a neighbour, and record their loads. ``ghosts`` replace the
+        variable outside the lattice; if they depend on time, they differ between evaluations at one point."""
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
-        if var not in self.given:
+        pairs = zip(loaded, ghosts, strict=False)
+        if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
         return loaded

@@ -5,10 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import cache
 
-from sympy import Matrix, Rational, Symbol, eye
+from sympy import Matrix, Rational, Symbol, eye, symbols
 
-from codegen.groups import SO3, Rn
-from codegen.scene import Bond, HamiltonianSiteScene, neighbour
+from codegen.groups import SO3, FactorwiseAction, LeftMultiplication, Product, Rn, Rotation
+from codegen.scene import Bond, HamiltonianSiteScene, SiteScene, left, neighbour, right
 from tests.codegen.bodies import CLAMP, spinning
 from tests.codegen.chains import S, spins
 
@@ -51,6 +51,31 @@ def quartic_springs():
         outside={(-1,): [Rational(1, 3)], (1,): [x]},
         name="quartic_springs",
     )
+
+
+@cache
+def driven_qubits():
+    """Return an open chain of spins in a field that depends on the time, on a static detuning of the spin,
+    and on those of its neighbours."""
+    y = Matrix(symbols("S0:3 w", real=True))
+    w, near, far = y[3], left(y)[3], right(y)[3]
+    f = [w + T * near, T**2 - far * T, 1 + T * w * near + far / 2, 0]
+    return SiteScene(
+        group=Product(SO3(), Rn(1)),
+        action=FactorwiseAction(Rotation(), LeftMultiplication()),
+        y=y,
+        f=f,
+        y0=[1, 0, 0, 1],
+        span=(0, 1),
+        boundary="open",
+        outside={(-1,): [0, 0, 0, T], (1,): [0, 0, 0, w / 2]},
+        name="driven_qubits",
+    )
+
+
+def detuned_spins():
+    """Return four points of the unit sphere, each with a detuning."""
+    return [[*x, w] for x, w in zip(unit_spins(), (F(1), F(-1, 2), F(2), F(1, 3)), strict=True)]
 
 
 def plane_states():
