@@ -29,28 +29,39 @@ def unit_spins():
     return [[2 * a / (1 + r), 2 * b / (1 + r), (r - 1) / (1 + r)] for a, b in pairs for r in [a * a + b * b]]
 
 
-@cache
-def quartic_springs():
+def springs_with(name, kinetic):
     """Return an open chain of particles on a line, coupled by springs with cubic forces; one end is
-    clamped."""
+    clamped. ``kinetic`` is the kinetic energy as a function of the momentum."""
     G = Rn(1)
     (x,), (p,) = G.point("x"), G.dual("p")
-    kinetic, well = p**2 / 2, x**4 / 4 + x**3 / 3
+    well = x**4 / 4 + x**3 / 3
     (y,) = neighbour([x], (1,))
     return HamiltonianSiteScene(
         group=G,
         q=[x],
         mu=[p],
-        H=kinetic + well,
-        parts={"kinetic": kinetic, "well": well},
+        H=kinetic(p) + well,
+        parts={"kinetic": kinetic(p), "well": well},
         bonds=[Bond((1,), (y - x) ** 2 / 2 + (y - x) ** 4 / 4)],
         q0=[0],
         mu0=[Rational(1, 2)],
         span=(0, 1),
         boundary="open",
         outside={(-1,): [Rational(1, 3)], (1,): [x]},
-        name="quartic_springs",
+        name=name,
     )
+
+
+@cache
+def quartic_springs():
+    """Return the chain with the kinetic energy p^2/2."""
+    return springs_with("quartic_springs", lambda p: p**2 / 2)
+
+
+@cache
+def fast_springs():
+    """Return the chain with a kinetic energy that is not quadratic."""
+    return springs_with("fast_springs", lambda p: p**2 / 2 + p**4 / 4)
 
 
 @cache
@@ -76,6 +87,25 @@ def driven_qubits():
 def detuned_spins():
     """Return four points of the unit sphere, each with a detuning."""
     return [[*x, w] for x, w in zip(unit_spins(), (F(1), F(-1, 2), F(2), F(1, 3)), strict=True)]
+
+
+@cache
+def bent_springs():
+    """Return a periodic chain of particles whose mass depends on the position."""
+    G = Rn(1)
+    (x,), (p,) = G.point("x"), G.dual("p")
+    (y,) = neighbour([x], (1,))
+    return HamiltonianSiteScene(
+        group=G,
+        q=[x],
+        mu=[p],
+        H=p**2 * (1 + x**2) / 2 + x * p**3 / 5,
+        bonds=[Bond((1,), (y - x) ** 2 / 2 + y**2 * x / 3)],
+        q0=[0],
+        mu0=[Rational(1, 2)],
+        span=(0, 1),
+        name="bent_springs",
+    )
 
 
 def plane_states():
