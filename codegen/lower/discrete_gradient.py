@@ -31,8 +31,7 @@ from codegen.method import Method
 from codegen.scene.energy import ENERGY, bivector, differential, energy_of
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem
-from codegen.scene.sites import Sites
-from codegen.scene.unrolled import unrolled
+from codegen.scene.unrolled import small
 
 HALF = Number.rational(1, 2)
 
@@ -46,6 +45,8 @@ class DiscreteGradient(FieldLowering):
         """Return an objection if the scene depends on time or has no energy that its field preserves.
         Otherwise the family accepts the scene, and the result is None."""
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
+        if scene.sites is not None and not scene.sites.force:
+            expected = "a lattice without time, with the arguments energy and bonds"
         # If H depends on time, the exact solution does not preserve H, so a method that preserves H would not
         # converge to it.
         if not scene.autonomous:
@@ -59,17 +60,18 @@ class DiscreteGradient(FieldLowering):
         vanishes at a point where the field does not vanish. It is also raised for a lattice whose forces at
         an open boundary are not the derivatives of its energy.
         """
-        if not _agrees(problem):
+        # A site of a lattice exchanges energy with its neighbours, so the whole lattice is tested.
+        if not _agrees(problem if problem.sites is None else small(problem)):
+            if problem.sites is not None and problem.sites.outside:
+                raise MethodError(
+                    f"{method.label} cannot be used on {problem.name}: the force of a neighbour outside the "
+                    "open boundary is not the derivative of its energy",
+                    expected="states outside that are constant, or that exert no force",
+                )
             raise MethodError(
                 f"{method.label} cannot be used on {problem.name}: the differential of the energy is zero at "
                 "a point where the field f is not zero",
                 expected="an energy whose differential along the group vanishes only where f vanishes",
-            )
-        if problem.sites is not None and not _agrees(_small(problem, problem.sites)):
-            raise MethodError(
-                f"{method.label} cannot be used on {problem.name}: the force of a neighbour outside the open "
-                "boundary is not the derivative of its energy",
-                expected="states outside that are constant, or that exert no force",
             )
         return _program(problem, method)
 
@@ -117,12 +119,6 @@ def _program(scene: Problem, method: Method) -> Program:
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
-
-
-def _small(problem: Problem, sites: Sites) -> Problem:
-    """Return a lattice with few sites, at least one of which has all neighbours."""
-    far = [max(abs(offset[e]) for offset in sites.offsets) for e in range(sites.dimension)]
-    return unrolled(problem, [2 * d + 1 for d in far])
 
 
 def _agrees(scene: Problem) -> bool:

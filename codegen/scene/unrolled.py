@@ -12,6 +12,7 @@ from codegen.groups.actions import FactorwiseAction
 from codegen.groups.product import Product
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space, evaluate
+from codegen.scene.energy import ENERGY
 from codegen.scene.problem import TIME, Problem, StateField
 from codegen.scene.sites import Offset, Sites
 
@@ -25,7 +26,7 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 
     The coordinates of site 0 come first; the last index of a site changes fastest. Every site has the initial
     state of the scene. A Hamiltonian scene becomes a field on the product of the groups T*G of its sites, and
-    its total energy is the Hamiltonian of the result.
+    its total energy is the Hamiltonian of the result. In other scenes the total energy is an invariant.
     :class:`SceneError` is raised for a scene without sites, for a shape whose length is not the dimension of
     the lattice, and for too few or too many sites.
     """
@@ -73,11 +74,23 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
         action=FactorwiseAction(*[scene.action] * number),
         state=state,
         roots=tuple(roots),
-        hamiltonian=energy,
-        invariants={},
+        hamiltonian=energy if sites.force else None,
+        invariants={} if energy is None or sites.force else {ENERGY: energy},
         parts={},
         sites=None,
     )
+
+
+def small(scene: Problem) -> Problem:
+    """Return an unrolled lattice with few sites. In a periodic lattice, every site has all neighbours.
+
+    An open lattice has a site with all neighbours if it then has at most :data:`MOST_SITES` sites.
+    """
+    assert scene.sites is not None
+    offsets, dimension = scene.sites.offsets, scene.sites.dimension
+    far = [max(abs(offset[e]) for offset in offsets) for e in range(dimension)]
+    shape = [(d if scene.sites.periodic else 2 * d) + 1 for d in far]
+    return unrolled(scene, shape if prod(shape) <= MOST_SITES else [d + 1 for d in far])
 
 
 def neighbour_place(sites: Sites, index: Sequence[int], offset: Offset, shape: Sequence[int]) -> int | None:

@@ -23,6 +23,25 @@ def pushed_spins():
     return spins([(1,), (-1,)], "pushed_spins", Matrix([T, 0, 0]), boundary="open", outside=ends)
 
 
+def conservative_spins(**options):
+    """Return an open chain of spins without damping; the total energy is constant."""
+    H = left(S) + right(S) + Matrix([S[0] ** 2, 0, S[2] / 2 + Rational(1, 5)])
+    given = {
+        "group": SO3(),
+        "action": Rotation(),
+        "y": S,
+        "f": H,
+        "y0": [Rational(3, 5), 0, Rational(4, 5)],
+        "span": (0, 1),
+        "energy": -(S[0] ** 3) / 3 - S[2] ** 2 / 4 - S[2] / 5,
+        "bonds": (Bond((1,), -S.dot(right(S))),),
+        "boundary": "open",
+        "outside": (1, 0, Rational(1, 2)),
+        "name": "conservative_spins",
+    }
+    return SiteScene(**(given | options))
+
+
 def unit_spins():
     """Return four points of the unit sphere."""
     pairs = [(F(1, 2), F(1, 3)), (F(-1, 4), F(2, 3)), (F(3, 2), F(1, 5)), (F(-2, 3), F(-1, 2))]

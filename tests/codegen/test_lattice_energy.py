@@ -8,13 +8,23 @@ import pytest
 from codegen import emit, load_lattice
 from codegen.arrival import Status
 from codegen.emitter import compile_method
-from codegen.errors import MethodError
+from codegen.errors import MethodError, SceneError
 from codegen.ir.domain import FloatDomain
 from codegen.ir.expr import evaluate
+from codegen.scene import Bond, neighbour
+from codegen.scene.energy import energy_of
 from codegen.scene.unrolled import unrolled
+from codegen.scenes import load as gallery
 from tests.codegen.bodies import open_bodies, sheet, string
-from tests.codegen.chains import chain
-from tests.codegen.four_bodies import clamped_bodies, frames, plane_states, quartic_springs
+from tests.codegen.chains import S, chain
+from tests.codegen.four_bodies import (
+    clamped_bodies,
+    conservative_spins,
+    frames,
+    plane_states,
+    quartic_springs,
+    unit_spins,
+)
 
 METHOD = "discrete_gradient:midpoint"
 
@@ -22,7 +32,7 @@ METHOD = "discrete_gradient:midpoint"
 def total_energy(scene, states):
     """Return the energy of the unrolled lattice."""
     whole, domain = unrolled(scene, states.shape[:-1]), FloatDomain(0.0)
-    return evaluate([whole.hamiltonian], domain, whole.values(domain, states.ravel().tolist()))[0]
+    return evaluate([energy_of(whole)], domain, whole.values(domain, states.ravel().tolist()))[0]
 
 
 @pytest.mark.parametrize(
@@ -31,6 +41,8 @@ def total_energy(scene, states):
         (quartic_springs, plane_states, (4,)),
         pytest.param(quartic_springs, plane_states, (1,), marks=pytest.mark.slow),
         pytest.param(clamped_bodies, frames, (4,), marks=pytest.mark.slow),
+        (conservative_spins, unit_spins, (4,)),
+        (lambda: gallery("spin_lattice"), unit_spins, (2, 2)),
         pytest.param(sheet, frames, (2, 2), marks=pytest.mark.slow),
     ],
 )
@@ -86,6 +98,22 @@ def test_an_error_at_one_site_is_seen_in_the_sums():
 def test_lattices_without_a_discrete_gradient_are_refused(scene, options, message):
     with pytest.raises(MethodError, match=message):
         emit(scene(), METHOD, target="c", **options)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"energy": S[0]}, "the total energy of 3 sites has the derivative"),
+        ({"bonds": (Bond((1,), -2 * S.dot(neighbour(S, (1,)))),)}, "has the derivative"),
+        # The state outside follows the site, and its force is not the derivative of an energy.
+        ({"outside": (S[1], S[0], 1)}, "expected an energy that is constant"),
+        ({"bonds": (Bond((2,), -S.dot(neighbour(S, (2,)))),)}, r"a bond with the offset \(2,\)"),
+        ({"bonds": (Bond((1,), S[0]),)}, "no coordinate of one of its two sites"),
+    ],
+)
+def test_energies_that_are_not_constant_are_refused(options, message):
+    with pytest.raises(SceneError, match=message):
+        conservative_spins(**options)
 
 
 def test_the_sums_of_a_step_are_explained():

@@ -44,6 +44,7 @@ from tests.codegen.chains import linear_group_chain
 from tests.codegen.four_bodies import (
     bent_springs,
     clamped_bodies,
+    conservative_spins,
     detuned_spins,
     driven_qubits,
     fast_springs,
@@ -94,6 +95,7 @@ CASES = {
     ),
     "discrete_gradient": (
         Case("discrete_gradient:midpoint", 2, quartic_springs, plane_states),
+        Case("discrete_gradient:gauss2", 2, conservative_spins, unit_spins),
         Case("discrete_gradient:euler", 1, clamped_bodies, frames),
         Case("discrete_gradient:gauss2", 2, clamped_bodies, frames),
     ),
