@@ -32,9 +32,7 @@ from codegen.scene.site_scene import with_frozen_neighbours
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method whose step cannot be computed by sweeps over sites."""
-    hint = "use a method of the family rkmk, cf, cg, rk, ambient or taylor, for example cf:cf4; "
-    hint += "a splitting if the scene has parts; "
-    hint += "or a method of the family vcg, vcf, vrkmk or slgi on a HamiltonianSiteScene"
+    hint = "use a method of another family, for example cf:cf4 or splitting:strang"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 

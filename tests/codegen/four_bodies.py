@@ -8,7 +8,7 @@ from functools import cache
 from sympy import Matrix, Rational, Symbol, eye, symbols
 
 from codegen.groups import SO3, FactorwiseAction, LeftMultiplication, Product, Rn, Rotation
-from codegen.scene import Bond, HamiltonianSiteScene, SiteScene, left, neighbour, right
+from codegen.scene import Bond, HamiltonianSiteScene, Pair, SiteScene, left, neighbour, right
 from tests.codegen.bodies import CLAMP, spinning
 from tests.codegen.chains import S, spins
 
@@ -40,6 +40,22 @@ def conservative_spins(**options):
         "name": "conservative_spins",
     }
     return SiteScene(**(given | options))
+
+
+@cache
+def paired_spins():
+    """Return a periodic chain of spins whose bonds and fields have exact flows."""
+    single, sum_of_pair = Matrix([0, 0, S[2] / 2 + Rational(1, 5)]), S + right(S)
+    return SiteScene(
+        group=SO3(),
+        action=Rotation(),
+        y=S,
+        f=left(S) + right(S) + single,
+        y0=[Rational(3, 5), 0, Rational(4, 5)],
+        span=(0, 1),
+        parts={"bonds": Pair((1,), sum_of_pair, sum_of_pair), "single": single},
+        name="paired_spins",
+    )
 
 
 def unit_spins():

@@ -373,6 +373,13 @@ def test_impossible_offsets_are_refused(offset):
         neighbour(S, offset)
 
 
+def test_an_operation_without_code_for_lattices_is_refused(monkeypatch):
+    # The operations of built-in families have such code. Here one of them is treated as unknown.
+    monkeypatch.setattr("codegen.kernel.site_kernel.EVALUATED", ())
+    with pytest.raises(MethodError, match="the operation field of cf:cf3 has no code for lattices"):
+        emit(chain(), "cf:cf3", target="c")
+
+
 def test_other_methods_and_targets_are_refused():
     with pytest.raises(MethodError, match="an error estimate is not available on a chain or lattice"):
         emit(chain(), "cf:cf43", target="c", adaptive=True)

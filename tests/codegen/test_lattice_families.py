@@ -9,7 +9,7 @@ sites then makes the steps of this program up to rounding errors, so it has the 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -22,15 +22,16 @@ from codegen import emit, load_lattice
 from codegen.certify import certified_order
 from codegen.errors import MethodError
 from codegen.flows.recognise import recognise
+from codegen.flows.site_flow import SiteFlow
 from codegen.groups import LeftMultiplication, Product, Rn
-from codegen.ir.domain import ExprDomain, FloatDomain
+from codegen.ir.domain import ExprDomain, FloatDomain, SeriesDomain
 from codegen.ir.expr import evaluate
 from codegen.ir.interpret import interpret
 from codegen.ir.number import Number
 from codegen.ir.program import Builder, Program
 from codegen.ir.values import Coefficient, Kind, Var
 from codegen.ir.verify import verify
-from codegen.lab.orders.local_error import local_error
+from codegen.lab.orders.local_error import exact_flow, local_error
 from codegen.lower import lower, lowering, method_for, names, problem_for
 from codegen.lower.flow_words import FlowLowering
 from codegen.lower.linear import LinearLowering
@@ -39,135 +40,44 @@ from codegen.method import Method
 from codegen.scene import SiteScene, left
 from codegen.scene.problem import Problem, StateField
 from codegen.scene.static_coordinates import reads_only_static
-from codegen.scene.unrolled import unrolled
+from codegen.scene.unrolled import neighbour_place, unrolled
 from tests.codegen.chains import linear_group_chain
-from tests.codegen.four_bodies import (
-    bent_springs,
-    clamped_bodies,
-    conservative_spins,
-    detuned_spins,
-    driven_qubits,
-    fast_springs,
-    frames,
-    plane_states,
-    pushed_spins,
-    quartic_springs,
-    turning_bodies,
-    unit_spins,
-)
+from tests.codegen.family_cases import LATTICE_CASES, LatticeCase
+from tests.codegen.four_bodies import clamped_bodies, fast_springs, plane_states, pushed_spins, turning_bodies
 
 NUMBER, TIME, STEP = 4, Fraction(1, 3), Fraction(1, 16)
 
 
-@dataclass(frozen=True)
-class Case:
-    """A method, its order, a chain, and rational states of four sites."""
-
-    method: str
-    order: int
-    chain: Callable[[], Problem]
-    states: Callable[[], list[list[Fraction]]]
-
-    @property
-    def family(self) -> str:
-        return method_for(self.chain(), self.method).family
-
-
-CASES = {
-    "rk": (
-        Case("rk:kutta3", 3, quartic_springs, plane_states),
-        Case("rk:gauss2", 4, quartic_springs, plane_states),
-    ),
-    "rkmk": (
-        Case("rkmk:rk4", 4, pushed_spins, unit_spins),
-        Case("rkmk:gauss1", 2, turning_bodies, frames),
-    ),
-    "cg": (Case("cg:cg3", 3, pushed_spins, unit_spins),),
-    "cf": (
-        Case("cf:cf4", 4, pushed_spins, unit_spins),
-        Case("cf:cf3", 3, turning_bodies, frames),
-    ),
-    "ambient": (Case("ambient:kutta3", 3, pushed_spins, unit_spins),),
-    "taylor": (
-        Case("taylor(3)", 3, pushed_spins, unit_spins),
-        Case("taylor(2)", 2, turning_bodies, frames),
-        Case("taylor(5)", 5, quartic_springs, plane_states),
-    ),
-    "discrete_gradient": (
-        Case("discrete_gradient:midpoint", 2, quartic_springs, plane_states),
-        Case("discrete_gradient:gauss2", 2, conservative_spins, unit_spins),
-        Case("discrete_gradient:euler", 1, clamped_bodies, frames),
-        Case("discrete_gradient:gauss2", 2, clamped_bodies, frames),
-    ),
-    "vcg": (
-        Case("vcg:midpoint", 2, turning_bodies, frames),
-        Case("vcg:triple_jump", 4, quartic_springs, plane_states),
-    ),
-    "vrkmk": (Case("vrkmk(1):kutta3", 3, clamped_bodies, frames),),
-    "vcf": (
-        Case("vcf:midpoint", 2, clamped_bodies, frames),
-        Case("vcf:cf4", 4, quartic_springs, plane_states),
-    ),
-    "vrkmk_pade": (Case("vrkmk_pade(1):kutta3", 3, clamped_bodies, frames),),
-    "slgi": (
-        Case("slgi:euler", 1, turning_bodies, frames),
-        Case("slgi:gauss2", 2, clamped_bodies, frames),
-    ),
-    "prk": (
-        Case("prk:stormer_verlet", 2, quartic_springs, plane_states),
-        Case("prk:ruth3_pair", 3, quartic_springs, plane_states),
-        Case("prk:lobatto3ab3", 4, quartic_springs, plane_states),
-        Case("prk:lobatto3ab3", 4, bent_springs, plane_states),
-    ),
-    "splitting": (
-        Case("splitting:strang", 2, quartic_springs, plane_states),
-        Case("splitting:forest_ruth4", 4, quartic_springs, plane_states),
-        Case("splitting:ruth3", 3, quartic_springs, plane_states),
-        Case("splitting:mclachlan_atela4", 4, quartic_springs, plane_states),
-        Case("splitting:blanes_moan_rkn6a", 6, quartic_springs, plane_states),
-    ),
-    "composition": (
-        Case("composition:triple_jump", 4, quartic_springs, plane_states),
-        Case("composition:mclachlan4", 4, quartic_springs, plane_states),
-    ),
-    "magnus": (
-        Case("magnus:magnus4", 4, driven_qubits, detuned_spins),
-        Case("magnus:magnus6", 6, driven_qubits, detuned_spins),
-    ),
-    "cf_magnus": (Case("cf_magnus:cf_magnus4", 4, driven_qubits, detuned_spins),),
-    "fer": (Case("fer:fer4", 4, driven_qubits, detuned_spins),),
-    "cayley": (Case("cayley:cayley4", 4, driven_qubits, detuned_spins),),
-}
-"""The cases by the name of the family. Tests in C of the first case are in every run of the tests."""
-
-
 def test_every_family_is_in_the_table():
-    assert sorted(CASES) == sorted(names())
-    assert all(case.method.startswith(family) for family, cases in CASES.items() for case in cases)
+    assert sorted(LATTICE_CASES) == sorted(names())
+    assert all(case.method.startswith(family) for family, cases in LATTICE_CASES.items() for case in cases)
 
 
-FIRST = [cases[0] for cases in CASES.values()]
+FIRST = [cases[0] for cases in LATTICE_CASES.values()]
 BODIES = (turning_bodies, clamped_bodies)
 
 
-def marked(quick: Callable[[Case], bool]) -> list[Any]:
+def marked(quick: Callable[[LatticeCase], bool]) -> list[Any]:
     """Return all cases as parameters of a test; the cases that are not quick are slow."""
-    listed = [case for cases in CASES.values() for case in cases]
+    listed = [case for cases in LATTICE_CASES.values() for case in cases]
     slow = pytest.mark.slow
     return [pytest.param(c, id=c.method, marks=() if quick(c) else slow) for c in listed]
 
 
+def family_of(case: LatticeCase) -> str:
+    return method_for(case.chain(), case.method).family
+
+
 @cache
-def product(case: Case) -> Problem:
-    """Return the system of four sites on the product of their groups, with the states of the case as initial
-    state at the time TIME. For a family of Hamiltonian scenes the state is (q, mu), with q of all sites."""
+def field_of_sites(case: LatticeCase) -> Problem:
+    """Return the system of four sites as a field on the product of their groups, with the states of the case
+    as initial state at the time TIME."""
     whole = unrolled(case.chain(), (NUMBER,))
     space = whole.roots[0].space
     (block,) = whole.state
     numbers = [Number.rational(*x.as_integer_ratio()) for state in case.states() for x in state]
     start = replace(block, initial=tuple(map(space.const, numbers)))
-    whole = replace(whole, state=(start,), span=(TIME, TIME + 1))
-    return phase_space(whole, case.chain()) if lowering(case.family).hamiltonian else whole
+    return replace(whole, state=(start,), span=(TIME, TIME + 1))
 
 
 def phase_space(whole: Problem, chain: Problem) -> Problem:
@@ -206,47 +116,113 @@ def by_kind(chain: Problem) -> list[list[int]]:
     ]
 
 
-def unrolled_program(case: Case, method: Method) -> tuple[Program, Problem]:
-    """Return the program of a step on the product, and the problem that defines its operations."""
-    whole = product(case)
-    if isinstance(lowering(case.family), FlowLowering):
+def unrolled_program(case: LatticeCase, method: Method) -> tuple[Program, Problem]:
+    """Return the program of a step on the product, and the problem that defines its operations. For a family
+    of Hamiltonian scenes the state is (q, mu), with q of all sites."""
+    whole, own = field_of_sites(case), lowering(method.family)
+    if own.hamiltonian:
+        whole = phase_space(whole, case.chain())
+    if isinstance(own, FlowLowering):
         return flows_of_the_product(case, method, whole)
     return lower(whole, method), problem_for(whole, method)
 
 
-def flows_of_the_product(case: Case, method: Method, whole: Problem) -> tuple[Program, Problem]:
+def flows_of_the_product(case: LatticeCase, method: Method, whole: Problem) -> tuple[Program, Problem]:
     """Return the flows of a step on the lattice, in the same order and with the same durations, as flows of
     the energies of all sites."""
-    chain, kinetic, potential = case.chain(), whole.parts["kinetic"], whole.hamiltonian
-    assert potential is not None
-    energies = {"kinetic": kinetic, "potential": potential - kinetic}
+    kinetic, H = whole.parts["kinetic"], whole.hamiltonian
+    assert H is not None
+    energies = {"kinetic": kinetic, "potential": H - kinetic}
     flows = {part.name: part.summands[0].flows[0][1] for part in recognise(replace(whole, parts=energies))}
     q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
     inputs, build = (q, mu), Builder({"q", "mu", "t", "h"})
-    own = lowering(case.family)
-    assert isinstance(own, FlowLowering)
-    for summand, duration in own.read(chain, method).word:
+    for summand, duration in word_of(case, method):
         ((name, _),) = summand.flows
         q, mu = build.flow(name, q, mu, Coefficient(duration, 1))
-    body = build.take()
-    program = verify(Program(case.method, inputs, body, (("q", q), ("mu", mu))))
+    program = verify(Program(case.method, inputs, build.take(), (("q", q), ("mu", mu))))
     return program, replace(whole, flows=flows)
 
 
-def step_of_the_product(case: Case, h: float) -> np.ndarray[Any, Any]:
+def word_of(case: LatticeCase, method: Method) -> Any:
+    """Return the flows of a step on the lattice with their durations."""
+    own = lowering(method.family)
+    assert isinstance(own, FlowLowering)
+    return own.read(case.chain(), method).word
+
+
+def site_by_site(case: LatticeCase) -> bool:
+    """Return True if the flows of a method have no formulas on the product, as flows of pairs and of tops."""
+    composed = isinstance(lowering(family_of(case)), FlowLowering)
+    return composed and not (case.chain().paired and case.chain().group.abelian)
+
+
+def composed_flows(case: LatticeCase, method: Method, domain: Any) -> list[Any]:
+    """Return the states after one step of a composition of flows, each applied to one site after another."""
+    start, chain = field_of_sites(case).initial(domain), case.chain()
+    size = len(chain.symbols)
+    states = [tuple(start[size * i : size * i + size]) for i in range(NUMBER)]
+    for summand, duration in word_of(case, method):
+        tau = domain.number(duration) * domain.h
+        for _, flow in summand.flows:
+            states = (
+                moved_pairs(chain, domain, flow, tau, states)
+                if isinstance(flow, SiteFlow)
+                else [moved_site(chain, domain, flow, tau, states, i) for i in range(NUMBER)]
+            )
+    return [x for state in states for x in state]
+
+
+def moved_pairs(chain: Problem, d: Any, flow: SiteFlow, tau: Any, states: list[Any]) -> list[Any]:
+    """Return the states after the flow of a part of a field: of single sites, or of pairs of one colour."""
+    part, dim, new = chain.sites.parts[flow.part], chain.group.dim, list(states)
+    last = NUMBER if chain.sites.periodic or not part.symbols else NUMBER - 1
+    for i in range(flow.colour, last, 2 if part.symbols else 1):
+        places = (i, (i + 1) % NUMBER) if part.symbols else (i,)
+        values = chain.values(d, states[i]) | dict(zip(part.symbols, states[places[-1]], strict=False))
+        roots = evaluate(list(part.roots), d, values)
+        for k, place in enumerate(places):
+            x = tuple(tau * r for r in roots[k * dim : k * dim + dim])
+            new[place] = chain.action.actexp(d, chain.group, x, states[place])
+    return new
+
+
+def moved_site(chain: Problem, d: Any, flow: Any, tau: Any, states: list[Any], i: int) -> Any:
+    """Return the state of a site of a Hamiltonian chain after a flow, which may read its neighbours."""
+    values, size = chain.values(d, states[i]), len(chain.state[0].symbols)
+    for k, offset in enumerate(chain.sites.offsets):
+        there = neighbour_place(chain.sites, (i,), offset, (NUMBER,))
+        near = evaluate(list(chain.sites.outside[k]), d, values) if there is None else states[there]
+        values |= dict(zip(chain.sites.symbols[k], near, strict=True))
+    q, mu = flow.advance(d, chain.group, values, tau, states[i][:size], states[i][size:])
+    return (*q, *mu)
+
+
+def step_of_the_product(case: LatticeCase, h: float) -> np.ndarray[Any, Any]:
     """Return the states after one step of the unrolled program."""
-    program, problem = unrolled_program(case, method_for(case.chain(), case.method))
+    method, domain = method_for(case.chain(), case.method), FloatDomain(h)
+    if site_by_site(case):
+        return np.reshape(composed_flows(case, method, domain), (NUMBER, -1))
+    program, problem = unrolled_program(case, method)
     inputs: dict[str, Any] = {"t": float(TIME)}
-    start, first = problem.initial(FloatDomain(h)), 0
+    start, first = problem.initial(domain), 0
     for block in problem.state:
         inputs[block.name] = tuple(start[first : first + len(block.symbols)])
         first += len(block.symbols)
-    end = interpret(program, problem, FloatDomain(h), inputs)
-    found = [x for block in problem.state for x in end[block.name]]
+    end = interpret(program, problem, domain, inputs)
+    values = [x for block in problem.state for x in end[block.name]]
     if len(problem.state) == 2:
         places = [k for ks in by_kind(case.chain()) for k in ks]
-        found = [x for _, x in sorted(zip(places, found, strict=True))]
-    return np.reshape(found, (NUMBER, -1))
+        values = [x for _, x in sorted(zip(places, values, strict=True))]
+    return np.reshape(values, (NUMBER, -1))
+
+
+def error_of_the_product(case: LatticeCase, method: Method, degree: int) -> Any:
+    """Return the local error of the unrolled program as power series in h up to h^degree."""
+    if not site_by_site(case):
+        return local_error(*unrolled_program(case, method), method.ring, degree)
+    end = composed_flows(case, method, SeriesDomain(method.ring, degree))
+    exact = exact_flow(field_of_sites(case), method.ring, degree)
+    return [x - y for x, y in zip(end, exact, strict=True)]
 
 
 def first_power(error: Any, ring: Any) -> int | None:
@@ -261,7 +237,7 @@ def first_power(error: Any, ring: Any) -> int | None:
 @pytest.mark.parametrize("case", marked(lambda case: case in FIRST))
 def test_the_order_on_four_sites_is_exact(case):
     method = method_for(case.chain(), case.method)
-    error = local_error(*unrolled_program(case, method), method.ring, case.order + 1)
+    error = error_of_the_product(case, method, case.order + 1)
     assert first_power(error, method.ring) == case.order + 1
     assert certified_order(method, case.chain()).order == case.order
 
@@ -281,14 +257,14 @@ def test_the_emitted_step_of_four_sites_is_that_of_the_product(case):
 
 def test_a_nystroem_splitting_has_a_lower_order_if_the_kinetic_energy_is_not_quadratic():
     # Its conditions contain [V, [V, [V, T]]] = 0, which does not hold for T = p^2/2 + p^4/4.
-    case = Case("splitting:mclachlan_atela4", 3, fast_springs, plane_states)
+    case = LatticeCase("splitting:mclachlan_atela4", 3, fast_springs, plane_states)
     method = method_for(fast_springs(), case.method)
     assert certified_order(method, fast_springs()).order == 3
-    error = local_error(*unrolled_program(case, method), method.ring, 4)
+    error = error_of_the_product(case, method, 4)
     assert first_power(error, method.ring) == 4
 
 
-LINEAR = [family for family in CASES if isinstance(lowering(family), LinearLowering)]
+LINEAR = [family for family in LATTICE_CASES if isinstance(lowering(family), LinearLowering)]
 
 
 def static_coordinates(**options):
@@ -312,7 +288,7 @@ def static_coordinates(**options):
 )
 def test_methods_for_linear_equations_refuse_coupled_states_that_move(family, scene):
     with pytest.raises(MethodError, match="because the field of a site depends on states that move"):
-        emit(scene(), CASES[family][0].method, target="c")
+        emit(scene(), LATTICE_CASES[family][0].method, target="c")
 
 
 @pytest.mark.parametrize("outside", [None, [0, 1], [0, Symbol("t")], [0, Symbol("w", real=True) / 2]])
@@ -322,8 +298,10 @@ def test_the_field_of_a_linear_chain_may_read_static_coordinates_of_neighbours(o
     assert reads_only_static(unrolled(static_coordinates(**options), (3,)))
 
 
-@pytest.mark.parametrize("family", [f for f in CASES if issubclass(type(lowering(f)), VariationalLowering)])
+@pytest.mark.parametrize(
+    "family", [f for f in LATTICE_CASES if issubclass(type(lowering(f)), VariationalLowering)]
+)
 def test_variational_methods_need_a_hamiltonian(family):
     # The discrete action contains momenta, and a vector field on a manifold has none.
     with pytest.raises(MethodError, match="expected a Hamiltonian scene"):
-        emit(pushed_spins(), CASES[family][0].method, target="c")
+        emit(pushed_spins(), LATTICE_CASES[family][0].method, target="c")
