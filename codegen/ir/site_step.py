@@ -20,6 +20,10 @@ STATE, WORK, RESULT = "state", "work", "result"
 """The arrays of a step: the old state, the workspace, and the new state. Row k of an array contains number k
 of every site."""
 
+EXISTS = "exists"
+"""Row k of this array contains 1 for each site whose neighbour k exists, and 0 for all other sites.
+The numbers follow from the place of a site and are not in memory."""
+
 OWN = -1
 """The neighbour number of the site itself."""
 
@@ -57,7 +61,8 @@ class Sweep:
     belongs to this other site. For a sweep that ends an iteration for the equations u = g(u), ``unknowns``
     are the symbols of the unknowns u. The first outputs of its kernel are the images g(u), which replace the
     unknowns. Such a sweep also stores two numbers for each site, in the rows ``measured``: the largest change
-    of an unknown, and the largest absolute value of an unknown.
+    of an unknown, and the largest absolute value of an unknown. After the sweep, the numbers in some rows are
+    added for all sites: ``sums`` contains the name of each sum, which later sweeps read, and its row.
     """
 
     about: str
@@ -68,6 +73,7 @@ class Sweep:
     axis: int = OWN
     unknowns: tuple[str, ...] = ()
     measured: tuple[Row, ...] = ()
+    sums: tuple[tuple[str, Row], ...] = ()
 
     @property
     def neighbours(self) -> tuple[int, ...]:
@@ -82,7 +88,7 @@ class Sweep:
     @property
     def rows_read(self) -> tuple[Row, ...]:
         """The rows that the sweep reads, each once."""
-        return tuple(dict.fromkeys(load.row for load in self.loads))
+        return tuple(dict.fromkeys(load.row for load in self.loads if load.row.array != EXISTS))
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
@@ -189,6 +195,11 @@ class SiteStep:
         """The sweeps of a step in the order of execution. A sweep occurs once for each flow that uses it."""
         return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
 
+    @property
+    def totals(self) -> tuple[str, ...]:
+        """The names of all sums over all sites."""
+        return tuple(name for sweep in self.sweeps for name, _ in sweep.sums)
+
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression of the step."""
         for sweep in self.sweeps:
@@ -233,6 +244,9 @@ class SiteStep:
         for number, sweep in enumerate(self.sweeps, 1):
             lines.append(f"loop {number}: {sweep.about}")
             lines.append(f"  reads {len(sweep.rows_read)} and stores {_stored(sweep)} numbers for each site")
+            if sweep.sums:
+                names = ", ".join(name for name, _ in sweep.sums)
+                lines.append(f"  then the terms of {names} are added for all sites")
         for block in self.blocks:
             loops = f"loops {block.first + 1} to {block.last + 1} are"
             if block.first == block.last:
@@ -256,10 +270,10 @@ class SiteStep:
 def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     """Return the numbers of doubles that sweeps read and write for each site. A number that a sweep reads at
     several sites is counted once, because the other reads find it in the cache. The numbers that describe an
-    iteration are read once more, for their maxima over all sites."""
+    iteration, and the terms of sums over all sites, are read once more."""
     listed = list(sweeps)
     # A sweep over pairs is counted in the same way, because its pairs contain each site at most once.
-    read = sum(len(sweep.rows_read) + len(sweep.measured) for sweep in listed)
+    read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 
 

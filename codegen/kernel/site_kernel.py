@@ -19,6 +19,7 @@ from codegen.ir.site_step import SiteStep
 from codegen.kernel.site_execution import EVALUATED
 from codegen.kernel.site_flows import flow_program
 from codegen.kernel.site_plan import Planner
+from codegen.kernel.site_sums import with_sums
 from codegen.kernel.site_taylor import TaylorSweeps
 from codegen.lower import lower, problem_for
 from codegen.lower import lowering as lowering_of
@@ -71,7 +72,9 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     if other:
         what = f"the operation {other[0].name} of {method.label} has no code for lattices"
         raise refused(scene, what, "a method that evaluates only the field, or the derivatives of H")
-    return SiteMethod(problem, lowered, program, trace, site_kernel(program, problem, newton))
+    return SiteMethod(
+        problem, lowered, program, trace, site_kernel(with_sums(program, problem), problem, newton)
+    )
 
 
 def site_kernel(program: Program, problem: Problem, newton: bool = False) -> Kernel:

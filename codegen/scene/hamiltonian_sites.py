@@ -10,17 +10,16 @@ V(q_i, q_{i+d}) with respect to q_i, and the derivative of V(q_{i-d}, q_i) with 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.base import LieGroup
 from codegen.ir.differentiate import gradient
-from codegen.ir.domain import ExprDomain
-from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.expr import Expr
 from codegen.ir.values import Kind
 from codegen.scene.arguments import read_span
+from codegen.scene.bonds import Bond, energies_of_bonds, sum_of_energies
 from codegen.scene.canonical_equations import force
 from codegen.scene.consistency import check_problem
 from codegen.scene.formulas import Reader
@@ -34,15 +33,6 @@ if TYPE_CHECKING:
     import sympy
 
     Column = Sequence[sympy.Expr]
-
-
-@dataclass(frozen=True)
-class Bond:
-    """The energy of the sites i and i + offset: a formula in the coordinates of q and of ``neighbour(q,
-    offset)``, parameters and the time."""
-
-    offset: Sequence[int]
-    energy: sympy.Expr
 
 
 def HamiltonianSiteScene(
@@ -83,7 +73,8 @@ def HamiltonianSiteScene(
     hamiltonian = reader.scalar(H, "H")
     summands = {key: reader.scalar(part, f"part {key}") for key, part in (parts or {}).items()}
     offsets = _offsets(name, bonds)
-    pull = _of_bonds(reader, group, q, bonds)
+    energies = energies_of_bonds(reader, q, bonds, offsets)
+    pull = _of_bonds(reader, group, qs, energies)
     slopes = gradient(hamiltonian, (*qs, *mus))
     own = force(reader.space, group, qs, slopes[: len(qs)])
     total = tuple(a + b for a, b in zip(own, pull, strict=True))
@@ -100,7 +91,16 @@ def HamiltonianSiteScene(
         *(None, {}, read_span(name, span), reader.parameters()),
         paired=True,
         parts=summands,
-        sites=Sites(len(offsets[0]), offsets, symbols, ends, force=pull),
+        sites=Sites(
+            len(offsets[0]),
+            offsets,
+            symbols,
+            ends,
+            (),
+            pull,
+            sum_of_energies(hamiltonian, energies),
+            energies,
+        ),
     )
     check_problem(with_frozen_neighbours(problem), {})
     _check_parts(problem, hamiltonian)
@@ -127,38 +127,13 @@ def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
 
 
 def _of_bonds(
-    reader: Reader, group: LieGroup, q: Sequence[sympy.Symbol], bonds: Sequence[Bond]
+    reader: Reader, group: LieGroup, q: Sequence[str], energies: Sequence[tuple[int, Expr]]
 ) -> tuple[Expr, ...]:
     """Return the components of the force that all bonds together exert on a site."""
-    space = reader.space
-    qs = tuple(reader.coordinates[: len(q)])
-    total = (space.zero,) * group.dim
-    for number, bond in enumerate(bonds):
-        there, back = (
-            tuple(str(s.name) for s in neighbour(q, offset))
-            for offset in (bond.offset, tuple(-x for x in bond.offset))
-        )
-        what = f"the energy of bond {number}"
-        V = reader.scalar(bond.energy, what, more=there)
-        read = {n.payload for n in walk([V]) if n.op == "sym"}
-        momenta = read & set(reader.coordinates[len(q) :])
-        if momenta or not read & set(qs) or not read & set(there):
-            missing = "no coordinate of one of its two sites"
-            raise SceneError(
-                f"{what} contains {', '.join(sorted(momenta)) if momenta else missing}",
-                where=reader.name,
-                expected="a formula in the coordinates of q and of neighbour(q, offset)",
-            )
-        # The derivative by q_i for the bond that begins at the site i: V(q_i, q_{i+offset}).
-        first = gradient(V, qs)
-        # The derivative by q_i for the bond that ends at the site i: V(q_{i-offset}, q_i).
-        moved = {s: space.sym(s) for s in sorted(map(str, read))}
-        moved |= {s: space.sym(b) for s, b in zip(qs, back, strict=True)}
-        moved |= {s: space.sym(a) for s, a in zip(there, qs, strict=True)}
-        second = evaluate(gradient(V, there), ExprDomain(space), moved)
-        for slope in (first, second):
-            pairs = zip(total, force(space, group, qs, slope), strict=True)
-            total = tuple(a + b for a, b in pairs)
+    total = (reader.space.zero,) * group.dim
+    for _, V in energies:
+        pairs = zip(total, force(reader.space, group, q, gradient(V, q)), strict=True)
+        total = tuple(a + b for a, b in pairs)
     return total
 
 

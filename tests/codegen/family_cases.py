@@ -94,6 +94,10 @@ CASES = {
         Case("splitting:forest_ruth4", 4, top("symmetric"), "fast_heavy_top"),
         Case("splitting:ruth3", 3, top("asymmetric"), "dipole"),
     ),
+    "prk": (
+        Case("prk:stormer_verlet", 2, cotangent("R^3"), "linear_oscillator"),
+        Case("prk:lobatto3ab3", 4, cotangent("R^3"), "linear_oscillator"),
+    ),
     "ambient": (
         Case("ambient:rk4", 4, place("S^2"), "driven_spin"),
         Case("ambient:gauss2", 4, cotangent(), "dipole"),
