@@ -30,7 +30,7 @@ def real(x: object, name: str) -> float:
         except (TypeError, ValueError):
             pass
         except OverflowError:
-            raise ValueError(f"expected a number of at most 1.8e308 for {name}") from None
+            raise ValueError(f"expected a number between -1.8e308 and 1.8e308 for {name}") from None
     raise TypeError(f"expected a real number for {name}, found {described(x)}")
 
 

@@ -58,10 +58,8 @@ class Domain(Protocol):
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if an iteration has converged, and the size of its last change.
-
-        The caller passes this size as ``previous`` in the next call.
-        """
+        """Return two values: True if an iteration has converged, and the size of its last change. The caller
+        passes this size as ``previous`` in the next call."""
 
 
 class Differenced(Domain, Protocol):
@@ -150,10 +148,8 @@ def curvature(k: int, z: float) -> float:
 
 
 class FloatDomain:
-    """IEEE double precision.
-
-    If a fixed-point iteration has not converged after ``patience`` sweeps, Newton's method replaces it.
-    """
+    """IEEE double precision. If a fixed-point iteration has not converged after ``patience`` sweeps, Newton's
+    method replaces it."""
 
     patience = 40
 
@@ -220,11 +216,9 @@ LARGEST_BITS = 16384
 
 class PreciseDomain:
     """mpmath numbers with a given number of decimal digits. Each domain has its own mpmath context.
-
     OverflowError is raised if an argument of a function is 2^:data:`LARGEST_BITS` or more. mpmath numbers do
     not overflow. Without this bound, a divergent iteration would compute the sine of a number with millions
-    of digits.
-    """
+    of digits."""
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
@@ -287,10 +281,8 @@ class PreciseDomain:
         return named(function).in_digits(self.context, self.digits, args)
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
-        """Return the derivative c_k'(z) of the Stumpff function c_k.
-
-        The series is used for abs(z) up to 1, else a formula in c_{k-1} and c_k.
-        """
+        """Return the derivative c_k'(z) of the Stumpff function c_k. The series is used for abs(z) up to 1,
+        else a formula in c_{k-1} and c_k."""
         if abs(z) > 1:
             return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
         total, j = self.context.mpf(0), 1
@@ -302,10 +294,8 @@ class PreciseDomain:
         return total
 
     def _curvature(self, k: int, z: Scalar) -> Scalar:
-        """Return the second derivative c_k''(z) of the Stumpff function c_k.
-
-        The series is used for abs(z) up to 1, else a formula in c_{k-2}, c_{k-1} and c_k.
-        """
+        """Return the second derivative c_k''(z) of the Stumpff function c_k. The series is used for abs(z) up
+        to 1, else a formula in c_{k-2}, c_{k-1} and c_k."""
         if abs(z) > 1:
             a, b, c = (self.call(f"stumpff{i}", z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
@@ -318,10 +308,8 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if an iteration has converged, and the size of the last change.
-
-        The iteration has converged if the changes are within 2^12 rounding units and no longer decrease.
-        """
+        """Return two values: True if an iteration has converged, and the size of the last change. The
+        iteration has converged if the changes are within 2^12 rounding units and no longer decrease."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
         # A small change is not sufficient, because the next sweep may give further correct digits. Therefore
@@ -334,10 +322,8 @@ class PreciseDomain:
 
 
 class SeriesDomain:
-    """Power series in h over an exact ring, truncated beyond h^order.
-
-    Local errors are computed exactly in this domain.
-    """
+    """Power series in h over an exact ring, truncated beyond h^order. Local errors are computed exactly in
+    this domain."""
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
@@ -357,13 +343,10 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a function at a series.
-
-        ArithmeticError is raised if the coefficients of the value cannot be computed exactly. Sine, cosine,
-        exponential and similar functions require a series without constant term. The function ``quotient``
-        divides two series. If the lowest power of h in the divisor is h^v, the last v coefficients of the
-        quotient are unknown and set to zero.
-        """
+        """Return the value of a function at a series. ArithmeticError is raised if the coefficients of the
+        value cannot be computed exactly. Sine, cosine, exponential and similar functions require a series
+        without constant term. The function ``quotient`` divides two series. If the lowest power of h in the
+        divisor is h^v, the last v coefficients of the quotient are unknown and set to zero."""
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
@@ -416,10 +399,8 @@ class SeriesDomain:
         return -1 if self.base.approximate(start).startswith("-") else 1
 
     def _angle(self, y: Scalar, x: Scalar) -> Scalar:
-        """Return atan2(y, x) if (x, y) is on the positive x-axis at h = 0.
-
-        Otherwise ArithmeticError is raised, because the angle at h = 0 is not an algebraic number.
-        """
+        """Return atan2(y, x) if (x, y) is on the positive x-axis at h = 0. Otherwise ArithmeticError is
+        raised, because the angle at h = 0 is not an algebraic number."""
         if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
             raise ArithmeticError("atan2 is exact only at a point of the positive x-axis")
         return self._arc("atan", y / x)
@@ -439,10 +420,8 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return a/b, or 0 if all coefficients of b are zero.
-
-        ArithmeticError is raised if a begins with a lower power of h than b.
-        """
+        """Return a/b, or 0 if all coefficients of b are zero. ArithmeticError is raised if a begins with a
+        lower power of h than b."""
         # Both series may vanish at h = 0. Their quotient may still have a limit at h = 0.
         power = self.ring.valuation(b)
         if power > self.order:
@@ -468,21 +447,16 @@ class SeriesDomain:
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if no unknown has changed, and None.
-
-        Other domains return the size of the change as the second value. An exact comparison does not need
-        this size.
-        """
+        """Return two values: True if no unknown has changed, and None. Other domains return the size of the
+        change as the second value. An exact comparison does not need this size."""
         # Each sweep multiplies the error by O(h) and thus gives one more coefficient, so order + 1 sweeps
         # suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
 class ExprDomain:
-    """Expressions of one space. The step size ``h`` is a symbol.
-
-    Iterations are not executed in this domain. They become loops of the emitted code.
-    """
+    """Expressions of one space. The step size ``h`` is a symbol. Iterations are not executed in this domain.
+    They become loops of the emitted code."""
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
@@ -503,10 +477,8 @@ class ExprDomain:
         return self.space.call(function, *args)
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function as expressions.
-
-        If the function has no expanded form for these arguments, each result is a call node.
-        """
+        """Return the results of a vector function as expressions. If the function has no expanded form for
+        these arguments, each result is a call node."""
         expanded = named(function).expanded(args)
         return self.space.vector(function, args) if expanded is None else expanded
 

@@ -158,10 +158,11 @@ class Table:
     def text(self) -> str:
         """Return the function as text, for example ``h phi1(1/2 z)``."""
         inner = self.multiplier.text()
+        if not self.power:
+            return inner
+        factor = "h" if self.power == 1 else f"h^{self.power}"
         several = len(self.multiplier.terms) > 1
-        return (
-            inner if not self.power else f"h ({inner})" if several else "h" if inner == "1" else f"h {inner}"
-        )
+        return f"{factor} ({inner})" if several else factor if inner == "1" else f"{factor} {inner}"
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,10 @@ STATE, WORK, RESULT = "state", "work", "result"
 of every site.
 """
 
+EXISTS = "exists"
+"""Row k of this array contains 1 for each site whose neighbour k exists, and 0 for all other sites.
+The numbers follow from the place of a site and are not in memory."""
+
 OWN = -1
 """The value of ``neighbour`` that denotes the site itself."""
 
@@ -55,15 +59,13 @@ class Sweep:
 
     ``about`` names the operations of the program in the sweep. If a neighbour lies outside the lattice,
     output k of ``outside`` replaces the number that load k of ``read_outside`` would read there. ``outside``
-    is None if nothing has to be replaced, as in a periodic lattice.
-
-    A sweep over pairs of neighbours has an ``axis``. For such a sweep, neighbour 0 is the other site of the
-    pair, and the second half of ``stores`` belongs to the other site.
-
-    Some sweeps end one iteration for the equations u = g(u). For these sweeps, ``unknowns`` are the symbols
-    of the unknowns u, and the first outputs of the kernel are the images g(u), which replace the unknowns.
-    The rows ``measured`` then receive two numbers for each site: the largest change of an unknown, and the
-    largest absolute value of an unknown.
+    is None if nothing has to be replaced, as in a periodic lattice. A sweep over pairs of neighbours has an
+    ``axis``. For such a sweep, neighbour 0 is the other site of the pair, and the second half of ``stores``
+    belongs to this other site. For a sweep that ends an iteration for the equations u = g(u), ``unknowns``
+    are the symbols of the unknowns u. The first outputs of its kernel are the images g(u), which replace the
+    unknowns. Such a sweep also stores two numbers for each site, in the rows ``measured``: the largest change
+    of an unknown, and the largest absolute value of an unknown. After the sweep, the numbers in some rows are
+    added for all sites: ``sums`` contains the name of each sum, which later sweeps read, and its row.
     """
 
     about: str
@@ -74,6 +76,7 @@ class Sweep:
     axis: int = OWN
     unknowns: tuple[str, ...] = ()
     measured: tuple[Row, ...] = ()
+    sums: tuple[tuple[str, Row], ...] = ()
 
     @property
     def neighbours(self) -> tuple[int, ...]:
@@ -88,7 +91,7 @@ class Sweep:
     @property
     def rows_read(self) -> tuple[Row, ...]:
         """The rows that the sweep reads, each once."""
-        return tuple(dict.fromkeys(load.row for load in self.loads))
+        return tuple(dict.fromkeys(load.row for load in self.loads if load.row.array != EXISTS))
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
@@ -196,13 +199,19 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The number of doubles in the workspace for each site: the stored rows and a second state."""
+        """The number of rows of the workspace: the stored rows and a second state. Each row has an
+        entry for each site."""
         return self.rows + self.size
 
     @property
     def passes(self) -> tuple[Sweep, ...]:
         """The sweeps of a step in the order of execution. A sweep occurs once for each flow that uses it."""
         return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
+
+    @property
+    def totals(self) -> tuple[str, ...]:
+        """The names of all sums over all sites."""
+        return tuple(name for sweep in self.sweeps for name, _ in sweep.sums)
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression of the step."""
@@ -252,6 +261,9 @@ class SiteStep:
         for number, sweep in enumerate(self.sweeps, 1):
             lines.append(f"loop {number}: {sweep.about}")
             lines.append(f"  reads {len(sweep.rows_read)} and stores {_stored(sweep)} numbers for each site")
+            if sweep.sums:
+                names = ", ".join(name for name, _ in sweep.sums)
+                lines.append(f"  then the terms of {names} are added for all sites")
         for block in self.blocks:
             loops = f"loops {block.first + 1} to {block.last + 1} are"
             if block.first == block.last:
@@ -273,14 +285,12 @@ class SiteStep:
 
 
 def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
-    """Return how many doubles sweeps read and write for each site.
-
-    A number that a sweep reads at several sites is counted once, because the other reads find the number in
-    the cache. The numbers that measure an iteration are read once more, for their maxima over all sites.
-    """
+    """Return the numbers of doubles that sweeps read and write for each site. A number that a sweep reads at
+    several sites is counted once, because the other reads find it in the cache. The numbers that describe an
+    iteration, and the terms of sums over all sites, are read once more."""
     listed = list(sweeps)
     # A sweep over pairs is counted in the same way, because its pairs contain each site at most once.
-    read = sum(len(sweep.rows_read) + len(sweep.measured) for sweep in listed)
+    read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 
 

@@ -258,9 +258,10 @@ class _Builder:
 class Recurrence:
     """The series, in powers of s, of the solution y(t + s scale) and of its derivative.
 
-    ``roots`` are the derivatives of the coordinates ``symbols``. ``values`` are the values of all other
-    symbols, including the time ``t``. Each derivative is stored as a pair: a numeric factor, and a series
-    without this factor.
+    ``roots`` are the derivatives of the coordinates called ``symbols``; ``values`` are the values of all
+    other symbols, including the time ``t``. Each derivative is stored as a pair: a numeric factor, and a
+    series without this factor. If there are more coordinates than derivatives, the coefficients of the last
+    coordinates have to be given (:meth:`append`): on a lattice, they are those of neighbours.
     """
 
     def __init__(
@@ -276,8 +277,8 @@ class Recurrence:
         self.coordinates = [Given(domain, x, closed=False) for x in state]
         self.time = Given(domain, values[TIME], scale)
         series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
-        builder = _Builder(domain, series | {TIME: self.time}, values)
-        self.slopes = [_apart(builder.of(root)) for root in roots]
+        self.builder = _Builder(domain, series | {TIME: self.time}, values)
+        self.slopes = [_apart(self.builder.of(root)) for root in roots]
 
     def extend(self, degree: int) -> list[list[Coefficient]]:
         """Return the coefficients 0, ..., degree of each coordinate.
@@ -285,17 +286,30 @@ class Recurrence:
         A coefficient that is zero for all states is None.
         """
         for n in range(len(self.coordinates[0].terms) - 1, degree):
-            factors: dict[object, Scalar] = {}
-            new = []
-            for number, slope in self.slopes:
-                # The numeric factor of the derivative is multiplied into the factor scale/(n + 1).
-                number = number * Number.rational(1, n + 1)
-                if number.key not in factors:
-                    factors[number.key] = self.domain.number(number) * self.scale
-                new.append(multiplied(factors[number.key], slope.term(n)))
-            for coordinate, x in zip(self.coordinates, new, strict=True):
-                coordinate.terms.append(x)
+            self.append(self.following(n))
         return [coordinate.terms for coordinate in self.coordinates]
+
+    def following(self, n: int) -> list[Coefficient]:
+        """Return coefficient n + 1 of each coordinate that has a derivative; the coefficients 0, ..., n of
+        all coordinates are known."""
+        factors: dict[object, Scalar] = {}
+        new = []
+        for number, slope in self.slopes:
+            # The numeric factor of the derivative is multiplied into the factor scale/(n + 1).
+            number = number * Number.rational(1, n + 1)
+            if number.key not in factors:
+                factors[number.key] = self.domain.number(number) * self.scale
+            new.append(multiplied(factors[number.key], slope.term(n)))
+        return new
+
+    def append(self, coefficients: Sequence[Coefficient]) -> None:
+        """Append the next coefficient to the series of each coordinate."""
+        for coordinate, x in zip(self.coordinates, coefficients, strict=True):
+            coordinate.terms.append(x)
+
+    def series(self, root: Expr) -> Series:
+        """Return the series of an expression in the coordinates."""
+        return self.builder.of(root)
 
 
 def _apart(series: Series) -> tuple[Number, Series]:

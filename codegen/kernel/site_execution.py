@@ -6,27 +6,28 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
-from codegen.ir.domain import Value
+from codegen.ir.domain import ExprDomain, Value
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.interpret import flatten
 from codegen.ir.kernel import Field as StateBlock
 from codegen.ir.kernel import Kernel, Let
-from codegen.ir.operations import Advance, Linear, Zero
+from codegen.ir.operations import Advance, Linear, Operation, Zero
 from codegen.ir.program import Assign
-from codegen.ir.scene_operations import Field, HamiltonianDerivatives
-from codegen.ir.site_step import OWN, Load, Row, Sweep
+from codegen.ir.scene_operations import Differential, Energy, Field, HamiltonianDerivatives
+from codegen.ir.site_step import EXISTS, OWN, Load, Row, Sweep
 from codegen.ir.values import Kind, Var
 from codegen.kernel.assignments import Assignments, unique_name
 from codegen.kernel.shared_angles import SharedArguments
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites, offset_text
+from codegen.scene.values import Bindings
 
 RECOMPUTED = (Linear, Zero, Advance)
 """Cheap operations. Each sweep that reads a result of these operations computes the result again. Only the
 sums that :mod:`codegen.kernel.site_plan` selects are stored."""
 
-EVALUATED = (Field, HamiltonianDerivatives)
-"""Operations that read the states of neighbours."""
+EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
+"""Operations that evaluate formulas of the scene, which read the states of neighbours."""
 
 
 @dataclass(frozen=True)
@@ -51,12 +52,9 @@ def blocks_of(problem: Problem) -> tuple[slice, ...]:
 
 
 class Execution:
-    """The symbolic execution of one sweep.
-
-    ``rows`` maps each stored variable to its rows in the arrays of the lattice. ``given`` are the variables
-    of the old state. ``coupled`` are the indices of the blocks of the state that the field reads at
-    neighbours.
-    """
+    """The symbolic execution of one sweep. ``rows`` maps each stored variable to its rows in the arrays of
+    the lattice, and ``given`` are the variables of the old state. ``coupled`` are the indices of those blocks
+    of the state that the field reads at neighbours. ``totals`` are the names of sums over all sites."""
 
     def __init__(
         self,
@@ -66,15 +64,16 @@ class Execution:
         rows: Mapping[Var, tuple[Row, ...]],
         given: Sequence[Var],
         coupled: Sequence[int],
+        totals: Mapping[Var, str],
     ) -> None:
         self.name, self.problem, self.sites = name, problem, sites
-        self.rows, self.given, self.coupled = rows, given, coupled
+        self.rows, self.given, self.coupled, self.totals = rows, given, coupled, totals
         self.domain = SharedArguments()
         self.env: dict[Var, Value] = {}
         self.hints: dict[int, str] = {}
         self.loads: dict[str, Load] = {}
         # Names that users have chosen are reserved, so no computed value gets one of these names.
-        self.taken = {*problem.symbols, *problem.runtime, "h", TIME}
+        self.taken = {*problem.symbols, *problem.runtime, "h", TIME, *totals.values()}
         self.ghosts: dict[str, Expr] = {}
         self.named: dict[Var, tuple[str, ...]] = {}
 
@@ -82,12 +81,13 @@ class Execution:
         """Set the values of variables that the sweep reads. Scalars such as the time become symbols. For the
         other variables, the numbers that earlier sweeps have stored become symbols."""
         for var in variables:
-            if var.kind is Kind.REAL:
-                self.env[var] = self.domain.space.sym(var.name)
+            if var not in self.rows:
+                self.env[var] = self.domain.space.sym(self.totals.get(var, var.name))
                 continue
             names = self._names(var)
             self.loads |= {s: Load(s, r) for s, r in zip(names, self.rows[var], strict=True)}
-            self.env[var] = tuple(map(self.domain.space.sym, names))
+            values = tuple(map(self.domain.space.sym, names))
+            self.env[var] = values[0] if var.kind is Kind.REAL else values
 
     def _names(self, var: Var) -> tuple[str, ...]:
         if var in self.given:
@@ -102,8 +102,7 @@ class Execution:
         operation = assign.operation
         results: tuple[Value, ...]
         if isinstance(operation, EVALUATED):
-            f, dim = self._field(assign.args, args), self.problem.group.dim
-            results = (f[:dim], f[dim:]) if self.problem.paired else (f,)
+            results = self._evaluated(operation, assign.args, args)
         else:
             results = operation.evaluate(self.problem, self.domain, args)
         for target, value in zip(assign.targets, results, strict=True):
@@ -111,28 +110,63 @@ class Execution:
             for k, x in enumerate(flatten(target.kind, value)):
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
-    def _field(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> tuple[Expr, ...]:
-        """Return the field at a point. The field also reads the points of neighbouring sites, which an
-        earlier sweep has stored."""
+    def _evaluated(
+        self, operation: Operation, variables: tuple[Var, ...], args: tuple[Value, ...]
+    ) -> tuple[Value, ...]:
+        """Return the results of an operation that evaluates formulas of the scene at a point. The formulas
+        also read this point at neighbours; an earlier sweep has stored these values for all sites."""
+        roots, dim = self._roots(operation), self.problem.group.dim
+        values = evaluate(roots, self.domain, self._around(variables, args))
+        if isinstance(operation, Energy):
+            return (values[0],)
+        f = tuple(values)
+        return (f[:dim], f[dim:]) if self.problem.paired else (f,)
+
+    def _roots(self, operation: Operation) -> list[Expr]:
+        """Return the formulas of an operation, in the coordinates of the site and of its neighbours."""
+        if isinstance(operation, Energy):
+            return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
+        if isinstance(operation, Differential):
+            domain = ExprDomain(self.problem.roots[0].space)
+            point = tuple(map(domain.space.sym, self.problem.symbols))
+            return list(operation.evaluate(self.problem, domain, (point,))[0])
+        return list(self.problem.roots)
+
+    def _exists(self, offset: int) -> Expr:
+        """Return the number that is 1 if a neighbour exists, and 0 otherwise."""
+        space = self.problem.roots[0].space
+        if self.sites.periodic:
+            return space.one
+        name = f"exists_{offset_text(self.sites.offsets[offset])}"
+        while name in self.problem.symbols or name in self.problem.runtime:
+            name += "_"
+        self.loads[name] = Load(name, Row(EXISTS, offset))
+        return space.sym(name)
+
+    def _around(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> Bindings:
+        """Return the values of all symbols of the formulas of the scene at a point."""
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
+        values |= {s: self.domain.space.sym(s) for s, x in self.loads.items() if x.row.array == EXISTS}
         for offset in range(len(self.sites.offsets)):
             ghosts: list[Expr] = []
             if self.sites.outside:
                 ghosts = evaluate(list(self.sites.outside[offset]), self.domain, values)
             for k, place in enumerate(blocks_of(self.problem)):
                 if k in self.coupled:
-                    loaded = self._neighbour(variables[k], offset)
+                    loaded = self._neighbour(variables[k], offset, ghosts[place])
                     symbols = self.sites.symbols[offset][place]
                     values |= dict(zip(symbols, map(self.domain.space.sym, loaded), strict=True))
                     self.ghosts |= dict(zip(loaded, ghosts[place], strict=False))
-        return tuple(evaluate(list(self.problem.roots), self.domain, values))
+        return values
 
-    def _neighbour(self, var: Var, offset: int) -> list[str]:
-        """Return the symbols of a variable at a neighbour, and record their loads."""
+    def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
+        """Return the symbols of a variable at a neighbour, and record their loads. ``ghosts`` replace the
+        variable outside the lattice; if they depend on time, they differ between evaluations at one point."""
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
-        if var not in self.given:
+        pairs = zip(loaded, ghosts, strict=False)
+        if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
         return loaded
@@ -140,8 +174,9 @@ class Execution:
     def _fresh(self, base: str) -> str:
         return unique_name(base, self.taken)
 
-    def sweep(self, content: Content) -> Sweep:
-        """Return the sweep that stores ``content.stored``, with its loads and its kernel."""
+    def sweep(self, content: Content, sums: tuple[tuple[str, Row], ...]) -> Sweep:
+        """Return the sweep with the given content. Each of ``sums`` is the name of a sum over all sites, and
+        the row with its terms."""
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
         stores = tuple(row for rows, _ in content.stored for row in rows)
         unknowns = tuple(s for var in content.unknowns for s in self._names(var))
@@ -157,15 +192,34 @@ class Execution:
             read |= {n.payload for n in walk(outside.expressions()) if n.op == "sym"}
         loads = tuple(load for symbol, load in self.loads.items() if symbol in read)
         own = (unknowns, content.measured)
-        return Sweep(content.about, kernel, loads, stores, outside, OWN, *own)
+        return Sweep(content.about, kernel, loads, stores, outside, OWN, *own, sums)
 
     def _scheduled(self, ends: list[Expr]) -> Kernel:
-        schedule = Assignments((), ends, self.hints, self._fresh)
-        body = tuple(_lets(schedule.run()))
-        symbols = tuple(self.loads)
-        scalars = (TIME, "h", *self.problem.runtime)
-        state = (StateBlock("site", symbols, "the numbers that the sweep reads"),)
-        return Kernel(self.name, state, scalars, body, schedule.outputs)
+        totals = tuple(self.totals.values())
+        return kernel_of_sweep(
+            self.name, self.problem, tuple(self.loads), ends, self.hints, self.taken, totals
+        )
+
+
+def kernel_of_sweep(
+    name: str,
+    problem: Problem,
+    symbols: tuple[str, ...],
+    ends: list[Expr],
+    hints: dict[int, str],
+    taken: set[str],
+    totals: tuple[str, ...] = (),
+) -> Kernel:
+    """Return the kernel that computes expressions from the numbers ``symbols`` that a sweep reads.
+
+    ``hints`` are names for the values of expressions, and ``taken`` are the names that are used already; the
+    names of new values are added to them. ``totals`` are the names of sums over all sites.
+    """
+    schedule = Assignments((), ends, hints, lambda base: unique_name(base, taken))
+    body = tuple(_lets(schedule.run()))
+    scalars = (TIME, "h", *totals, *problem.runtime)
+    state = (StateBlock("site", symbols, "the numbers that the sweep reads"),)
+    return Kernel(name, state, scalars, body, schedule.outputs)
 
 
 def _lets(body: Iterable[object]) -> Iterator[Let]:

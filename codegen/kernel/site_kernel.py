@@ -14,9 +14,12 @@ from codegen.errors import MethodError
 from codegen.ir.kernel import Field as StateBlock
 from codegen.ir.kernel import Kernel
 from codegen.ir.program import Program
+from codegen.ir.site_step import SiteStep
 from codegen.kernel.site_execution import EVALUATED
 from codegen.kernel.site_flows import flow_program
 from codegen.kernel.site_plan import Planner
+from codegen.kernel.site_sums import with_sums
+from codegen.kernel.site_taylor import TaylorSweeps
 from codegen.lower import lower, problem_for
 from codegen.lower import lowering as lowering_of
 from codegen.lower.flow_words import FlowLowering
@@ -28,9 +31,7 @@ from codegen.scene.site_scene import with_frozen_neighbours
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method whose step cannot be computed by sweeps over sites."""
-    hint = "use a method of the family rkmk, cf, cg, rk or ambient, for example cf:cf4; "
-    hint += "a splitting if the scene has parts; "
-    hint += "or a method of the family vcg, vcf, vrkmk or slgi on a HamiltonianSiteScene"
+    hint = "use a method of another family, for example cf:cf4 or splitting:strang"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
@@ -60,19 +61,34 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     frozen = with_frozen_neighbours(scene)
     problem, lowered = problem_for(frozen, method), lower(frozen, method)
     program, trace = optimise(lowered, problem)
+    degree = lowering.degree(method)
+    if degree:
+        return SiteMethod(problem, lowered, program, trace, taylor_kernel(program, problem, degree))
     operations = [assign.operation for assign in program.assigns()]
     other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
         what = f"the operation {other[0].name} of {method.label} has no code for lattices"
         raise refused(scene, what, "a method that evaluates only the field, or the derivatives of H")
-    return SiteMethod(problem, lowered, program, trace, site_kernel(program, problem, newton))
+    return SiteMethod(
+        problem, lowered, program, trace, site_kernel(with_sums(program, problem), problem, newton)
+    )
 
 
 def site_kernel(program: Program, problem: Problem, newton: bool = False) -> Kernel:
     """Return the kernel of a program on the problem of one site
     (:func:`codegen.scene.site_scene.with_frozen_neighbours`)."""
     assert problem.sites is not None
-    step = Planner(program, problem, problem.sites, newton=newton).step()
+    return _kernel(program, problem, Planner(program, problem, problem.sites, newton=newton).step())
+
+
+def taylor_kernel(program: Program, problem: Problem, degree: int) -> Kernel:
+    """Return the kernel of Taylor's method of the given degree on the problem of one site."""
+    assert problem.sites is not None
+    return _kernel(program, problem, TaylorSweeps(program, problem, problem.sites, degree).step())
+
+
+def _kernel(program: Program, problem: Problem, step: SiteStep) -> Kernel:
+    assert problem.sites is not None
     known = tuple(s for s in problem.runtime if s not in problem.sites.names)
     about = "state of one site; row k of an array of states contains number k of all sites"
     name = "y" if problem.paired else problem.state[0].name

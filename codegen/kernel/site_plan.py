@@ -1,9 +1,10 @@
 """Distributes the assignments of a program among sweeps over the sites of a lattice.
 
-If the field reads a value at neighbours, one sweep stores the value and a later sweep reads it. The equations
-u = g(u) of an implicit method become a block of sweeps that are repeated. The values that the block needs are
-stored before the block begins. The last sweep of the block replaces the unknowns u by their images g(u).
-Statements after the block read the unknowns in place of the images.
+A value that the field reads at neighbours is stored by one sweep and read by a later sweep. The equations
+of an implicit method are a block of sweeps that are repeated. Values from outside the block are stored before
+the block begins, and the last sweep of the block replaces the unknowns by their images. Statements after the
+block read the unknowns in place of the images. A sum over all sites is a number that later sweeps read; one
+sweep stores its terms.
 """
 
 from __future__ import annotations
@@ -15,14 +16,17 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
 
+from codegen.errors import MethodError
 from codegen.ir.expr import walk
 from codegen.ir.operations import Linear
 from codegen.ir.program import Assign, Program, Solve
+from codegen.ir.site_operations import Total
 from codegen.ir.site_step import RESULT, STATE, WORK, Row, SiteBlock, SiteStep, Sweep
 from codegen.ir.values import Kind, Var
+from codegen.kernel.assignments import unique_name
 from codegen.kernel.site_execution import EVALUATED, RECOMPUTED, Content, Execution, blocks_of
 from codegen.kernel.site_newton import Linearisation
-from codegen.scene.problem import Problem
+from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites
 
 MEASURED = 2
@@ -71,6 +75,7 @@ class Planner:
     order: list[Assign] = field(default_factory=list)
     renamed: dict[Var, Var] = field(default_factory=dict)
     sums: set[Var] = field(default_factory=set)
+    totals: dict[Var, Assign] = field(default_factory=dict)
     newton: bool = False
 
     def step(self) -> SiteStep:
@@ -84,6 +89,7 @@ class Planner:
         for number in range(last, -1, -1):
             roots = [v for later in needs[number + 1 :] for v in (later.loaded | later.around)]
             roots = [v for v in roots if v in self.makers and self.sweep_of[v] == number]
+            roots += self._terms(number)
             roots += [value for block in self.blocks for _, value in block.copies(number)]
             need = needs[number]
             self._require(number, need, [*roots, *(outputs if number == last else ())])
@@ -113,6 +119,14 @@ class Planner:
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):
             stored = (self.rows, self._given(), self.coupled, self.makers)
+            if self.totals:
+                raise MethodError(
+                    f"Newton's method cannot solve equations that contain sums over all sites, as those of "
+                    f"{self.program.name}",
+                    where=self.problem.name,
+                    expected="a method whose equations at a site read only this site and its neighbours",
+                    hint="use the solver fixed-point",
+                )
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
@@ -179,9 +193,26 @@ class Planner:
         # the old state are stored already, so only points that an assignment computes are considered.
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
+        if isinstance(assign.operation, Total):
+            # The terms of all sites are added after the sweep that stores them.
+            ((target,), (term,)) = assign.targets, assign.args
+            self.sweep_of[target] = max(least, self.sweep_of[term]) + 1
+            self.totals[target] = assign
+            return
         for target in assign.targets:
             self.sweep_of[target] = max([least, *places])
             self.makers[target] = assign
+
+    def _terms(self, number: int) -> list[Var]:
+        """Return the terms of the sums over all sites that are formed after a sweep."""
+        return [a.args[0] for v, a in self.totals.items() if self.sweep_of[v] == number + 1]
+
+    @cached_property
+    def names(self) -> dict[Var, str]:
+        """The names of the sums over all sites."""
+        problem = self.problem
+        taken = {*problem.symbols, *problem.runtime, *self.sites.names, "h", TIME}
+        return {v: unique_name(v.name, taken) for v in self.totals}
 
     def _choose_sums(self) -> None:
         """Find the sums to store.
@@ -224,6 +255,10 @@ class Planner:
     def _last_uses(self, needs: list[_Needs]) -> dict[Var, int]:
         """Return the index of the last sweep that needs each variable."""
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
+        for number in range(len(needs)):
+            for var in self._terms(number):
+                # The sum is formed directly after the sweep.
+                used[var] = max(used.get(var, 0), number + 1)
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]
             defined = {v for need in repeated for v in need.computed}
@@ -289,14 +324,16 @@ class Planner:
         later: list[_Needs],
         count: int,
     ) -> Sweep:
-        read = {v for other in later for v in (other.loaded | other.around)}
+        read = {v for other in later for v in (other.loaded | other.around)} | set(self._terms(number))
         kept = [
             v
             for v in self._ordered(need.computed)
             if self.sweep_of[v] == number and v in self.rows and v in read
         ]
         executed = [a for a in self.order if set(a.targets) & need.computed]
-        run = Execution(self.program.name, self.problem, self.sites, self.rows, self._given(), self.coupled)
+        run = Execution(
+            self.program.name, self.problem, self.sites, self.rows, self._given(), self.coupled, self.names
+        )
         run.begin(self._ordered(need.loaded | need.around))
         for assign in executed:
             run.execute(assign)
@@ -314,4 +351,9 @@ class Planner:
         stored += [(tuple(Row(RESULT, k) for k in self._numbers(name)), v) for name, v in named]
         shown = [a.text() for a in executed if not isinstance(a.operation, RECOMPUTED)]
         shown += [f"{unknown.name} = {value.name}" for unknown, value in copies]
-        return run.sweep(Content("; ".join(shown), tuple(stored), ending, measured))
+        sums = tuple(
+            (self.names[v], self.rows[a.args[0]][0])
+            for v, a in self.totals.items()
+            if self.sweep_of[v] == number + 1
+        )
+        return run.sweep(Content("; ".join(shown), tuple(stored), ending, measured), sums)

@@ -9,10 +9,13 @@ The tableau is read as a quadrature rule with nodes c_i and weights b_i for the 
     g = sum_i b_i gamma(exp(c_i eta).x0),
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
-With one node 1/2, D is the discrete differential (2.31) of the thesis at the midpoint. With Gauss nodes, D is
-the mean value of section 2.6, and the multiple of eta corrects the error of the quadrature. Since omega is
-skew, <D, xi> = 0. Therefore H(x1) = H(x0) for every tableau. The order is two if sum b_i c_i = 1/2, otherwise
-one. The unknown of the equations is xi.
+With one node 1/2, D is the discrete differential (2.31) of the thesis with the midpoint choice. With Gauss
+nodes, D is the mean value of section 2.6, and the multiple of eta corrects the error of the quadrature. Since
+omega is skew, <D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two if sum b_i c_i = 1/2, otherwise
+one. The unknown is xi.
+
+On a lattice, H is the total energy, and <g, eta> and |eta|^2 are sums over all sites
+(:mod:`codegen.kernel.site_sums`).
 """
 
 from __future__ import annotations
@@ -29,6 +32,7 @@ from codegen.method import Method
 from codegen.scene.energy import ENERGY, bivector, differential, energy_of
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem
+from codegen.scene.unrolled import small
 
 HALF = Number.rational(1, 2)
 
@@ -42,8 +46,10 @@ class DiscreteGradient(FieldLowering):
         """Return an objection if the scene depends on time or has no energy that its field preserves.
         Otherwise the family accepts the scene, and the result is None."""
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
-        # If H depends on time, the exact solution does not preserve H. A method that preserves H would then
-        # not converge to the exact solution.
+        if scene.sites is not None and not scene.sites.force:
+            expected = "a lattice without time, with the arguments energy and bonds"
+        # If H depends on time, the exact solution does not preserve H, so a method that preserves H would not
+        # converge to it.
         if not scene.autonomous:
             return Objection(", which depends on time", expected)
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
@@ -52,9 +58,22 @@ class DiscreteGradient(FieldLowering):
         """Return the program.
 
         :class:`codegen.errors.MethodError` is raised if the differential of the energy along the group
-        vanishes at a point where the field does not vanish.
+        vanishes at a point where the field does not vanish. It is also raised for a lattice whose forces at
+        an open boundary are not the derivatives of its energy.
         """
-        _check_bivector(problem, method)
+        # A site of a lattice exchanges energy with its neighbours, so the whole lattice is tested.
+        if not _agrees(problem if problem.sites is None else small(problem)):
+            if problem.sites is not None and problem.sites.outside:
+                raise MethodError(
+                    f"{method.label} cannot be used on {problem.name}: the force of a neighbour outside the "
+                    "open boundary is not the derivative of its energy",
+                    expected="states outside that are constant, or that exert no force",
+                )
+            raise MethodError(
+                f"{method.label} cannot be used on {problem.name}: the differential of the energy is zero at "
+                "a point where the field f is not zero",
+                expected="an energy whose differential along the group vanishes only where f vanishes",
+            )
         return _program(problem, method)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -102,9 +121,8 @@ def _program(scene: Problem, method: Method) -> Program:
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
 
 
-def _check_bivector(scene: Problem, method: Method) -> None:
-    """Raise MethodError if there is a sample point at which the bivector does not map the differential of the
-    energy to the field."""
+def _agrees(scene: Problem) -> bool:
+    """Return True if the bivector maps the differential of the energy to the field at all sample points."""
     # The sample points are on the orbit, because the image of the differential and the field need not agree
     # at other points.
     orbit = orbit_of(scene)
@@ -116,8 +134,5 @@ def _check_bivector(scene: Problem, method: Method) -> None:
         # The formula of the bivector divides by |gamma|^2, so it is valid only if f vanishes at every point
         # where gamma vanishes.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
-            raise MethodError(
-                f"{method.label} cannot be used on {scene.name}: the differential of the energy is zero at a "
-                "point where the field f is not zero",
-                expected="an energy whose differential along the group vanishes only where f vanishes",
-            )
+            return False
+    return True

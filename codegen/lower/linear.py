@@ -1,5 +1,8 @@
-"""The base class of lowerings for linear differential equations y' = A(t).y, where A may depend on t but not
-on y."""
+"""The base class of lowerings for linear differential equations y' = A(t).y: A may depend on t, not on y.
+
+Coordinates of y that do not change are parameters, so A may depend on them
+(:mod:`codegen.scene.static_coordinates`). On a lattice, A may depend on such coordinates of neighbours.
+"""
 
 from __future__ import annotations
 
@@ -20,6 +23,7 @@ from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.linear_extension import without_momentum_rate
 from codegen.scene.problem import Problem
+from codegen.scene.static_coordinates import reads_only_static
 from orderconds.families import family_class
 from orderconds.tableau.products import Magnus
 
@@ -36,10 +40,19 @@ class LinearLowering(FieldLowering):
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field of the scene depends on the state. Otherwise the family accepts
-        the scene, and the result is None."""
-        if scene.linear or scene.carries_momentum:
+        """Return an objection if the field of the scene reads coordinates of the state that change. Otherwise
+        the family accepts the scene, and the result is None."""
+        if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
+        if scene.sites is not None:
+            # On the product of the groups of all sites, the values of the field at the nodes would have to be
+            # known before the neighbours have moved.
+            return Objection(
+                ", because the field of a site depends on states that move, so the lattice is not of the "
+                "form y' = A(t).y",
+                "a field that reads the time and only those coordinates of a site and of its neighbours that "
+                "do not change",
+            )
         return Objection(
             ", whose field depends on the state", "a scene y' = A(t).y, whose field f depends on t alone"
         )

@@ -22,6 +22,7 @@ def _built_in() -> tuple[type[Lowering], ...]:
     from codegen.lower.discrete_gradient import DiscreteGradient
     from codegen.lower.fer import FerLowering
     from codegen.lower.magnus import MagnusLowering
+    from codegen.lower.prk import PartitionedLowering
     from codegen.lower.rk import RungeKuttaLowering
     from codegen.lower.rkmk import MuntheKaas
     from codegen.lower.slgi import SymplecticIntegrator
@@ -51,6 +52,7 @@ def _built_in() -> tuple[type[Lowering], ...]:
         CommutatorFreeMagnusLowering,
         FerLowering,
         CayleyLowering,
+        PartitionedLowering,
     )
 
 

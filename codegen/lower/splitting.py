@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 from codegen.errors import MethodError
 from codegen.flows.part import Part, Summand
+from codegen.ir.differentiate import gradient
 from codegen.ir.number import Number
 from codegen.lower.flow_words import (
     FlowLowering,
@@ -27,6 +28,7 @@ from codegen.method import Method
 from codegen.scene.canonical_equations import poisson_bracket
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem
+from codegen.scene.site_scene import with_frozen_neighbours
 from orderconds.tableau import AdjointComposition, Splitting
 
 
@@ -68,23 +70,23 @@ def _in_order(
 ) -> tuple[Word, str]:
     """Return the sequence of flows and the label of its order conditions.
 
-    The tableau must have one part for each summand. If the parts of the tableau and of the scene have the
-    same names, they are matched by name. Otherwise a Runge-Kutta-Nystroem tableau has a part V, which is
-    matched with the kick (not on lattices). The parts of any other tableau are matched in their order.
+    If the parts of the tableau and of the scene have the same names, they are matched by name. Otherwise the
+    part V of a Runge-Kutta-Nystroem tableau is matched with the kick, and the parts of any other tableau are
+    matched by their order. A field on a lattice has no kick.
     """
     chosen = summands
     names = [part.name for part in own.parts]
     # The order of parts in a scene is arbitrary, so names are preferred to the order.
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
-    elif tableau.rkn is not None and own.scene.sites is None:
-        # Sort the summands so that the kick has the position of V in the tableau, first or last. (False sorts
-        # before True.)
+    elif tableau.rkn is not None and own.scene.paired:
+        # The summands are sorted so that the kick has the position of V in the tableau, first or last (False
+        # sorts before True).
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
         tableau.rkn is not None
-        and own.scene.sites is None
+        and own.scene.paired
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
@@ -95,10 +97,15 @@ def _in_order(
 
 
 def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
-    """Return True if [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings require.
+    """Return True if [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings require; V is the part of
+    ``summand``.
 
-    V is the part of the Hamiltonian that contains ``summand``, and T is the other part.
+    On a lattice, V contains the energies of bonds. Each bracket with a function of q lowers the degree of a
+    polynomial in the momenta by one, so the test is that T, which acts on single sites, has degree two at
+    most.
     """
+    if scene.sites is not None:
+        return is_kick(summand) and _quadratic(scene, [p for p in parts if p.summands[0] is not summand])
     (V,) = [scene.parts[p.name] for p in parts if p.summands[0] is summand]
     (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]
     qs, mus = (block.symbols for block in scene.state)
@@ -108,6 +115,15 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
         # The sign convention of the bracket does not matter, because the test compares with zero only.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)
     return orbit_of(scene).vanish([nested])
+
+
+def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
+    """Return True if the parts of the Hamiltonian of a site have at most degree two in the momentum."""
+    mus = scene.state[1].symbols
+    slopes = [scene.parts[part.name] for part in parts]
+    for _ in range(3):
+        slopes = [slope for root in slopes for slope in gradient(root, mus)]
+    return orbit_of(with_frozen_neighbours(scene)).vanish(slopes)
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:

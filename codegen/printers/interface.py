@@ -11,6 +11,7 @@ from typing import Any
 
 from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel
 from codegen.ir.precision import DOUBLE, Precision, precision
+from codegen.run.site_terms import padded
 
 LISTS = ("parameters", "blocks", "inputs", "solvers")
 """The fields of :class:`Interface` that are tuples. In JSON they are lists."""
@@ -33,15 +34,14 @@ class Interface:
     ``time`` is True if the step reads t. ``parameters`` are the run-time parameters in order. ``blocks`` are
     the labels of the implicit blocks, whose sweeps the statistics count. ``precision`` is the name of the
     number format (:mod:`codegen.ir.precision`). ``inputs`` are the run-time functions of time, in order.
-    ``adaptive`` is True if there is a run with step control. ``solvers`` are the methods that solve the
-    blocks. ``variations`` is the size of the Jacobian, or 0 if there is no Jacobian. ``batch`` is True if
-    there is a function for many independent systems.
-
-    ``integrated`` is True if there is a run to a given end time. ``controlled`` is True if step control
-    chooses the steps of this run. ``events`` is the number of event functions of this run. ``dense`` is the
-    order of the continuous extension, or 0 if there is none. ``dimension`` is the dimension of the lattice,
-    or 0 for a single system. ``workspace`` is the length of the workspace for each site, in numbers.
-    ``modes`` is True for a step on Fourier modes. The state of such a step is an array of any length.
+    ``adaptive`` is true if there is a run with step control. ``solvers`` are the methods that solve the
+    blocks. ``variations`` is the size of the Jacobian; it is 0 if there is no Jacobian. ``batch`` is true if
+    there is a function for many independent systems. ``integrated`` is true if there is a run to a given end
+    time, ``controlled`` if step control chooses the steps of this run. ``events`` is the number of event
+    functions of this run. ``dense`` is the order of the continuous extension, or 0 if there is none.
+    ``dimension`` is the dimension of the lattice, or 0 for a single system. ``workspace`` is the number of
+    rows of the workspace. ``modes`` is true for a step on Fourier modes, whose state is an
+    array of any length.
     """
 
     prefix: str
@@ -62,6 +62,10 @@ class Interface:
     dimension: int = 0
     workspace: int = 0
     modes: bool = False
+
+    def workspace_of(self, sites: int) -> int:
+        """Return the length of the workspace of a lattice with this number of sites."""
+        return self.workspace * padded(sites)
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:

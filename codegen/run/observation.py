@@ -70,7 +70,7 @@ u is the unit roundoff."""
 
 RISING, FALLING = 1, 2
 """Values of ``stops``: the run ends where the event function crosses zero from below (RISING) or from above
-(FALLING). The sum RISING + FALLING stands for both directions."""
+(FALLING). The sum RISING + FALLING means both directions."""
 
 
 class Observation:

@@ -123,7 +123,8 @@ class _Scopes:
         return result
 
     def begins(self, body: Body, name: str) -> bool:
-        """Return True if a body assigns the variable ``name`` before reading it."""
+        """Return True if a body assigns a variable before it reads it."""
+        looped = False
         for statement in body:
             if name not in self.mentioned(statement):
                 continue
@@ -135,12 +136,14 @@ class _Scopes:
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # The body of a For loop is assumed to be executed at least once. The body of a While with the
-            # test first, or of a branch, may be skipped.
-            if isinstance(statement, For) or (isinstance(statement, While) and statement.at_least_once):
+            # The body of a While with the test first, or of a branch, may be skipped.
+            if isinstance(statement, While) and statement.at_least_once:
                 return self.begins(statement.body, name)
-            return False
-        return False
+            if not isinstance(statement, For) or not self.begins(statement.body, name):
+                return False
+            # A For loop may have no iterations, so a later statement must assign the variable again.
+            looped = True
+        return looped
 
     def declare(self, body: Body, places: list[int], name: str, variable: Term) -> None:
         """Declare a variable in the block ``body``; statements with indices in ``places`` mention the

@@ -17,11 +17,11 @@ as ``site_K``. The sweeps of an implicit block are repeated until the unknowns o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 
-from codegen.ir.site_step import OWN, RESULT, STATE, WORK, Load, Row, SiteStep, Sweep
+from codegen.ir.site_step import EXISTS, OWN, RESULT, STATE, WORK, Load, Row, SiteStep, Sweep
 from codegen.run.batch import VECTORISED, called_by
 from codegen.run.language import (
     Assign,
@@ -35,6 +35,7 @@ from codegen.run.language import (
 )
 from codegen.run.plan import STEP, STEPS, TIME, Plan, symbols_of
 from codegen.run.site_solver import iterated, solvers
+from codegen.run.site_sums import sum_of_terms, summed
 from codegen.run.site_terms import (
     ARRAYS,
     BAD,
@@ -48,13 +49,16 @@ from codegen.run.site_terms import (
     SITE,
     SITES,
     SIZE,
+    STRIDE,
     WHOLE,
     chunks,
     distributed,
     entry_of,
     moved,
+    padded,
     shape_of,
     split,
+    with_stride,
 )
 from codegen.run.step import exact_time
 from codegen.run.terms import (
@@ -98,16 +102,19 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
     """Return the functions of a method that does not compose flows, callees first."""
     loops = [Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
     listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
-    listed += solvers(plan, step)
+    listed += [*([sum_of_terms()] if step.totals else []), *solvers(plan, step)]
     return complete(plan, step, [*listed, _advance(plan, step, loops)])
 
 
 def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Function]:
     """Return the functions of a step, followed by the public functions."""
     shape = shape_of(step)
-    size = Return(step.workspace * _product(shape, step.dimension))
-    workspace = Function("workspace", "", (shape,), (size,), Kind.COUNT, public=True)
-    return [*listed, workspace, _run(plan, step, any(f.near for f in listed))]
+    counted = Assign(SITES, _product(shape, step.dimension))
+    size = Return(step.workspace * STRIDE)
+    workspace = Function(
+        "workspace", "", (shape,), (counted, Assign(STRIDE, padded(SITES)), size), Kind.COUNT, public=True
+    )
+    return [*map(with_stride, listed), workspace, _run(plan, step, any(f.near for f in listed))]
 
 
 def _product(shape: Term, dimension: int) -> Term:
@@ -159,7 +166,8 @@ class Loop:
     def scalars(self) -> tuple[Term, ...]:
         """The time, the step size and the parameters that the sweep reads."""
         read = {s for kernel in self.own.kernels for s in kernel.used_scalars()}
-        return tuple(x for x in (TIME, STEP, *self.plan.parameters) if x.text in read)
+        totals = map(own, self.step.totals)
+        return tuple(x for x in (TIME, STEP, *totals, *self.plan.parameters) if x.text in read)
 
     @property
     def shared(self) -> set[str]:
@@ -170,9 +178,14 @@ class Loop:
         """Return an entry of a row of an array."""
         return entry_of(self.step, row, place)
 
-    def loaded(self, load: Load, place: Term, around: dict[int, Term]) -> Term:
-        """Return the entry that a load reads; ``around`` maps the number of a neighbour to the index of its
-        site."""
+    def loaded(
+        self, load: Load, place: Term, around: dict[int, Term], exist: Mapping[int, Term] | None = None
+    ) -> Term:
+        """Return the entry that a load reads. ``around`` maps the number of each neighbour to the index of
+        its site. ``exist`` contains the tests that neighbours exist; None means that all of them exist."""
+        if load.row.array == EXISTS:
+            one = number(1.0)
+            return one if exist is None else select(exist[load.row.number], one, number(0.0))
         return self.entry(load.row, place if load.neighbour == OWN else around[load.neighbour])
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
@@ -280,7 +293,7 @@ class Loop:
     def _loads_of_site(self, nears: dict[int, Term], exist: dict[int, Term]) -> list[Statement]:
         """Return the statements that load all numbers that the sweep reads at one site."""
         first = [load for load in self.own.loads if load.neighbour == OWN]
-        body: list[Statement] = [Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in first]
+        body: list[Statement] = [Assign(own(x.symbol), self.loaded(x, PLACE, nears, exist)) for x in first]
         around = [load for load in self._read() if load.neighbour != OWN]
         if self.own.outside is None:
             return [*body, *(Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in around)]
@@ -386,6 +399,7 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
     for k, loop in enumerate(loops):
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
+        calls += summed(step, step.sweeps[k])
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls

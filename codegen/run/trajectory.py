@@ -48,7 +48,7 @@ RAISING = frozenset({"sqrt", "log", "exp", *(f.name for f in ELEMENTARY.values()
 REGISTERS = 6
 """The largest number of components of a state for which the kernel is inlined in a run.
 
-So many components stay in registers together with the intermediate values of a step."""
+With more components, the state and the intermediate values of a step do not fit into the registers."""
 
 DONE = count("step")
 """The number of completed steps."""

@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
+    from codegen.scene.bonds import Bond as Bond
     from codegen.scene.derivative import Dx as Dx
     from codegen.scene.field_scene import FieldScene as FieldScene
     from codegen.scene.hamiltonian_scene import HamiltonianScene as HamiltonianScene
-    from codegen.scene.hamiltonian_sites import Bond as Bond
     from codegen.scene.hamiltonian_sites import HamiltonianSiteScene as HamiltonianSiteScene
     from codegen.scene.large_linear_scene import LargeLinearScene as LargeLinearScene
     from codegen.scene.linear_scene import LinearScene as LinearScene
@@ -68,10 +68,11 @@ __all__ = [
 
 lazy(
     __name__,
+    bonds=("Bond",),
     derivative=("Dx",),
     field_scene=("FieldScene",),
     hamiltonian_scene=("HamiltonianScene",),
-    hamiltonian_sites=("Bond", "HamiltonianSiteScene"),
+    hamiltonian_sites=("HamiltonianSiteScene",),
     large_linear_scene=("LargeLinearScene",),
     linear_scene=("LinearScene",),
     matrix_formula=("banded", "full", "unknown"),

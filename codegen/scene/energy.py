@@ -12,16 +12,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
-from codegen.groups.capabilities import CotangentBundle
+from codegen.groups.capabilities import CotangentBundle, DirectProduct
 from codegen.groups.linear_algebra import S, Vector, dot, units
 from codegen.ir.differentiate import gradient
 from codegen.ir.domain import Domain, Value, Values
 from codegen.ir.expr import Expr, evaluate
 from codegen.scene.values import Bindings
+
+if TYPE_CHECKING:
+    from codegen.scene.sites import Sites
 
 ENERGY = "energy"
 """The name of the invariant of a field scene that discrete gradients preserve."""
@@ -54,6 +57,10 @@ class Conservative(Protocol):
         """The declared invariants."""
 
     @property
+    def sites(self) -> Sites | None:
+        """The lattice, if the problem is the equation of one site."""
+
+    @property
     def symbols(self) -> tuple[str, ...]:
         """All coordinates of the state in order."""
 
@@ -62,7 +69,10 @@ class Conservative(Protocol):
 
 
 def energy_of(problem: Conservative) -> Expr | None:
-    """Return the Hamiltonian or, without a Hamiltonian, the invariant called ``energy``; else None."""
+    """Return the Hamiltonian or, without a Hamiltonian, the invariant called ``energy``; else None. For one
+    site of a lattice, return the sum of all energies that contain the state of the site."""
+    if problem.sites is not None:
+        return problem.sites.energy
     return problem.hamiltonian if problem.hamiltonian is not None else problem.invariants.get(ENERGY)
 
 
@@ -100,16 +110,32 @@ def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
 
 
 def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
-    """Return omega_y(alpha, .) in the algebra, for a covector alpha. For alpha = gamma(y) the result is
-    f(y)."""
-    bundle = problem.group.offers(CotangentBundle)
-    if bundle is not None and problem.hamiltonian is not None:
-        return bundle.canonical(d, y, alpha)
+    """Return omega_y(alpha, .) in the algebra, for a covector alpha; the result is f(y) if alpha is
+    gamma(y)."""
+    if canonical(problem):
+        return _canonical(problem.group, d, y, alpha)
     gamma = differential(problem, d, y)
     f: Vector[S] = tuple(evaluate(problem.roots, d, problem.values(d, y)))
     size = dot(gamma, gamma)
     along, across = (d.call("quotient", dot(x, alpha), size) for x in (gamma, f))
     return tuple(along * a - across * b for a, b in zip(f, gamma, strict=True))
+
+
+def canonical(problem: Conservative) -> bool:
+    """Return True if the equations are Hamilton's equations on T*G, or on a product of such groups."""
+    hamiltonian = problem.hamiltonian is not None or (problem.sites is not None and bool(problem.sites.force))
+    product = problem.group.offers(DirectProduct)
+    factors = (problem.group,) if product is None else product.factors
+    return hamiltonian and all(factor.offers(CotangentBundle) is not None for factor in factors)
+
+
+def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
+    """Return the canonical bivector on T*G, or on a product of such groups, applied to a covector."""
+    product = group.offers(DirectProduct)
+    if product is None:
+        return group.require(CotangentBundle).canonical(d, y, alpha)
+    rows = zip(product.factors, product.parts(y), product.parts(alpha), strict=True)
+    return tuple(x for factor, z, a in rows for x in _canonical(factor, d, z, a))
 
 
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:

@@ -154,9 +154,13 @@ def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
 
 
 def evolution(scene: Problem) -> Evolution:
-    """Return the coordinates of a scene that need the fewest products of series."""
+    """Return the coordinates of a scene that need the fewest products of series. On a lattice, these are the
+    coordinates of a site."""
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
+    if scene.sites is not None:
+        # The formulas of a site may read every coordinate of its neighbours, so none is omitted.
+        return forms[0]
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
         forms.append(_flat(scene, outer, group, _in_body(scene, group)))

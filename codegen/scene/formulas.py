@@ -64,12 +64,10 @@ class Reader:
         """
         self._allow(symbol.name)
         value = Number.rational(*symbol.default)
-        if symbol.name in self.coordinates or self.defaults.setdefault(symbol.name, value) != value:
-            raise SceneError(
-                f"the parameter {symbol.name} has the name of a coordinate, or two default values",
-                where=self.name,
-                expected="one meaning for each name",
-            )
+        if symbol.name in self.coordinates:
+            raise self._taken(f"the parameter {symbol.name} has the name of a coordinate")
+        if self.defaults.setdefault(symbol.name, value) != value:
+            raise self._taken(f"the parameter {symbol.name} has two default values")
 
     def _admit_signal(self, symbol: Signal) -> None:
         """Record a signal's formula, which may contain only the time and parameters."""
@@ -81,13 +79,15 @@ class Reader:
                     f"{what} contains {inner.name}", where=self.name, expected="a formula in t and parameters"
                 )
         formula = self.scalar(symbol.formula, what)
-        taken = symbol.name in self.coordinates or symbol.name in self.defaults
-        if taken or self.signals.setdefault(symbol.name, formula) is not formula:
-            raise SceneError(
-                f"the {what} has the name of another symbol, or two formulas",
-                where=self.name,
-                expected="one meaning for each name",
-            )
+        if symbol.name in self.coordinates:
+            raise self._taken(f"the {what} has the name of a coordinate")
+        if symbol.name in self.defaults:
+            raise self._taken(f"the {what} has the name of a parameter")
+        if self.signals.setdefault(symbol.name, formula) is not formula:
+            raise self._taken(f"the {what} has two formulas")
+
+    def _taken(self, what: str) -> SceneError:
+        return SceneError(what, where=self.name, expected="one meaning for each name")
 
     def closed(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return formulas in which the symbol of each signal is replaced by the signal's formula."""

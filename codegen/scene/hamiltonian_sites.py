@@ -11,17 +11,16 @@ V(q_i, q_{i+d}) and of V(q_{i-d}, q_i) with respect to q_i.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.base import LieGroup
 from codegen.ir.differentiate import gradient
-from codegen.ir.domain import ExprDomain
-from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.expr import Expr
 from codegen.ir.values import Kind
 from codegen.scene.arguments import read_span
+from codegen.scene.bonds import Bond, energies_of_bonds, sum_of_energies
 from codegen.scene.canonical_equations import force
 from codegen.scene.consistency import check_problem
 from codegen.scene.formulas import Reader
@@ -35,15 +34,6 @@ if TYPE_CHECKING:
     import sympy
 
     Column = Sequence[sympy.Expr]
-
-
-@dataclass(frozen=True)
-class Bond:
-    """The energy of the sites i and i + offset: a formula in the coordinates of q and of ``neighbour(q,
-    offset)``, parameters and the time."""
-
-    offset: Sequence[int]
-    energy: sympy.Expr
 
 
 def HamiltonianSiteScene(
@@ -73,18 +63,17 @@ def HamiltonianSiteScene(
     neighbour that does not exist: a column of ``group.size`` formulas in q, t and parameters, or a mapping
     from each offset to such a column. Constants describe a clamped end, and formulas in t a driven end. For
     a free end, write an element that exerts no force on the site. ``outside`` is needed for the offset of
-    each bond and for its negative.
-
-    ``parts`` are named summands of ``H``. Splittings compose their exact flows with the exact flow of all
-    bonds. :class:`SceneError` is raised in the same cases as by :func:`codegen.scene.HamiltonianScene` and
-    :func:`codegen.scene.SiteScene`, and for bonds that contain the momentum.
+    each bond and for its negative. ``parts`` are named summands of ``H``. Splittings compose their exact
+    flows with the exact flow of all bonds. :class:`SceneError` is raised in the same cases as by
+    :func:`codegen.scene.HamiltonianScene` and :func:`codegen.scene.SiteScene`, and for bonds that contain the
+    momentum.
     """
     reader = phase_space_reader(name, group, q, mu)
     qs, mus = tuple(reader.coordinates[: len(q)]), tuple(reader.coordinates[len(q) :])
     hamiltonian = reader.scalar(H, "H")
     summands = {key: reader.scalar(part, f"part {key}") for key, part in (parts or {}).items()}
-    offsets = _offsets(name, bonds)
-    pull = _of_bonds(reader, group, q, bonds)
+    energies = energies_of_bonds(reader, q, bonds, offsets := _offsets(name, bonds))
+    pull = _of_bonds(reader, group, qs, energies)
     slopes = gradient(hamiltonian, (*qs, *mus))
     own = force(reader.space, group, qs, slopes[: len(qs)])
     total = tuple(a + b for a, b in zip(own, pull, strict=True))
@@ -96,16 +85,22 @@ def HamiltonianSiteScene(
     )
     if reader.signals:
         raise SceneError("a signal in the energy of a site", where=name, expected="formulas in t")
+    energy = sum_of_energies(hamiltonian, energies)
     problem = Problem(
         *(name, title or name, group, LeftMultiplication(), state, (*slopes[len(qs) :], *total)),
         *(None, {}, read_span(name, span), reader.parameters()),
         paired=True,
         parts=summands,
-        sites=Sites(len(offsets[0]), offsets, symbols, ends, force=pull),
+        sites=Sites(len(offsets[0]), offsets, symbols, ends, (), pull, energy, energies),
     )
+    _check(problem, hamiltonian)
+    return problem
+
+
+def _check(problem: Problem, hamiltonian: Expr) -> None:
+    """Raise SceneError if the scene or one of its parts has an error."""
     check_problem(with_frozen_neighbours(problem), {})
     _check_parts(problem, hamiltonian)
-    return problem
 
 
 def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
@@ -128,38 +123,13 @@ def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
 
 
 def _of_bonds(
-    reader: Reader, group: LieGroup, q: Sequence[sympy.Symbol], bonds: Sequence[Bond]
+    reader: Reader, group: LieGroup, q: Sequence[str], energies: Sequence[tuple[int, Expr]]
 ) -> tuple[Expr, ...]:
     """Return the components of the force that all bonds together exert on a site."""
-    space = reader.space
-    qs = tuple(reader.coordinates[: len(q)])
-    total = (space.zero,) * group.dim
-    for number, bond in enumerate(bonds):
-        there, back = (
-            tuple(str(s.name) for s in neighbour(q, offset))
-            for offset in (bond.offset, tuple(-x for x in bond.offset))
-        )
-        what = f"the energy of bond {number}"
-        V = reader.scalar(bond.energy, what, more=there)
-        read = {n.payload for n in walk([V]) if n.op == "sym"}
-        momenta = read & set(reader.coordinates[len(q) :])
-        if momenta or not read & set(qs) or not read & set(there):
-            missing = "no coordinate of one of its two sites"
-            raise SceneError(
-                f"{what} contains {', '.join(sorted(momenta)) if momenta else missing}",
-                where=reader.name,
-                expected="a formula in the coordinates of q and of neighbour(q, offset)",
-            )
-        # The derivative with respect to q_i of V(q_i, q_{i+offset}), the energy of the bond from site i.
-        first = gradient(V, qs)
-        # The derivative with respect to q_i of V(q_{i-offset}, q_i), the energy of the bond to site i.
-        moved = {s: space.sym(s) for s in sorted(map(str, read))}
-        moved |= {s: space.sym(b) for s, b in zip(qs, back, strict=True)}
-        moved |= {s: space.sym(a) for s, a in zip(there, qs, strict=True)}
-        second = evaluate(gradient(V, there), ExprDomain(space), moved)
-        for slope in (first, second):
-            pairs = zip(total, force(space, group, qs, slope), strict=True)
-            total = tuple(a + b for a, b in pairs)
+    total = (reader.space.zero,) * group.dim
+    for _, V in energies:
+        pairs = zip(total, force(reader.space, group, q, gradient(V, q)), strict=True)
+        total = tuple(a + b for a, b in pairs)
     return total
 
 

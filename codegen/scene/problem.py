@@ -143,13 +143,14 @@ class Problem:
 
     @property
     def linear(self) -> bool:
-        """True if the field does not depend on the state: y' = A(t).y, where A may depend on time."""
+        """True if the field does not depend on the state: y' = A(t).y, where A may depend on time. The field
+        of a site must not depend on the states of neighbours, either."""
         # If the field is given by formulas of whole matrices, ``roots`` may be empty.
         if self.matrices is not None:
             return self.matrices.linear
         if self.semilinear is not None:
             return False
-        state = set(self.symbols)
+        state = {*self.symbols, *(() if self.sites is None else self.sites.names)}
         return not any(n.op == "sym" and n.payload in state for n in walk(self.roots))
 
     @property

@@ -15,12 +15,15 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 from codegen.ir.values import Kind
 from codegen.scene.arguments import check_group, check_points, read_span
+from codegen.scene.bonds import Bond, energies_of_bonds, sum_of_energies
 from codegen.scene.consistency import check_action, check_problem
+from codegen.scene.energy import differential
 from codegen.scene.formulas import Reader
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem, StateField
 from codegen.scene.site_parts import Pair, check_parts, read_parts
 from codegen.scene.sites import Offset, Sites, neighbour, offset_of
+from codegen.scene.unrolled import small
 
 if TYPE_CHECKING:
     import sympy
@@ -42,6 +45,8 @@ def SiteScene(
     boundary: str = PERIODIC,
     outside: Sequence[sympy.Expr] | Outside | None = None,
     parts: Mapping[str, Pair | Sequence[sympy.Expr]] | None = None,
+    energy: sympy.Expr | None = None,
+    bonds: Sequence[Bond] = (),
     invariants: Mapping[str, sympy.Expr] | None = None,
     name: str = "scene",
     title: str = "",
@@ -59,12 +64,13 @@ def SiteScene(
     that does not exist: a column of formulas in ``y``, t and parameters, or a mapping from each offset to
     such a column. Zeros describe a free end if the forces are linear in the neighbours. ``y`` itself
     describes a free end if the forces depend on differences. Constants describe a clamped end, and formulas
-    in t a driven end. ``parts`` are summands of the field whose exact flows are composed by splittings. A
-    part is a column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
+    in t a driven end. ``parts`` are summands of the field; splittings compose their exact flows. A part is a
+    column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours. Discrete
+    gradients need the total energy: the sum of ``energy`` over all sites and of ``bonds`` (:class:`Bond`).
 
-    :class:`SceneError` is raised for the same errors as in a field scene. The error is also raised for
-    offsets of different lengths, and for a missing formula of a neighbour outside an open boundary. Parts
-    that do not add up to the field, or that have no exact flow, raise the error too.
+    :class:`SceneError` is raised for the same errors as in a field scene. It is also raised for offsets of
+    different lengths, for a neighbour outside an open boundary without a formula, for parts that do not add
+    up to the field or have no exact flow, and for a total energy that is not constant.
     """
     check_group(name, group)
     reader = Reader(name, list(y))
@@ -76,6 +82,7 @@ def SiteScene(
     start = reader.column(y0, len(y), "y0", constant=True)
     ends = outside_states(reader, boundary, outside, offsets)
     sites = Sites(len(offsets[0]), offsets, symbols, ends, read_parts(reader, y, group.dim, parts))
+    sites = _with_energy(reader, sites, y, energy, bonds)
     if reader.signals:
         raise SceneError("a signal in the field of a site", where=name, expected="formulas in t")
     laws = {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
@@ -85,11 +92,61 @@ def SiteScene(
         reader.parameters(),
         sites=sites,
     )
+    _check(problem)
+    return problem
+
+
+def _check(problem: Problem) -> None:
+    """Raise SceneError if the scene, one of its parts or its energy has an error."""
     frozen = with_frozen_neighbours(problem)
     check_action(orbit_of(frozen))
     check_problem(frozen, {})
     check_parts(problem, orbit_of(frozen))
-    return problem
+    _check_energy(problem)
+
+
+def _with_energy(
+    reader: Reader, sites: Sites, y: Sequence[sympy.Symbol], energy: sympy.Expr | None, bonds: Sequence[Bond]
+) -> Sites:
+    """Return the lattice with the energy of a site and those of its bonds.
+
+    SceneError is raised for a bond of sites that the field does not couple.
+    """
+    if energy is None and not bonds:
+        return sites
+    for bond in bonds:
+        both = {tuple(bond.offset), tuple(-x for x in bond.offset)}
+        if not both <= set(sites.offsets):
+            raise SceneError(
+                f"a bond with the offset {tuple(bond.offset)}",
+                where=reader.name,
+                expected=f"an offset that the field reads, together with its negative: "
+                f"{', '.join(map(str, sites.offsets))}",
+            )
+    own = reader.space.zero if energy is None else reader.scalar(energy, "energy")
+    shared = energies_of_bonds(reader, y, bonds, sites.offsets)
+    return replace(sites, energy=sum_of_energies(own, shared), bonds=shared)
+
+
+def _check_energy(problem: Problem) -> None:
+    """Raise SceneError if the total energy changes along the solutions of a small lattice."""
+    if problem.sites is None or problem.sites.energy is None:
+        return
+    whole = small(problem)
+    orbit = orbit_of(whole)
+    for point in orbit.points if problem.autonomous else ():
+        y = tuple(point[s] for s in orbit.symbols)
+        gamma = differential(whole, orbit.domain, y)
+        f = whole.apply(orbit.domain, "field", None, (y,))[0]
+        terms = [a * b for a, b in zip(gamma, f, strict=True)]
+        if not orbit.sized(sum(terms), (*terms, 1)):
+            raise SceneError(
+                f"the total energy of {len(whole.state[0].symbols) // len(problem.symbols)} sites has the "
+                f"derivative {orbit.text(sum(terms))}",
+                where=problem.name,
+                expected="an energy that is constant along the solutions",
+                hint="at an open boundary, the state outside must be constant or exert no force",
+            )
 
 
 def with_frozen_neighbours(scene: Problem) -> Problem:

@@ -15,9 +15,12 @@ import sympy
 
 from codegen.errors import SceneError
 from codegen.ir.expr import Expr
+from codegen.ir.number import Number
 
 MOST_DIMENSIONS, MOST_DISTANCE = 4, 8
 """The largest dimension of a lattice, and the largest difference of an index between neighbours."""
+
+HALF = Number.rational(1, 2)
 
 Offset = tuple[int, ...]
 
@@ -105,7 +108,9 @@ class Sites:
     a neighbour that does not exist. The formulas contain the coordinates of the site itself, the time and
     parameters. ``parts`` are the parts of the field whose flows splittings compose
     (:mod:`codegen.scene.site_parts`). In a Hamiltonian scene, ``force`` contains the components n of the
-    force that all bonds together exert on a site (:mod:`codegen.scene.hamiltonian_sites`).
+    force that all bonds together exert on a site (:mod:`codegen.scene.hamiltonian_sites`), ``energy`` is the
+    sum of all energies that contain the state of a site, and ``bonds`` contains those of them that also
+    contain the state of a neighbour, each with the index of the offset of this neighbour.
     """
 
     dimension: int
@@ -114,11 +119,26 @@ class Sites:
     outside: tuple[tuple[Expr, ...], ...] = ()
     parts: tuple[SitePart, ...] = ()
     force: tuple[Expr, ...] = ()
+    energy: Expr | None = None
+    bonds: tuple[tuple[int, Expr], ...] = ()
 
     @property
     def periodic(self) -> bool:
         """True if the first and the last site along each axis are neighbours."""
         return not self.outside
+
+    def share(self, exists: Sequence[Expr | bool]) -> Expr:
+        """Return the energy of a site, of which the sum over all sites is the total energy. Two neighbours
+        have one half each of the energy of their bond. If a neighbour is outside an open boundary, the site
+        has the whole energy: ``exists`` is true or 1 for each offset whose neighbour exists, and false or 0
+        otherwise."""
+        assert self.energy is not None
+        share, space = self.energy, self.energy.space
+        for number, bond in self.bonds:
+            given = exists[number]
+            factor = given if isinstance(given, Expr) else space.one if given else space.zero
+            share = share - factor * (space.const(HALF) * bond)
+        return share
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from codegen.groups.actions import FactorwiseAction
 from codegen.groups.product import Product
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space, evaluate
+from codegen.scene.energy import ENERGY
 from codegen.scene.problem import TIME, Problem, StateField
 from codegen.scene.sites import Offset, Sites
 
@@ -24,7 +25,8 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
     """Return a lattice of the given shape as a field on the product of the groups of its sites.
 
     The coordinates of site 0 come first; the last index of a site changes fastest. Every site has the initial
-    state of the scene. A Hamiltonian scene becomes a field on the product of the groups T*G of its sites.
+    state of the scene. A Hamiltonian scene becomes a field on the product of the groups T*G of its sites, and
+    its total energy is the Hamiltonian of the result. In other scenes the total energy is an invariant.
     :class:`SceneError` is raised for a scene without sites, for a shape whose length is not the dimension of
     the lattice, and for too few or too many sites.
     """
@@ -45,10 +47,13 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
     coordinates = [tuple(map(space.sym, names)) for names in symbols]
     shared = {name: space.sym(name) for name in (TIME, *scene.parameters)}
     roots: list[Expr] = []
+    energy: Expr | None = None
     for place, index in enumerate(product(*map(range, shape))):
         values = shared | dict(zip(scene.symbols, coordinates[place], strict=True))
+        exists: list[bool] = []
         for k, offset in enumerate(sites.offsets):
             there = neighbour_place(sites, index, offset, shape)
+            exists.append(there is not None)
             state = (
                 tuple(evaluate(list(sites.outside[k]), domain, values))
                 if there is None
@@ -56,6 +61,9 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
             )
             values |= dict(zip(sites.symbols[k], state, strict=True))
         roots += evaluate(list(scene.roots), domain, values)
+        if sites.energy is not None:
+            (own,) = evaluate([sites.share(exists)], domain, values)
+            energy = own if energy is None else energy + own
     first = tuple(e for block in scene.state for e in block.initial)
     flat = tuple(s for names in symbols for s in names)
     state = (replace(scene.state[0], symbols=flat, initial=first * number),)
@@ -66,9 +74,23 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
         action=FactorwiseAction(*[scene.action] * number),
         state=state,
         roots=tuple(roots),
-        invariants={},
+        hamiltonian=energy if sites.force else None,
+        invariants={} if energy is None or sites.force else {ENERGY: energy},
+        parts={},
         sites=None,
     )
+
+
+def small(scene: Problem) -> Problem:
+    """Return an unrolled lattice with few sites. In a periodic lattice, every site has all neighbours.
+
+    An open lattice has a site with all neighbours if it then has at most :data:`MOST_SITES` sites.
+    """
+    assert scene.sites is not None
+    offsets, dimension = scene.sites.offsets, scene.sites.dimension
+    far = [max(abs(offset[e]) for offset in offsets) for e in range(dimension)]
+    shape = [(d if scene.sites.periodic else 2 * d) + 1 for d in far]
+    return unrolled(scene, shape if prod(shape) <= MOST_SITES else [d + 1 for d in far])
 
 
 def neighbour_place(sites: Sites, index: Sequence[int], offset: Offset, shape: Sequence[int]) -> int | None:

@@ -12,7 +12,7 @@ axis.
 from sympy import Matrix, Rational, symbols, zeros
 
 from codegen.groups import SO3, Rotation
-from codegen.scene import Pair, SiteScene, neighbour, param
+from codegen.scene import Bond, Pair, SiteScene, neighbour, param
 
 S = Matrix(symbols("S0:3", real=True))
 J, K, B = param("J", 1), param("K", Rational(1, 2)), param("B", Rational(1, 5))
@@ -35,5 +35,7 @@ scene = SiteScene(
         "rows": Pair(offsets[0], sums[0], sums[0]),
         "columns": Pair(offsets[1], sums[1], sums[1]),
     },
+    energy=-K * S[2] ** 2 / 2 - B * S[2],
+    bonds=[Bond(offset, -J * S.dot(neighbour(S, offset))) for offset in offsets],
     invariants={"length": S.dot(S)},
 )

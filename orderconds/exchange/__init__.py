@@ -156,7 +156,7 @@ def format_of(path: str) -> str:
         return name
     raise InputError(
         f"a file with an unknown suffix: {path}",
-        expected=f"one of {', '.join(suffix for _, suffix in FORMATS.values())}",
+        expected=f"one of {', '.join(suffix for _, suffix in FORMATS.values())}, .h",
         hint="give the format with --from or --to",
     )
 

@@ -70,15 +70,21 @@ def read(content: bytes, where: str) -> Data:
     for name, *cells in table:
         if name in TEXTS:
             if name in entries:
-                raise TableauError(f"{name} twice", where=where, expected="it once")
+                raise _repeated(name, where)
             entries[name] = ",".join(filter(None, cells)) if name == "claims" else cells[0] if cells else ""
         elif name in MATRICES:
             entries.setdefault(name, []).append([coefficient(x) for x in cells])
         elif name in entries:
-            raise TableauError(f"{name} twice", where=where, expected="it once")
+            raise _repeated(name, where)
         else:
             entries[name] = [coefficient(x) for x in cells]
     return from_arrays(entries, where)
+
+
+def _repeated(name: str, where: str) -> TableauError:
+    return TableauError(
+        f"two rows begin with {name}", where=where, expected=f"one row that begins with {name}"
+    )
 
 
 def _is_plain(table: Table) -> bool:

@@ -132,9 +132,9 @@ def parsed(text: str, where: str) -> Data:
             "TOML nested too deep", where=where, expected="tables and lists with few levels"
         ) from None
     # Python raises ValueError for an integer with thousands of digits and for a date outside the calendar.
-    except ValueError:
+    except ValueError as problem:
         raise TableauError(
-            "an integer of thousands of digits, or an impossible date",
+            f"a number or a date that cannot be read: {str(problem).partition(';')[0]}",
             where=where,
             expected='coefficients in quotation marks, as "1/2"',
         ) from None

@@ -243,8 +243,8 @@ def tried(**changes):
     ("make", "message"),
     [
         (lambda: tried(f=Matrix([signal("u", Symbol("y0", real=True)), 1, 2])), "signal u contains y0"),
-        (lambda: tried(f=Matrix([signal("y1", 1), 1, 2])), "signal y1 has the name of another symbol"),
-        (lambda: tried(f=Matrix([signal("u", 1), signal("u", 2), 2])), "two formulas"),
+        (lambda: tried(f=Matrix([signal("y1", 1), 1, 2])), "signal y1 has the name of a coordinate"),
+        (lambda: tried(f=Matrix([signal("u", 1), signal("u", 2), 2])), "u has two formulas"),
         (lambda: tried(y0=[signal("u", 1), 0, 0]), "the symbol u in y0"),
         (lambda: signal("u", "sin("), "the formula 'sin\\('"),
         (lambda: with_inputs(gallery(SCENE), ["u7"]), "unknown signal 'u7'.*u0, u1, u2"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import shutil
 import subprocess
 from functools import cache
@@ -27,7 +28,7 @@ from codegen.run.scope import declarations
 from codegen.run.site_terms import CHUNK, MANY_SITES
 from codegen.run.unit import unit_of
 from codegen.scene import Pair, SiteScene, left, neighbour, right
-from tests.codegen.bodies import open_bodies
+from tests.codegen.bodies import open_bodies, string
 from tests.codegen.chains import S, chain, open_chain, open_plane
 
 REGION = {"gcc": b"GOMP_parallel", "clang": b"__kmpc_fork_call"}
@@ -61,6 +62,9 @@ def library(artifact, compiler, *flags):
     if shutil.which(compiler) is None:
         pytest.skip(f"{compiler} is missing")
     path = build(artifact.files, (*LOOP_FLAGS, *flags), Compiler((compiler,), compiler))
+    # After a loop, threads of clang's OpenMP wait in the code of their library, so the library must stay
+    # loaded. ctypes never unloads a library.
+    ctypes.CDLL(str(path))
     interface = Interface.from_json(artifact.manifest["interface"])
     return CompiledLattice(interface, artifact.manifest["defaults"], path), path
 
@@ -99,6 +103,8 @@ CASES = [
     pytest.param(chain, "rkmk:gauss2", LONG, 0.1, {}, id="fixed point"),
     pytest.param(open_bodies, "vcg:midpoint", LONG, 0.02, {}, id="variational"),
     pytest.param(open_bodies, "splitting:strang", LONG, 0.1, {}, id="kicks"),
+    pytest.param(string, "discrete_gradient:midpoint", LONG, 0.1, {}, id="sums over all sites"),
+    pytest.param(open_chain, "taylor(4)", LONG, 0.1, {}, id="Taylor"),
     pytest.param(row, "rk:gauss1", LONG, 0.1, {"solver": "simplified-newton"}, id="Newton"),
 ]
 SLOW_CASES = [pytest.param(*case.values, id=case.id, marks=pytest.mark.slow) for case in CASES[1:]]

@@ -176,7 +176,7 @@ def test_every_form_of_the_same_numbers_gives_the_same_result(target: str, state
         ((["0.6", "0", "0.8"], 0.1, 1), "found '0.6' of type str"),
         ((np.ma.array(START, mask=[1, 0, 0]), 0.1, 1), "found an object of type MaskedArray"),
         (([np.complex64(1j), 0, 0], 0.1, 1), "found 1j of type complex64"),
-        (([10**400, 0, 0], 0.1, 1), "a number of at most 1.8e308"),
+        (([10**400, 0, 0], 0.1, 1), "a number between -1.8e308 and 1.8e308"),
         ((START, "0.1", 1), "expected a real number for h, found '0.1' of type str"),
         ((START, np.array([0.1]), 1), "expected a real number for h, found an object of type ndarray"),
         ((START, 0.1, 2.0), "expected an integer for steps, found 2.0 of type float"),

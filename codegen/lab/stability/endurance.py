@@ -71,7 +71,7 @@ def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
     try:
         runner.integrator.run(runner.initial, h, TRIAL, first)
     except StepFailed as failure:
-        return (Endurance(f"{MANY} steps", failure.step, None, None, str(failure)),)
+        return (Endurance("forward", failure.step, None, None, str(failure)),)
     each = max((time.process_time() - start) / TRIAL, 1e-9)
     many, back = (min(n, int(SECONDS / each)) for n in (MANY, BACK))
     return (_forward(compiled, runner, h, many, first), _return(compiled, runner, h, back, first))

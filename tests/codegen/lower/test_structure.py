@@ -10,6 +10,7 @@ import pytest
 from codegen.loader import load
 from codegen.lower import lowering, names
 from codegen.lower.flow_words import FlowLowering
+from codegen.scenes import load as gallery
 from tests.codegen.family_cases import CASES
 from tests.compilations import emitted
 
@@ -38,9 +39,16 @@ OF_FLOWS = ["splitting:strang", "splitting:ruth3", "splitting:blanes_moan4", "sp
 OF_FLOWS += ["composition:triple_jump", "composition:mclachlan4", "composition:yoshida6"]
 """Splittings of the dipole: a kick, and the two exact flows that its asymmetric inertia is split into."""
 
+
+def on_dipole(family):
+    """Return True for a family of Hamiltonian scenes that accepts the scene of these tests."""
+    own = lowering(family)
+    return own.hamiltonian and own.objection(gallery("dipole")) is None
+
+
 TRIED = {method.partition(":")[0].partition("(")[0] for method in (*VARIATIONAL, *OF_FLOWS)}
 for family, cases in CASES.items():
-    if family not in TRIED and lowering(family).hamiltonian:
+    if family not in TRIED and on_dipole(family):
         flows = isinstance(lowering(family), FlowLowering)
         (OF_FLOWS if flows else VARIATIONAL).extend(case.method for case in cases)
 
@@ -67,7 +75,7 @@ def tries(methods):
 
 def test_every_family_of_hamiltonian_scenes_is_tried():
     tried = {method.partition(":")[0].partition("(")[0] for method in {*VARIATIONAL, *OF_FLOWS} - LONG}
-    assert tried == {family for family in names() if lowering(family).hamiltonian}
+    assert tried == {family for family in names() if on_dipole(family)}
 
 
 def hat(x):

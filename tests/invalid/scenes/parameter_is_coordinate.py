@@ -1,4 +1,4 @@
-# 9: the parameter y1 has the name of a coordinate, or two default values
+# 9: the parameter y1 has the name of a coordinate
 from sympy import Matrix, symbols
 
 from codegen.groups import SO3, Rotation

@@ -1,4 +1,4 @@
-# 9: the parameter a has the name of a coordinate, or two default values
+# 9: the parameter a has two default values
 from sympy import Matrix, symbols
 
 from codegen.groups import SO3, Rotation

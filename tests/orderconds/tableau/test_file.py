@@ -266,7 +266,7 @@ MALFORMED = {
     "unknown base": ('name = "t"\nfamily = "composition"\nbase = "x"\ngamma = ["1"]\n', "base", ""),
     "an integer longer than Python reads": (
         HEAD + "A = [[]]\nb = [" + "9" * 5000 + "]\n",
-        "thousands of digits",
+        "Exceeds the limit (4300 digits)",
         "quotation marks",
     ),
     "lists in lists in lists": (

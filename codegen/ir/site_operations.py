@@ -1,0 +1,89 @@
+"""Operations on sums over all sites of a lattice.
+
+Inner products and energies of a lattice are sums over its sites. Each site computes its term of a sum, and
+:class:`Total` adds the terms of all sites. A system of one site has a single term, which is the sum.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.ir.domain import Domain, Values
+from codegen.ir.operations import A, D, Kinds, Operation, Problem, R
+from codegen.ir.values import Kind
+
+
+@dataclass(frozen=True)
+class Total(Operation):
+    """The sum of a number over all sites."""
+
+    name = "total"
+    takes, gives = R, R
+    noun = "sum{s} over all sites"
+
+    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
+        """Return the argument, the sum for a single site."""
+        return args
+
+
+@dataclass(frozen=True)
+class InnerProduct(Operation):
+    """The inner product of the coordinates of two vectors, each an element of the algebra or of its dual."""
+
+    first: Kind
+    second: Kind
+    name = "inner"
+    noun = "inner product{s}"
+
+    def signature(self) -> tuple[Kinds, Kinds]:
+        """Return the kinds of the arguments and of the results."""
+        return (self.first, self.second), R
+
+    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
+        """Return the inner product."""
+        total = domain.rational(0)
+        for a, b in zip(*args, strict=True):
+            total = total + a * b
+        return (total,)
+
+
+@dataclass(frozen=True)
+class Excess(Operation):
+    """H1 - H0 - p for the arguments p, H0, H1: the part of a difference of energies that the pairing p does
+    not contain."""
+
+    name = "excess"
+    takes, gives = R + R + R, R
+
+    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
+        """Return H1 - H0 - p."""
+        paired, before, after = args
+        return (after - before - paired,)
+
+
+@dataclass(frozen=True)
+class Corrected(Operation):
+    """g + (r/s) x for the arguments g, x, r, s. For s = 0 it is g."""
+
+    name = "corrected"
+    takes, gives = D + A + R + R, D
+
+    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
+        """Return g + (r/s) x."""
+        g, x, r, s = args
+        factor = domain.call("quotient", r, s)
+        return (tuple(a + factor * b for a, b in zip(g, x, strict=True)),)
+
+
+@dataclass(frozen=True)
+class Wedge(Operation):
+    """(p f - q gamma)/s for the arguments gamma, f, p, q, s. For s = 0 it is zero."""
+
+    name = "wedge"
+    takes, gives = D + A + R + R + R, A
+
+    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
+        """Return (p f - q gamma)/s."""
+        gamma, f, p, q, s = args
+        along, across = (domain.call("quotient", x, s) for x in (p, q))
+        return (tuple(along * a - across * b for a, b in zip(f, gamma, strict=True)),)

@@ -1,0 +1,63 @@
+"""Discrete gradients on a lattice: inner products and energies are sums over all sites.
+
+The discrete differential D = g + (H1 - H0 - <g, eta>)/|eta|^2 eta of the whole lattice contains three numbers
+that are sums over its sites: the difference of the energies, <g, eta> and |eta|^2. Each site computes its
+term, and the terms of all sites are added. The differences H1 - H0 - <g, eta> are formed at each site before
+they are added, because they are small. If the equations are not Hamilton's equations, the bivector (gamma
+wedge f)/|gamma|^2 contains three further sums (:mod:`codegen.scene.energy`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from codegen.ir.operations import Operation
+from codegen.ir.program import Assign, Builder, Program, Solve
+from codegen.ir.scene_operations import Bivector, Differential, Field, Secant
+from codegen.ir.site_operations import Corrected, Excess, InnerProduct, Total, Wedge
+from codegen.ir.values import Var
+from codegen.ir.verify import verify
+from codegen.scene.energy import canonical
+from codegen.scene.problem import Problem
+
+
+def with_sums(program: Program, problem: Problem) -> Program:
+    """Return the program with explicit sums over all sites in place of those operations whose formulas
+    contain such sums."""
+    unknowns = {u.name for s in program.body if isinstance(s, Solve) for u in s.unknowns}
+    targets = {v.name for assign in program.assigns() for v in assign.targets}
+    builder = Builder({v.name for v in program.inputs} | unknowns | targets | {"t", "h"})
+
+    def expanded(assigns: tuple[Assign, ...]) -> tuple[Assign, ...]:
+        return tuple(each for assign in assigns for each in _expanded(assign, problem, builder))
+
+    body: list[Assign | Solve] = []
+    for statement in program.body:
+        if isinstance(statement, Solve):
+            body.append(replace(statement, body=expanded(statement.body)))
+        else:
+            body += expanded((statement,))
+    return verify(replace(program, body=tuple(body)))
+
+
+def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign, ...]:
+    """Return the assignments that replace one assignment; the last one has its targets."""
+
+    def total(name: str, x: Var, y: Var) -> Var:
+        return build.add(Total(), "sum", build.add(InnerProduct(x.kind, y.kind), name, x, y))
+
+    operation: Operation
+    args: tuple[Var, ...]
+    if isinstance(assign.operation, Secant):
+        g, x, before, after = assign.args
+        paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
+        excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
+        operation, args = Corrected(), (g, x, excess, total("size", x, x))
+    elif isinstance(assign.operation, Bivector) and not canonical(problem):
+        y, alpha = assign.args
+        gamma, f = build.add(Differential(), "gamma", y), build.add(Field(), "slope", y)
+        sums = total("along", gamma, alpha), total("across", f, alpha), total("norm", gamma, gamma)
+        operation, args = Wedge(), (gamma, f, *sums)
+    else:
+        return (assign,)
+    return (*build.take(), replace(assign, operation=operation, args=args))

@@ -1,0 +1,141 @@
+"""Partitioned Runge-Kutta methods on T*R^n: one tableau for the positions, another for the momenta.
+
+Q_i = q0 + h sum_j a_ij xi_j, P_i = p0 + h sum_j ahat_ij n_j, (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h) with c_i =
+sum_j a_ij, and q1 = q0 + h sum_i b_i xi_i, p1 = p0 + h sum_i bhat_i n_i (HLW II.2.1). The time belongs to the
+first part, so its stages are those of the positions. The unknowns are the xi_i and n_i.
+
+If xi does not depend on q, the velocity of a stage is evaluated at the old position, and if n does not depend
+on p, the force of a stage is evaluated at the old momentum. These arguments have no effect. Without them, the
+stages of explicit pairs such as Stoermer and Verlet's are seen to be explicit.
+"""
+
+from __future__ import annotations
+
+from codegen.errors import MethodError
+from codegen.ir.expr import walk
+from codegen.ir.program import Program
+from codegen.ir.values import ONE, Kind, Var
+from codegen.lower.base import Lowering, Objection
+from codegen.lower.stages import Stages
+from codegen.method import Method
+from codegen.scene.problem import TIME, Problem
+from orderconds.families import Family
+from orderconds.tableau.method_properties import symplectic_pair
+from orderconds.tableau.methods import PartitionedRungeKutta, RungeKutta
+
+
+class PartitionedLowering(Lowering):
+    """Partitioned Runge-Kutta methods for Hamilton's equations on a vector space."""
+
+    family = "prk"
+    hamiltonian = True
+    repeats_substeps = True
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return an objection if the scene has no Hamiltonian, or if its group is not abelian. Otherwise the
+        family accepts the scene, and the result is None."""
+        if not scene.is_hamiltonian:
+            return Objection("", "a Hamiltonian scene, whose state consists of positions and momenta")
+        if scene.group.abelian:
+            return None
+        hint = "use vcg, vcf or vrkmk, the variational methods on other groups"
+        return Objection(f", whose group is {scene.group.name}", "a Hamiltonian scene on R^n", hint)
+
+    def problem(self, scene: Problem, method: Method) -> Problem:
+        """Return the scene itself."""
+        return scene
+
+    def symplectic(self, scene: Problem, method: Method) -> bool:
+        """Return True if the pair of tableaux is proved symplectic for the Hamiltonian of the scene. If H is
+        not of the form T(p) + V(q, t), the weights of both tableaux must be equal (HLW Theorem VI.4.6)."""
+        tableau, zero = _pair(method), method.ring.is_zero
+        same = all(zero(x - y) is True for x, y in zip(tableau.b, tableau.b_hat, strict=True))
+        return symplectic_pair(tableau, method.ring) is True and (same or separable(scene))
+
+    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
+        """Return the order conditions. For H = T(p) + V(q, t), a symplectic pair satisfies more of them than
+        for other Hamiltonians."""
+        from orderconds import families
+
+        if scene is not None and separable(scene) and symplectic_pair(_pair(method), method.ring) is True:
+            return families.get("sprk_separable")
+        return super().conditions(method, scene)
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program of a step."""
+        tableau = _pair(method)
+        q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
+        stages = Stages(problem, method, (q, mu))
+        build, s = stages.builder, tableau.s
+        xi = [build.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
+        n = [build.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
+        by_position, by_momentum = reads_position(problem), reads_momentum(problem)
+
+        def images() -> list[Var]:
+            velocities, forces = [], []
+            for i, number in enumerate(range(1, s + 1)):
+                x = stages.combination(f"X{number}", Kind.ALG, tableau.A[i], xi)
+                Q = build.mul(f"Q{number}", build.exp(f"g{number}", x), q)
+                terms = [
+                    (ONE, mu),
+                    *((stages.times_h(a), f) for a, f in zip(tableau.A_hat[i], n, strict=True)),
+                ]
+                P = build.lin(f"P{number}", Kind.DUAL, terms)
+                time = stages.at(sum(tableau.A[i][1:], tableau.A[i][0]))
+                v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
+                if not by_position:
+                    v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
+                if not by_momentum:
+                    _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
+                velocities.append(v)
+                forces.append(f)
+            return velocities + forces
+
+        def starts() -> list[Var]:
+            v, f = build.hamilton("v0", "f0", q, mu, *stages.at(None))
+            return [v] * s + [f] * s
+
+        def update() -> dict[str, Var]:
+            x = stages.combination("X", Kind.ALG, tableau.b, xi)
+            terms = [(ONE, mu), *((stages.times_h(b), f) for b, f in zip(tableau.b_hat, n, strict=True))]
+            return {"q": build.mul("q1", build.exp("g", x), q), "mu": build.lin("mu1", Kind.DUAL, terms)}
+
+        return stages.program(xi + n, images, starts, update)
+
+
+def _pair(method: Method) -> PartitionedRungeKutta:
+    """Return the tableaux of both parts. MethodError is raised for a tableau of another format."""
+    tableau = method.tableau.read_as(("prk", "rk"))
+    if isinstance(tableau, RungeKutta):
+        return PartitionedRungeKutta(tableau.A, tableau.b, tableau.A, tableau.b)
+    if not isinstance(tableau, PartitionedRungeKutta):
+        raise MethodError(
+            f"the family {method.family} cannot use {method.name}, a tableau of format "
+            f"{method.tableau.family}",
+            expected="a tableau of format prk, rk or composition",
+        )
+    return tableau
+
+
+def separable(scene: Problem) -> bool:
+    """Return True if H = T(p) + V(q, t): the velocity depends on p alone, and the force does not depend on
+    p."""
+    return not reads_position(scene) and not reads_momentum(scene) and TIME not in _read(scene, False)
+
+
+def reads_position(scene: Problem) -> bool:
+    """Return True if the velocity xi depends on positions."""
+    around = () if scene.sites is None else scene.sites.names
+    return bool(_read(scene, False) & {*scene.state[0].symbols, *around})
+
+
+def reads_momentum(scene: Problem) -> bool:
+    """Return True if the force n depends on the momentum."""
+    return bool(_read(scene, True) & set(scene.state[1].symbols))
+
+
+def _read(scene: Problem, force: bool) -> set[str]:
+    """Return the symbols in the formulas of the force n, or in those of the velocity xi."""
+    dim = scene.group.dim
+    roots = scene.roots[dim:] if force else scene.roots[:dim]
+    return {str(x.payload) for x in walk(roots) if x.op == "sym"}

@@ -1,0 +1,43 @@
+"""Sums over all sites of a lattice.
+
+The terms are added in chunks of adjacent sites, and then the sums of all chunks. The order of the additions
+does not depend on the number of threads, so the results have the same bits for any number of threads.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.site_step import WORK, SiteStep, Sweep
+from codegen.run.language import Assign, Call, For, Function, Return, Statement
+from codegen.run.site_terms import ARRAYS, CHUNK, FIRST, SITES, SIZE, chunks, row_of
+from codegen.run.terms import Kind, count, number, own, real
+
+SUM = "sum_of_terms"
+"""The name of the function that adds the numbers of a row of the workspace."""
+
+_START, _PLACE, _CHUNK, _SUM, _PART = count("start"), count("place"), count("k"), real("sum"), real("part")
+
+
+def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
+    """Return the calls that compute the sums after a sweep."""
+    return [
+        Call(SUM, (SITES, ARRAYS[WORK], row_of(step, row.number)), (own(name),)) for name, row in sweep.sums
+    ]
+
+
+def sum_of_terms() -> Function:
+    """Return the function that adds the numbers in a row of the workspace. The first number of each chunk is
+    replaced by the sum of the chunk."""
+    work = ARRAYS[WORK]
+    added = (
+        Assign(_PART, number(0.0)),
+        For(_PLACE, SIZE, (Assign(_PART, _PART + work[_START + FIRST + _PLACE]),)),
+        Assign(work[_START + FIRST], _PART),
+    )
+    whole = For(_CHUNK, (SITES + (CHUNK - 1)) // CHUNK, (Assign(_SUM, _SUM + work[_START + _CHUNK * CHUNK]),))
+    return Function(
+        SUM,
+        "The sum of the numbers in one row of the workspace, which are overwritten.",
+        (SITES, work, _START),
+        (chunks(SITES, added), Assign(_SUM, number(0.0)), whole, Return(_SUM)),
+        Kind.REAL,
+    )

@@ -1,0 +1,69 @@
+"""Bonds: energies of pairs of neighbours on a lattice.
+
+A site is the first site of one bond and the second site of another bond with the same offset. The energies
+that contain the state of a site are its own energy and those of both bonds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from codegen.errors import SceneError
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, evaluate, walk
+from codegen.scene.formulas import Reader
+from codegen.scene.sites import Offset, neighbour
+
+if TYPE_CHECKING:
+    import sympy
+
+
+@dataclass(frozen=True)
+class Bond:
+    """The energy of the sites i and i + offset: a formula in the coordinates of both sites, parameters and
+    the time. The coordinates of the second site are ``neighbour(y, offset)``; in a Hamiltonian scene, y are
+    the coordinates of q."""
+
+    offset: Sequence[int]
+    energy: sympy.Expr
+
+
+def energies_of_bonds(
+    reader: Reader, y: Sequence[sympy.Symbol], bonds: Sequence[Bond], offsets: Sequence[Offset]
+) -> tuple[tuple[int, Expr], ...]:
+    """Return the energies of all bonds of a site, each with the index of the offset of the other site.
+
+    ``y`` are the coordinates that bonds may contain, the first coordinates of a state. Each bond occurs
+    twice: the site is the first site of V(y_i, y_{i+offset}) and the second site of V(y_{i-offset}, y_i).
+    SceneError is raised for an energy that does not contain both sites, or that contains other coordinates.
+    """
+    space, own = reader.space, tuple(reader.coordinates[: len(y)])
+    energies: list[tuple[int, Expr]] = []
+    for number, bond in enumerate(bonds):
+        offset = tuple(int(x) for x in bond.offset)
+        opposite = tuple(-x for x in offset)
+        there, back = (tuple(str(s.name) for s in neighbour(y, o)) for o in (bond.offset, opposite))
+        what = f"the energy of bond {number}"
+        V = reader.scalar(bond.energy, what, more=there)
+        read = {str(n.payload) for n in walk([V]) if n.op == "sym"}
+        others = read & set(reader.coordinates[len(y) :])
+        if others or not read & set(own) or not read & set(there):
+            missing = "no coordinate of one of its two sites"
+            raise SceneError(
+                f"{what} contains {', '.join(sorted(others)) if others else missing}",
+                where=reader.name,
+                expected=f"a formula in {', '.join(own)} and in the coordinates of neighbour(y, offset)",
+            )
+        moved = {s: space.sym(s) for s in sorted(read)}
+        moved |= {s: space.sym(b) for s, b in zip(own, back, strict=True)}
+        moved |= {s: space.sym(a) for s, a in zip(there, own, strict=True)}
+        (last,) = evaluate([V], ExprDomain(space), moved)
+        energies += [(offsets.index(offset), V), (offsets.index(opposite), last)]
+    return tuple(energies)
+
+
+def sum_of_energies(own: Expr, energies: Sequence[tuple[int, Expr]]) -> Expr:
+    """Return the sum of the energy of a site and of the energies of its bonds."""
+    return sum((V for _, V in energies), own)

@@ -1,0 +1,44 @@
+"""Coordinates that do not change: parameters of a system, or of each site of a lattice, as part of its state.
+
+If the field reads only the time and such coordinates, the equation of a solution is y' = A(t).y with A(t) =
+f(y0, t), and methods for linear equations apply. On a lattice, the field may read the static coordinates of
+neighbours, because their values at time t are those at the beginning.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.expr import Expr, walk
+from codegen.scene.ambient import ambient
+from codegen.scene.problem import Problem
+from codegen.scene.site_scene import with_frozen_neighbours
+
+
+def reads_only_static(scene: Problem) -> bool:
+    """Return True if the field of a scene reads the time, parameters, and coordinates that do not change, but
+    no other coordinate of the system, of a site, or of its neighbours."""
+    # A coordinate without a generator is the usual form of a static coordinate. Without this test, large
+    # fields would be differentiated in vain.
+    if not any(map(_vanishes, scene.roots)):
+        return False
+    one = scene if scene.sites is None else with_frozen_neighbours(scene)
+    rates = zip(scene.symbols, ambient(one).roots, strict=True)
+    moving = {s for s, rate in rates if not _vanishes(rate)}
+    if scene.sites is None:
+        return not _read(scene.roots) & moving
+    sites, read = scene.sites, _read(scene.roots)
+    for number, column in enumerate(sites.symbols):
+        for k, s in enumerate(column):
+            if s not in read:
+                continue
+            outside = [sites.outside[number][k]] if sites.outside else []
+            if scene.symbols[k] in moving or _read(outside) & moving:
+                return False
+    return not read & moving
+
+
+def _vanishes(x: Expr) -> bool:
+    return x.op == "const" and bool(x.payload.is_zero)
+
+
+def _read(roots: list[Expr] | tuple[Expr, ...]) -> set[str]:
+    return {str(n.payload) for n in walk(roots) if n.op == "sym"}
