@@ -174,6 +174,8 @@ LATTICE_CASES = {
         LatticeCase("taylor(3)", 3, pushed_spins, unit_spins),
         LatticeCase("taylor(2)", 2, turning_bodies, frames),
         LatticeCase("taylor(5)", 5, quartic_springs, plane_states),
+        # The detuning of a spin is constant, but the detuning outside the open end is not.
+        LatticeCase("taylor(4)", 4, driven_qubits, detuned_spins),
     ),
     "discrete_gradient": (
         LatticeCase("discrete_gradient:midpoint", 2, quartic_springs, plane_states),

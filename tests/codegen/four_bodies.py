@@ -114,7 +114,7 @@ def driven_qubits():
         y0=[1, 0, 0, 1],
         span=(0, 1),
         boundary="open",
-        outside={(-1,): [0, 0, 0, T], (1,): [0, 0, 0, w / 2]},
+        outside={(-1,): [0, 0, 0, T**3], (1,): [0, 0, 0, w / 2]},
         name="driven_qubits",
     )
 
