@@ -18,6 +18,7 @@ from tests.codegen.four_bodies import (
     conservative_spins,
     detuned_spins,
     driven_qubits,
+    driven_springs,
     frames,
     paired_spins,
     plane_states,
@@ -207,6 +208,7 @@ LATTICE_CASES = {
         LatticeCase("splitting:strang", 2, quartic_springs, plane_states),
         LatticeCase("splitting:ruth3", 3, paired_spins, unit_spins),
         LatticeCase("splitting:strang", 2, turning_bodies, frames),
+        LatticeCase("splitting:forest_ruth4", 4, driven_springs, plane_states),
         LatticeCase("splitting:forest_ruth4", 4, quartic_springs, plane_states),
         LatticeCase("splitting:ruth3", 3, quartic_springs, plane_states),
         LatticeCase("splitting:mclachlan_atela4", 4, quartic_springs, plane_states),
@@ -215,6 +217,7 @@ LATTICE_CASES = {
     "composition": (
         LatticeCase("composition:triple_jump", 4, quartic_springs, plane_states),
         LatticeCase("composition:triple_jump", 4, paired_spins, unit_spins),
+        LatticeCase("composition:triple_jump", 4, driven_springs, plane_states),
         LatticeCase("composition:mclachlan4", 4, quartic_springs, plane_states),
     ),
     "magnus": (
