@@ -162,7 +162,7 @@ def threads_compared(method: str, sides: Sequence[int], threads: int, turns: int
         steps = max(1, 400_000 // side**2)
         spins = np.random.default_rng(1).normal(size=(3, side, side))
         spins /= np.linalg.norm(spins, axis=0)
-        work = np.zeros(interface.workspace * side**2)
+        work = np.zeros(interface.workspace_of(side**2))
         for _ in range(turns):
             for name, lattice, number in kinds:
                 if number:

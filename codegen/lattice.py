@@ -55,7 +55,7 @@ class Lattice(ArrayModule, ABC):
             state = table[(slice(None), *place)].tolist()
             raise ValueError(f"expected finite numbers, found the state {state} at site {place}")
         try:
-            work = np.empty(interface.workspace * finite.size, table.dtype)
+            work = np.empty(interface.workspace_of(finite.size), table.dtype)
         except MemoryError:
             raise InputError(
                 f"not enough memory for the workspace of {finite.size} sites",

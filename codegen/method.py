@@ -153,9 +153,8 @@ class Method:
         if not self.kind.fixed_stages:
             # Symplectic and variational methods conserve their modified energy for steps of equal size only.
             raise MethodError(
-                f"no error estimate for {self.label}: the stages depend on the weights, so an embedded "
-                "method would need other stages; with steps of varying size the method would also lose its "
-                "conservation properties over long times",
+                f"no error estimate for {self.label}: embedded methods exist only in families whose stages "
+                "do not depend on the weights",
                 expected=f"a method of {', '.join(with_estimate())}",
             )
         if self.kind.minimal_brackets and self.cutoff is None:

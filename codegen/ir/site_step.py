@@ -190,7 +190,8 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The number of doubles in the workspace for each site: the stored rows and a second state."""
+        """The number of rows of the workspace: the stored rows and a second state. Each row has an
+        entry for each site."""
         return self.rows + self.size
 
     @property

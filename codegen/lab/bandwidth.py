@@ -247,7 +247,7 @@ class _Runs:
         kind = np.dtype(f"f{self.itemsize}")
         shape, interface = (side,) * self.dimension, self.lattice.interface
         sites, least = prod(shape), float("inf")
-        work, table = np.zeros(interface.workspace * sites, kind), np.empty((interface.size, sites), kind)
+        work, table = np.zeros(interface.workspace_of(sites), kind), np.empty((interface.size, sites), kind)
         values = [self.lattice.defaults[name] for name in interface.parameters]
         for _ in range(repeated):
             table[:] = np.array(self.start, kind)[:, None]
@@ -292,7 +292,7 @@ def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs)
     machine.counts = {}
     sites = side**step.dimension
     state = [float(x) for x in runs.start for _ in range(sites)]
-    work = [0.0] * (interface.workspace * sites)
+    work = [0.0] * interface.workspace_of(sites)
     time_at_start = [0.0] if interface.time else []
     values = [runs.lattice.defaults[name] for name in interface.parameters]
     shape, done = [side] * step.dimension, [0]

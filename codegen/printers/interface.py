@@ -11,6 +11,7 @@ from typing import Any
 
 from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel
 from codegen.ir.precision import DOUBLE, Precision, precision
+from codegen.run.site_terms import padded
 
 LISTS = ("parameters", "blocks", "inputs", "solvers")
 """The fields of :class:`Interface` that are tuples; in JSON they are lists."""
@@ -38,8 +39,8 @@ class Interface:
     there is a function for many independent systems. ``integrated`` is true if there is a run to a given end
     time, ``controlled`` if step control chooses the steps of this run. ``events`` is the number of event
     functions of this run. ``dense`` is the order of the continuous extension, or 0 if there is none.
-    ``dimension`` is the dimension of the lattice, or 0 for a single system. ``workspace`` is the length of
-    the workspace for each site, in numbers. ``modes`` is true for a step on Fourier modes, whose state is an
+    ``dimension`` is the dimension of the lattice, or 0 for a single system. ``workspace`` is the number of
+    rows of the workspace. ``modes`` is true for a step on Fourier modes, whose state is an
     array of any length.
     """
 
@@ -61,6 +62,10 @@ class Interface:
     dimension: int = 0
     workspace: int = 0
     modes: bool = False
+
+    def workspace_of(self, sites: int) -> int:
+        """Return the length of the workspace of a lattice with this number of sites."""
+        return self.workspace * padded(sites)
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:

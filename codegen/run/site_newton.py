@@ -19,7 +19,18 @@ from dataclasses import dataclass
 from codegen.ir.site_step import OWN, SiteBlock, SiteNewton, SiteStep
 from codegen.run.language import Array, Assign, Call, For, Function, If, Return, Statement
 from codegen.run.plan import STEP, TIME, Plan, symbols_of
-from codegen.run.site_terms import ARRAYS, MEASURED, PLACE, SITES, distributed, entry_of, moved, split
+from codegen.run.site_terms import (
+    ARRAYS,
+    MEASURED,
+    PLACE,
+    SITES,
+    STRIDE,
+    distributed,
+    entry_of,
+    moved,
+    row_of,
+    split,
+)
 from codegen.run.terms import Kind, Term, count, greatest, number, own, real, select, size, whole
 
 _INNER, _LAST, _BASE, _FIRST = count("inner"), count("last"), count("base"), count("first")
@@ -75,7 +86,7 @@ class ChainSolver:
 
     def row(self, number: int) -> Term:
         """Return the index of the first entry of a row of the workspace."""
-        return (number + self.step.size) * SITES
+        return row_of(self.step, number)
 
     def cell(self, site: Term, block: int, i: Term, j: Term) -> Term:
         """Return an entry of a block of the matrix."""
@@ -86,7 +97,7 @@ class ChainSolver:
     def border(self, site: Term, i: Term, j: Term) -> Term:
         """Return entry i of a site in column j of the border. The border consists of those columns of the
         matrix that multiply the unknowns of the last site."""
-        return self.work[(self.newton.border + self.step.size + j * self.n + i) * SITES + site]
+        return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
         """Return the statements that set the index of the first entry of the matrix, and the number of sites
@@ -134,7 +145,7 @@ class ChainSolver:
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:
-            return self.work[_FIRST + k * SITES + site]
+            return self.work[_FIRST + k * STRIDE + site]
 
         left = self.cell(_SITE, LEFT, _I, _K) * x(_SITE - 1, _K)
         forward = For(
@@ -213,13 +224,13 @@ class ChainSolver:
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
-        return [Assign(_LAST, _INNER - 1), For(place, n * n * SITES, (zero,)), *ends]
+        return [Assign(_LAST, _INNER - 1), For(place, n * n * STRIDE, (zero,)), *ends]
 
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that solve the equations of the other sites with the border as right-hand
         side, and then compute and invert the block that remains for the last site."""
         n = self.n
-        first = (self.newton.border + self.step.size + _J * n) * SITES
+        first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
@@ -270,7 +281,7 @@ class ChainSolver:
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:
-            return self.work[first + k * SITES + site]
+            return self.work[first + k * STRIDE + site]
 
         rest = (
             Assign(_SUM, x(_INNER, _I)),

@@ -19,7 +19,7 @@ from codegen.kernel.schedule import METHODS
 from codegen.run.language import Array, Assign, Call, For, Function, If, Note, Return, Statement, While
 from codegen.run.plan import STEP, Plan
 from codegen.run.site_newton import ChainSolver, unsolved
-from codegen.run.site_terms import ARRAYS, MEASURED, SITES, distributed
+from codegen.run.site_terms import ARRAYS, MEASURED, SITES, distributed, row_of
 from codegen.run.statistics import SWEEPS
 from codegen.run.stopping import CHANGE, SCALE, Stopping
 from codegen.run.terms import (
@@ -115,9 +115,7 @@ def solvers(plan: Plan, step: SiteStep) -> list[Function]:
 def _measure(step: SiteStep) -> Function:
     """Return the function that computes maxima of changes and unknowns over all sites."""
     work = ARRAYS[WORK]
-    change_row, size_row = (
-        (row.number + step.size) * SITES for row in step.sweeps[step.blocks[0].last].measured
-    )
+    change_row, size_row = (row_of(step, row.number) for row in step.sweeps[step.blocks[0].last].measured)
     start = [count("changes"), count("sizes")]
     most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")
     change = real("change")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from codegen.ir.site_step import WORK, SiteStep, Sweep
 from codegen.run.language import Assign, Call, For, Function, Return, Statement
-from codegen.run.site_terms import ARRAYS, CHUNK, FIRST, SITES, SIZE, chunks
+from codegen.run.site_terms import ARRAYS, CHUNK, FIRST, SITES, SIZE, chunks, row_of
 from codegen.run.terms import Kind, count, number, own, real
 
 SUM = "sum_of_terms"
@@ -20,7 +20,7 @@ _START, _PLACE, _CHUNK, _SUM, _PART = count("start"), count("place"), count("k")
 def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
     """Return the calls that compute the sums after a sweep."""
     return [
-        Call(SUM, (SITES, ARRAYS[WORK], (row.number + step.size) * SITES), (own(name),))
+        Call(SUM, (SITES, ARRAYS[WORK], row_of(step, row.number)), (own(name),))
         for name, row in sweep.sums
     ]
 

@@ -48,13 +48,16 @@ from codegen.run.site_terms import (
     SITE,
     SITES,
     SIZE,
+    STRIDE,
     WHOLE,
     chunks,
     distributed,
     entry_of,
     moved,
+    padded,
     shape_of,
     split,
+    with_stride,
 )
 from codegen.run.step import exact_time
 from codegen.run.terms import (
@@ -105,9 +108,12 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Function]:
     """Return the functions of a step, followed by the public functions."""
     shape = shape_of(step)
-    size = Return(step.workspace * _product(shape, step.dimension))
-    workspace = Function("workspace", "", (shape,), (size,), Kind.COUNT, public=True)
-    return [*listed, workspace, _run(plan, step, any(f.near for f in listed))]
+    counted = Assign(SITES, _product(shape, step.dimension))
+    size = Return(step.workspace * STRIDE)
+    workspace = Function(
+        "workspace", "", (shape,), (counted, Assign(STRIDE, padded(SITES)), size), Kind.COUNT, public=True
+    )
+    return [*map(with_stride, listed), workspace, _run(plan, step, any(f.near for f in listed))]
 
 
 def _product(shape: Term, dimension: int) -> Term:

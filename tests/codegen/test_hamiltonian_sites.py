@@ -19,6 +19,7 @@ from codegen.ir.precision import DOUBLE
 from codegen.lower import lower, method_for
 from codegen.run.execute import Machine
 from codegen.run.plan import Plan
+from codegen.run.site_terms import padded
 from codegen.run.unit import unit_of
 from codegen.scene import Bond, HamiltonianSiteScene, neighbour
 from codegen.scene.unrolled import unrolled
@@ -102,7 +103,7 @@ def run(plan, domain, shape, start, size, *t):
     """Return the states after one step of an emitted module from the time t, executed in 40 digits."""
     number = int(np.prod(shape))
     rows = [start[size * i + k] for k in range(size) for i in range(number)]
-    work = [domain.rational(0)] * (number * plan.kernel.sites.workspace)
+    work = [domain.rational(0)] * (padded(number) * plan.kernel.sites.workspace)
     parameters = [domain.rational(3, 2)] if plan.parameters else []
     h = domain.rational(1, 7)
     machine = Machine(unit_of(plan), domain)

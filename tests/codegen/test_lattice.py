@@ -22,6 +22,7 @@ from codegen.lower import lower, method_for
 from codegen.printers.c.module import FLAGS, VECTOR_FLAGS
 from codegen.run.execute import Machine
 from codegen.run.plan import Plan
+from codegen.run.site_terms import padded
 from codegen.run.unit import unit_of
 from codegen.scene import Pair, SiteScene, neighbour
 from codegen.scene.unrolled import unrolled
@@ -113,7 +114,7 @@ def test_a_step_in_forty_digits_is_the_step_of_the_product():
     h, t = domain.rational(1, 7), domain.rational(1, 3)
     rows = [start[3 * i + k] for k in range(3) for i in range(3)]
     assert plan.kernel.sites is not None
-    work = [domain.rational(0)] * (3 * plan.kernel.sites.workspace)
+    work = [domain.rational(0)] * (padded(3) * plan.kernel.sites.workspace)
     assert machine.call("run", [3], rows, t, h, 1, work, [0]) == Status.OK
     program = lower(whole, method_for(whole, method))
     expected = interpret(program, whole, replaced(domain, h), {"y": tuple(start), "t": t})["y"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import shutil
 import subprocess
 from functools import cache
@@ -61,6 +62,9 @@ def library(artifact, compiler, *flags):
     if shutil.which(compiler) is None:
         pytest.skip(f"{compiler} is missing")
     path = build(artifact.files, (*LOOP_FLAGS, *flags), Compiler((compiler,), compiler))
+    # After a loop, threads of clang's OpenMP wait in the code of their library, so the library must stay
+    # loaded. ctypes never unloads a library.
+    ctypes.CDLL(str(path))
     interface = Interface.from_json(artifact.manifest["interface"])
     return CompiledLattice(interface, artifact.manifest["defaults"], path), path
 

@@ -29,7 +29,7 @@ def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
         "#include <stdio.h>",
         "",
         f"enum {{ SITES = {total} }};",
-        f"static {real.c_type} state[{interface.size} * SITES], work[{interface.workspace} * SITES];",
+        f"static {real.c_type} state[{interface.size} * SITES], work[{interface.workspace_of(total)}];",
         "",
         "int main(void)",
         "{",

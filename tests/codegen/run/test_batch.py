@@ -189,9 +189,10 @@ def test_a_python_module_has_no_batch():
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="gcc reports the loops that it vectorises")
-@pytest.mark.parametrize(("scene", "method"), [(s, m) for s, m, _ in CASES[:5]])
-def test_the_loop_over_systems_is_vectorised(scene, method, tmp_path):
-    artifact = emitted(scene, method)
+@pytest.mark.parametrize("given", [False, True], ids=["constants", "parameters"])
+@pytest.mark.parametrize(("scene", "method", "parameters"), CASES[:5])
+def test_the_loop_over_systems_is_vectorised(scene, method, parameters, given, tmp_path):
+    artifact = emitted(scene, method, parameters if given else ())
     name = next(n for n in artifact.files if n.endswith(".c"))
     for file, text in artifact.files.items():
         (tmp_path / file).write_text(text)
