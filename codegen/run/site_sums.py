@@ -20,8 +20,7 @@ _START, _PLACE, _CHUNK, _SUM, _PART = count("start"), count("place"), count("k")
 def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
     """Return the calls that compute the sums after a sweep."""
     return [
-        Call(SUM, (SITES, ARRAYS[WORK], row_of(step, row.number)), (own(name),))
-        for name, row in sweep.sums
+        Call(SUM, (SITES, ARRAYS[WORK], row_of(step, row.number)), (own(name),)) for name, row in sweep.sums
     ]
 
 
