@@ -28,6 +28,8 @@ The numbers follow from the place of a site and are not in memory."""
 OWN = -1
 """The value of ``neighbour`` that denotes the site itself."""
 
+NO_TIME = Number.rational(0)
+
 BYTES = 8
 """The number of bytes of a double."""
 
@@ -168,15 +170,15 @@ class SiteBlock:
 
 @dataclass(frozen=True)
 class SiteFlow:
-    """One flow of a splitting step.
-
-    ``sweep`` is the index of the sweep that computes the flow, and ``duration`` is in units of h. In a sweep
-    over pairs, ``colour`` (0 or 1) is the parity of the index of the first site of each pair.
-    """
+    """One flow of a splitting step. ``sweep`` is the index of the sweep that computes it, and ``duration`` is
+    in units of h. A flow that depends on time is evaluated at the time t + ``elapsed`` h. In a sweep over
+    pairs, ``colour`` (0 or 1) selects the pairs: it is the parity of the index
+    of the first site of each pair."""
 
     sweep: int
     colour: int
     duration: Number
+    elapsed: Number = NO_TIME
 
 
 @dataclass(frozen=True)

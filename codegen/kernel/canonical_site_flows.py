@@ -17,7 +17,7 @@ from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.kernel import Field as StateBlock
 from codegen.ir.kernel import Kernel, Let
 from codegen.ir.number import Number
-from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteFlow, SiteStep, Sweep
+from codegen.ir.site_step import NO_TIME, OWN, RESULT, STATE, Load, Row, SiteFlow, SiteStep, Sweep
 from codegen.kernel.assignments import Assignments, unique_name
 from codegen.kernel.shared_angles import SharedArguments
 from codegen.scene.flow import Flow
@@ -26,6 +26,9 @@ from codegen.scene.problem import TIME, Problem
 Timed = tuple[str, Flow, Number]
 """A flow with its name and its duration."""
 
+Word = Sequence[tuple[Summand, Number]]
+"""The flows of a step with their durations."""
+
 COPY = "the state is copied"
 """The description of a sweep that copies the state. The first sweep of a step must visit all sites, because
 it reads the old state. The last sweep must also visit all sites, because it tests whether the new state is
@@ -33,26 +36,29 @@ finite. A copy is added where a flow of pairs or a kick would be first or last.
 """
 
 
-def canonical_kernel(scene: Problem, label: str, word: Sequence[tuple[Summand, Number]]) -> Kernel:
-    """Return the kernel of a splitting step of a Hamiltonian lattice.
-
-    ``word`` lists the flows of the step with their durations.
-    """
-    listed = [(name, flow, duration) for summand, duration in word for name, flow in summand.flows]
+def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | None) -> Kernel:
+    """Return the kernel of a splitting of a Hamiltonian lattice. ``word`` lists the flows of a step with
+    their durations. The time advances during the flows of ``carrier``."""
+    listed, elapsed = [], NO_TIME
+    for summand, duration in word:
+        listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
+        elapsed = elapsed + duration if summand is carrier else elapsed
+    # Only kicks depend on time: a part with momenta that depends on time has no exact flow.
+    assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
     sweeps: list[Sweep] = []
     index: dict[tuple[object, ...], int] = {}
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
         # A run is a sequence of flows that form one sweep. In the sweep, all durations are multiples of the
-        # first duration, so runs with the same flows and the same multiples share one sweep.
-        first = run[0][2]
-        ratios = [(name, flow, duration / first) for name, flow, duration in run]
+        # first duration, so runs with the same flows and the same multiples share a sweep.
+        first, moment = run[0][2:]
+        ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
         if key not in index:
             index[key] = len(sweeps)
             sweeps.append(_kick(scene, label, ratios) if kick else _local(scene, label, ratios))
-        flows.append(SiteFlow(index[key], 0, first))
+        flows.append(SiteFlow(index[key], 0, first, moment))
     return kernel_of(scene, label, sweeps, flows)
 
 
@@ -113,7 +119,8 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
     ]
     outside = None
     if sites.outside:
-        values = {s: domain.space.sym(s) for s in scene.symbols} | scene.scalars(domain)
+        values = {s: domain.space.sym(s) for s in scene.symbols}
+        values |= scene.scalars(domain, domain.space.sym(TIME))
         ghosts = [evaluate([sites.outside[k][row]], domain, values)[0] for _, k, row in around]
         outside = _scheduled(scene, label, ghosts)
         read |= {str(n.payload) for n in walk(ghosts) if n.op == "sym"}
@@ -129,7 +136,8 @@ def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> lis
     """
     assert scene.sites is not None
     group, size = scene.group.require(Coadjoint), len(scene.state[0].symbols)
-    fixed = {s: domain.space.sym(s) for s in scene.sites.names} | scene.scalars(domain)
+    fixed = {s: domain.space.sym(s) for s in scene.sites.names}
+    fixed |= scene.scalars(domain, domain.space.sym(TIME))
     state = tuple(map(domain.space.sym, scene.symbols))
     q, mu = state[:size], state[size:]
     for _, flow, ratio in run:
@@ -150,7 +158,7 @@ def _scheduled(scene: Problem, label: str, ends: list[Expr]) -> Kernel:
     schedule = Assignments((), ends, {}, lambda base: unique_name(base, taken))
     body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
     block = StateBlock("site", symbols, "the numbers that the sweep reads")
-    return Kernel(label, (block,), ("h", *scene.runtime), body, schedule.outputs)
+    return Kernel(label, (block,), (TIME, "h", *scene.runtime), body, schedule.outputs)
 
 
 def _text(run: Sequence[Timed]) -> str:

@@ -25,16 +25,17 @@ from codegen.scene.sites import SitePart
 def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:
     """Return the program and the kernel of a splitting of a lattice.
 
-    MethodError is raised for a scene that depends on time, and for a tableau that cannot be used with the
-    parts of the scene.
+    MethodError is raised for a field that depends on time, unless the scene is Hamiltonian. It is also raised
+    for a part without exact flow, and for a tableau that cannot be used with the parts of the scene.
     """
     assert scene.sites is not None
-    if not scene.autonomous:
+    if not scene.autonomous and not scene.paired:
         raise MethodError(
             f"a splitting cannot be used on {scene.name}, because the field of this lattice depends on t",
-            expected="a field that does not depend on t",
+            expected="a field that does not depend on t, or a HamiltonianSiteScene",
         )
-    word = lowering.read(scene, method).word
+    reading = lowering.read(scene, method)
+    word = reading.word
     y = Var("y", Kind.POINT)
     body, last = [], y
     named = [(name, duration) for summand, duration in word for name, _ in summand.flows]
@@ -43,8 +44,9 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
         body.append(Assign((target,), SiteFlowOf(name, Coefficient(duration, 1)), (last,)))
         last = target
     program = Program(method.label, (y,), tuple(body), (("y", last),))
-    kernel = canonical_kernel if scene.paired else _kernel
-    return program, kernel(scene, method.label, word)
+    if scene.paired:
+        return program, canonical_kernel(scene, method.label, word, reading.carrier)
+    return program, _kernel(scene, method.label, word)
 
 
 def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]) -> Kernel:

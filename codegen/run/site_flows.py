@@ -20,7 +20,7 @@ from codegen.ir.domain import ExprDomain
 from codegen.ir.site_step import OWN, RESULT, STATE, Load, Row, SiteFlow, SiteStep, Sweep
 from codegen.run.batch import VECTORISED, called_by
 from codegen.run.language import Assign, Call, For, Function, If, Return, Statement
-from codegen.run.plan import STEP, Plan, symbols_of
+from codegen.run.plan import STEP, TIME, Plan, symbols_of
 from codegen.run.site_terms import (
     ARRAYS,
     BAD,
@@ -83,7 +83,15 @@ class _Kick:
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
         """Return the call that applies the flow to all sites."""
         shape = shape_of(self.loop.step)
-        scalars = tuple(duration if x is STEP else x for x in self.loop.scalars)
+        domain = ExprDomain()
+        space = domain.space
+        moment = (
+            TIME
+            if flow.elapsed.is_zero
+            else value(space.sym(TIME.text) + domain.number(flow.elapsed) * space.sym(STEP.text))
+        )
+        given = {STEP.text: duration, TIME.text: moment}
+        scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 

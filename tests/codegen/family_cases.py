@@ -18,6 +18,7 @@ from tests.codegen.four_bodies import (
     conservative_spins,
     detuned_spins,
     driven_qubits,
+    driven_springs,
     frames,
     paired_spins,
     plane_states,
@@ -174,6 +175,8 @@ LATTICE_CASES = {
         LatticeCase("taylor(3)", 3, pushed_spins, unit_spins),
         LatticeCase("taylor(2)", 2, turning_bodies, frames),
         LatticeCase("taylor(5)", 5, quartic_springs, plane_states),
+        # The detuning of a spin is constant, but the detuning outside the open end is not.
+        LatticeCase("taylor(4)", 4, driven_qubits, detuned_spins),
     ),
     "discrete_gradient": (
         LatticeCase("discrete_gradient:midpoint", 2, quartic_springs, plane_states),
@@ -205,6 +208,7 @@ LATTICE_CASES = {
         LatticeCase("splitting:strang", 2, quartic_springs, plane_states),
         LatticeCase("splitting:ruth3", 3, paired_spins, unit_spins),
         LatticeCase("splitting:strang", 2, turning_bodies, frames),
+        LatticeCase("splitting:forest_ruth4", 4, driven_springs, plane_states),
         LatticeCase("splitting:forest_ruth4", 4, quartic_springs, plane_states),
         LatticeCase("splitting:ruth3", 3, quartic_springs, plane_states),
         LatticeCase("splitting:mclachlan_atela4", 4, quartic_springs, plane_states),
@@ -213,6 +217,7 @@ LATTICE_CASES = {
     "composition": (
         LatticeCase("composition:triple_jump", 4, quartic_springs, plane_states),
         LatticeCase("composition:triple_jump", 4, paired_spins, unit_spins),
+        LatticeCase("composition:triple_jump", 4, driven_springs, plane_states),
         LatticeCase("composition:mclachlan4", 4, quartic_springs, plane_states),
     ),
     "magnus": (

@@ -14,6 +14,7 @@ from tests.codegen.chains import S, spins
 
 F = Fraction
 T = Symbol("t")
+CLAMPED = Rational(1, 3)
 
 
 @cache
@@ -64,9 +65,9 @@ def unit_spins():
     return [[2 * a / (1 + r), 2 * b / (1 + r), (r - 1) / (1 + r)] for a, b in pairs for r in [a * a + b * b]]
 
 
-def springs_with(name, kinetic):
-    """Return an open chain of particles on a line, coupled by springs with cubic forces; one end is
-    clamped. ``kinetic`` is the kinetic energy as a function of the momentum."""
+def springs_with(name, kinetic, end=CLAMPED, stiffness=1):
+    """Return an open chain of particles on a line, coupled by springs with cubic forces; one end has the
+    position ``end``. ``kinetic`` is the kinetic energy as a function of the momentum."""
     G = Rn(1)
     (x,), (p,) = G.point("x"), G.dual("p")
     well = x**4 / 4 + x**3 / 3
@@ -77,12 +78,12 @@ def springs_with(name, kinetic):
         mu=[p],
         H=kinetic(p) + well,
         parts={"kinetic": kinetic(p), "well": well},
-        bonds=[Bond((1,), (y - x) ** 2 / 2 + (y - x) ** 4 / 4)],
+        bonds=[Bond((1,), stiffness * (y - x) ** 2 / 2 + (y - x) ** 4 / 4)],
         q0=[0],
         mu0=[Rational(1, 2)],
         span=(0, 1),
         boundary="open",
-        outside={(-1,): [Rational(1, 3)], (1,): [x]},
+        outside={(-1,): [end], (1,): [x]},
         name=name,
     )
 
@@ -91,6 +92,12 @@ def springs_with(name, kinetic):
 def quartic_springs():
     """Return the chain with the kinetic energy p^2/2."""
     return springs_with("quartic_springs", lambda p: p**2 / 2)
+
+
+@cache
+def driven_springs():
+    """Return the chain with a driven end and springs whose stiffness depends on time."""
+    return springs_with("driven_springs", lambda p: p**2 / 2, T**2 - T / 3, 1 + T)
 
 
 @cache
@@ -114,7 +121,7 @@ def driven_qubits():
         y0=[1, 0, 0, 1],
         span=(0, 1),
         boundary="open",
-        outside={(-1,): [0, 0, 0, T], (1,): [0, 0, 0, w / 2]},
+        outside={(-1,): [0, 0, 0, T**3], (1,): [0, 0, 0, w / 2]},
         name="driven_qubits",
     )
 

@@ -12,7 +12,7 @@ from codegen import emit, load, load_lattice
 from codegen.arrival import Status
 from codegen.emitter import compile_method
 from codegen.errors import MethodError, SceneError
-from codegen.groups import SO3
+from codegen.groups import SO3, Rn
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.precision import DOUBLE
@@ -21,7 +21,7 @@ from codegen.run.execute import Machine
 from codegen.run.plan import Plan
 from codegen.run.site_terms import padded
 from codegen.run.unit import unit_of
-from codegen.scene import Bond, neighbour
+from codegen.scene import Bond, HamiltonianSiteScene, neighbour
 from codegen.scene.unrolled import unrolled
 from tests.codegen.bodies import bodies, joined, open_bodies, sheet, spinning, springs, string
 
@@ -183,13 +183,29 @@ def test_bonds_of_different_dimensions_are_refused():
         spinning(bonds=listed)
 
 
-def test_splittings_need_parts_and_no_time():
+def test_splittings_need_parts():
     with pytest.raises(MethodError, match="a lattice without parts"):
         emit(spinning(parts=None), "splitting:strang", target="c")
-    driven = spinning(boundary="open", outside={(-1,): turned(), (1,): SO3().point("q")})
-    with pytest.raises(MethodError, match="depends on t"):
-        emit(driven, "splitting:strang", target="c")
-    assert emit(driven, "cf:cf3", target="c").files
+
+
+def test_splittings_need_parts_with_momenta_that_do_not_depend_on_time():
+    G, t = Rn(1), Symbol("t")
+    (x,), (p,) = G.point("x"), G.dual("p")
+    scene = HamiltonianSiteScene(
+        group=G,
+        q=[x],
+        mu=[p],
+        H=p**2 / 2 + (1 + t) * p,
+        parts={"kinetic": p**2 / 2, "wind": (1 + t) * p},
+        bonds=[Bond((1,), x * neighbour([x], (1,))[0])],
+        q0=[0],
+        mu0=[1],
+        span=(0, 1),
+    )
+    with pytest.raises(
+        MethodError, match="the part wind has no exact flow: it depends on the momentum and on t"
+    ):
+        emit(scene, "splitting:strang", target="c")
 
 
 def test_a_driven_end_moves_with_the_time():

@@ -33,7 +33,7 @@ from codegen.ir.values import Coefficient, Kind, Var
 from codegen.ir.verify import verify
 from codegen.lab.orders.local_error import exact_flow, local_error
 from codegen.lower import lower, lowering, method_for, names, problem_for
-from codegen.lower.flow_words import FlowLowering
+from codegen.lower.flow_words import FlowLowering, Reading
 from codegen.lower.linear import LinearLowering
 from codegen.lower.variational import VariationalLowering
 from codegen.method import Method
@@ -136,24 +136,25 @@ def flows_of_the_product(case: LatticeCase, method: Method, whole: Problem) -> t
     flows = {part.name: part.summands[0].flows[0][1] for part in recognise(replace(whole, parts=energies))}
     q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
     inputs, build = (q, mu), Builder({"q", "mu", "t", "h"})
-    for summand, duration in word_of(case, method):
+    for summand, duration in reading_of(case, method).word:
         ((name, _),) = summand.flows
         q, mu = build.flow(name, q, mu, Coefficient(duration, 1))
     program = verify(Program(case.method, inputs, build.take(), (("q", q), ("mu", mu))))
     return program, replace(whole, flows=flows)
 
 
-def word_of(case: LatticeCase, method: Method) -> Any:
+def reading_of(case: LatticeCase, method: Method) -> Reading:
     """Return the flows of a step on the lattice with their durations."""
     own = lowering(method.family)
     assert isinstance(own, FlowLowering)
-    return own.read(case.chain(), method).word
+    return own.read(case.chain(), method)
 
 
 def site_by_site(case: LatticeCase) -> bool:
-    """Return True if the flows of a method have no formulas on the product, as flows of pairs and of tops."""
-    composed = isinstance(lowering(family_of(case)), FlowLowering)
-    return composed and not (case.chain().paired and case.chain().group.abelian)
+    """Return True if the flows of a method have no formulas on the product, as flows of pairs and of tops,
+    or if they depend on time."""
+    composed, chain = isinstance(lowering(family_of(case)), FlowLowering), case.chain()
+    return composed and not (chain.paired and chain.group.abelian and chain.autonomous)
 
 
 def composed_flows(case: LatticeCase, method: Method, domain: Any) -> list[Any]:
@@ -161,14 +162,17 @@ def composed_flows(case: LatticeCase, method: Method, domain: Any) -> list[Any]:
     start, chain = field_of_sites(case).initial(domain), case.chain()
     size = len(chain.symbols)
     states = [tuple(start[size * i : size * i + size]) for i in range(NUMBER)]
-    for summand, duration in word_of(case, method):
+    reading = reading_of(case, method)
+    t = domain.rational(*TIME.as_integer_ratio())
+    for summand, duration in reading.word:
         tau = domain.number(duration) * domain.h
         for _, flow in summand.flows:
             states = (
                 moved_pairs(chain, domain, flow, tau, states)
                 if isinstance(flow, SiteFlow)
-                else [moved_site(chain, domain, flow, tau, states, i) for i in range(NUMBER)]
+                else [moved_site(chain, domain, flow, (tau, t), states, i) for i in range(NUMBER)]
             )
+        t = t + tau if summand is reading.carrier else t
     return [x for state in states for x in state]
 
 
@@ -186,9 +190,11 @@ def moved_pairs(chain: Problem, d: Any, flow: SiteFlow, tau: Any, states: list[A
     return new
 
 
-def moved_site(chain: Problem, d: Any, flow: Any, tau: Any, states: list[Any], i: int) -> Any:
-    """Return the state of a site of a Hamiltonian chain after a flow, which may read its neighbours."""
-    values, size = chain.values(d, states[i]), len(chain.state[0].symbols)
+def moved_site(chain: Problem, d: Any, flow: Any, times: Any, states: list[Any], i: int) -> Any:
+    """Return the state of a site of a Hamiltonian chain after a flow, which may read its neighbours.
+    ``times`` are the duration of the flow and the time, which is constant during the flow."""
+    tau, t = times
+    values, size = chain.values(d, states[i], t), len(chain.state[0].symbols)
     for k, offset in enumerate(chain.sites.offsets):
         there = neighbour_place(chain.sites, (i,), offset, (NUMBER,))
         near = evaluate(list(chain.sites.outside[k]), d, values) if there is None else states[there]
