@@ -69,9 +69,8 @@ class Run:
 class Figure:
     """A figure: its name in commands, its title, its caption, and the runs that it shows.
 
-    ``source`` is the name of the printed figure, such as "Fig. 2.6 of the thesis". ``reference`` is a run
-    with which the other runs are compared. If the figure makes no comparison, the reference is drawn as a
-    thin line.
+    ``source`` is the name of the printed figure, such as "Fig. 2.6 of the thesis". Some kinds of figures
+    compare the other runs with the run ``reference``; the other kinds draw this run as a thin line.
     ``shows_lattices`` is True for the kinds of figures that show chains and lattices, and False for those
     that show single systems.
     """
@@ -88,7 +87,7 @@ class Figure:
 
 @dataclass(frozen=True, kw_only=True)
 class PlaneCurves(Figure):
-    """Curves in a plane. ``point`` has two formulas, ``axes`` their labels.
+    """Curves in a plane. ``point`` contains two formulas, and ``axes`` contains their labels.
 
     With ``panels`` each run has a panel of its own. ``bounds`` are (left, right, low, high); by default they
     contain all points of the panel. Markers are drawn at every state if ``marked`` is True. With ``dots`` the
@@ -139,11 +138,11 @@ Place: TypeAlias = tuple[Quantity, Quantity, Quantity]
 class Motion(Figure):
     """The motion of a body that consists of bars, as an animation, in orthogonal projection.
 
-    ``bars`` maps labels to the two ends of a bar. The figure also shows the curve that the point ``trace``
-    describes, and the bars at ``stills`` equally spaced times. The animation lasts ``seconds`` and is
-    repeated. The animation stops while the pointer is on the figure. ``fixed`` maps labels to points that do
-    not move. ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees.
-    The figure shows only one run.
+    ``bars`` maps labels to the two ends of a bar. The figure also shows the path of the point ``trace``, and
+    the bars at ``stills`` equally spaced times. The animation lasts ``seconds`` and is repeated. The
+    animation stops while the pointer is on the figure. ``fixed`` maps labels to points that do not move.
+    ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees. The figure
+    shows only one run.
     """
 
     bars: Mapping[str, tuple[Place, Place]]
@@ -158,10 +157,11 @@ class Motion(Figure):
 class TorusCurves(Figure):
     """Curves on a torus in the chart of two angles; opposite edges are the same line of the torus.
 
-    ``angles`` are two formulas, in radians, and ``axes`` their labels. ``state`` contains a formula for each
-    coordinate of the state; the symbols ``variables`` in these formulas are the two angles. ``directions``
-    are formulas for the rates of the angles, drawn as arrows, and ``levels`` is a formula that is drawn as
-    level lines. Both are evaluated at the states that ``state`` gives.
+    ``angles`` contains the formulas of the two angles in radians, and ``axes`` contains their labels.
+    ``state`` contains a formula for each coordinate of the state; the symbols ``variables`` in these formulas
+    are the two angles. ``directions`` are formulas for the rates of the angles, drawn as arrows, and
+    ``levels`` is a formula that is drawn as level lines. The rates and the levels are evaluated at the states
+    that ``state`` gives.
     """
 
     angles: tuple[Quantity, Quantity]

@@ -195,7 +195,7 @@ class _CanonicalSystem:
         return self.reader.closed(self.reader.column(column, dim, key)), self.reader.closed(own)
 
     def flows(self, flows: Mapping[str, tuple[Column, Column]]) -> dict[str, tuple[Expr, ...]]:
-        """Return the formulas that the scene gives for the flows of its parts, by the name of the part."""
+        """Return the formulas that the scene gives for exact flows; the keys are the names of the parts."""
         formulas: dict[str, tuple[Expr, ...]] = {}
         for key, (q, mu) in flows.items():
             if key not in self.summands:

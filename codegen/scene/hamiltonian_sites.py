@@ -136,9 +136,8 @@ def _of_bonds(
 def _with_momenta(
     outside: Column | Mapping[Sequence[int], Column] | None, mu: Column
 ) -> Column | dict[Sequence[int], Column] | None:
-    """Return ``outside`` with ``mu`` appended to each column, because a state contains a momentum.
-
-    No formula reads the momentum of a neighbour.
+    """Return ``outside`` with ``mu`` appended to each column, because a state contains a momentum. The
+    appended values have no effect, because no formula reads the momentum of a neighbour.
     """
     if outside is None:
         return None

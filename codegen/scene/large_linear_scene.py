@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of GL(n).
 
-For n rows these are n^2 formulas. Measurements interpret step programs, and therefore need the formulas."""
+For n rows the coordinates have n^2 formulas. Measurements need these formulas, because they interpret step
+programs."""
 
 
 def LargeLinearScene(
@@ -53,9 +54,9 @@ def LargeLinearScene(
     indices, counted from 0. By default the columns of ``y0`` are the first unit vectors. ``span`` is the
     rational time interval.
 
-    Emitted steps of the families magnus, cf_magnus and fer, and of rkmk, cf and cg, apply exponentials to y
-    by products of A and vectors (:mod:`codegen.ir.linear_array_step`). If no entries are given as lists, the
-    length of the code does not depend on n.
+    In emitted steps of the families magnus, cf_magnus, fer, rkmk, cf and cg, exponentials are applied to y by
+    products of A and vectors (:mod:`codegen.ir.linear_array_step`). The length of the code depends on n only
+    if entries are given as lists.
 
     :class:`SceneError` is raised for a matrix that is not square, for a matrix that contains an unknown, and
     for a state of a wrong size.

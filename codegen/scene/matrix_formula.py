@@ -147,8 +147,8 @@ def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None
     ``diagonals`` maps an offset j - i to the entries a_ij: one scalar that is the value of all entries, a
     function of the row i, or the list of all entries of the diagonal. Rows and columns are counted from 0.
     Emitted code contains all numbers of a list, but only one line for a scalar or a function.
-    :class:`SceneError` is raised for an offset outside the matrix. A list of a wrong length raises this error
-    only when the scene reads the matrix.
+    :class:`SceneError` is raised for an offset outside the matrix. The length of a list is tested later, when
+    the scene reads the matrix.
     """
     _size(rows, "rows")
     width = rows if columns is None else columns

@@ -146,7 +146,7 @@ class _Compiler:
         return Matrix(ARGUMENT, self.x.rows, self.x.columns)
 
     def summands(self, formula: MatrixFormula, c: Expr, transposed: bool) -> Iterable[Summand]:
-        """Yield the products whose sum is c F, where F is the formula, or its transpose if ``transposed``."""
+        """Yield the products whose sum is c F. F is the formula or, if ``transposed`` is true, its transpose."""
         match formula:
             case Scaled(factor=factor, matrix=matrix):
                 own = self.reader.scalar(factor, "a coefficient of the velocity")
@@ -189,8 +189,8 @@ class _Compiler:
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
         """Yield the summands of c times a product, where c is a coefficient.
 
-        A factor that is a sum is multiplied out if one of its terms is a constant matrix, or if both its
-        numbers of rows and columns exceed the number of columns of X. Other sums stay factors.
+        A factor that is a sum is multiplied out if one of its terms is a constant matrix, or if the factor
+        has more rows and more columns than X has columns. Other sums stay factors.
         """
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
@@ -385,8 +385,9 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
         return ConstantMatrix(name, given.rows, given.columns, (), entry)
     matrix = ConstantMatrix(name, given.rows, given.columns)
     diagonals = []
-    # The main diagonal comes first, because it has an entry in every row. Emitted code can then set all rows
-    # of the product with it, and then add the products with the other diagonals.
+    # The main diagonal comes first, because it has an entry in every row. Emitted code can first set each row
+    # of the product to the contribution of the main diagonal, and then add the contributions of the other
+    # diagonals.
     for offset in sorted(given.diagonals, key=lambda x: (abs(x), x)):
         length = matrix.length(Diagonal(offset, ()))
         entry = _entry(reader, given.diagonals[offset], (row,), length, f"the diagonal {offset}")

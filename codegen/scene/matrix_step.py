@@ -29,7 +29,7 @@ from codegen.ir.domain import Domain, FloatDomain
 
 
 class Place(Enum):
-    """A set of matrices: the Lie algebra, the group, or all matrices. It contains all values of a formula."""
+    """A set that contains all values of a formula: the Lie algebra, the group, or the set of all matrices."""
 
     ALGEBRA = "algebra"
     GROUP = "group"

@@ -12,8 +12,8 @@ from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
 FRAMES = (SPACE, BODY)
-"""The frames of the momentum: ``space`` denotes the right-trivialised and ``body`` the left-trivialised
-momentum.
+"""The frames of the momentum: ``space`` denotes the right-trivialised momentum, and ``body`` denotes the
+left-trivialised momentum.
 """
 
 

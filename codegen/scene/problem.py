@@ -131,7 +131,8 @@ class Problem:
     def autonomous(self) -> bool:
         """True if the field depends neither on the time nor on signals that are read at run time.
 
-        On a lattice, the states outside an open boundary must not depend on these either.
+        On a lattice, the states outside an open boundary must not depend on the time or on such signals,
+        either.
         """
         if self.matrices is not None:
             return not self.matrices.reads(TIME)

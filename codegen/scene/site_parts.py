@@ -2,9 +2,9 @@
 
 A part consists of formulas for elements of the Lie algebra, the generators. The velocity of a site is the sum
 of the velocities f(y).y for the generators f of all parts. If the generators of a part are constant along the
-solutions of this part alone, the exact flow of the part is y -> exp(tau f(y)).y. The flows of pairs that have
-no site in common commute. The pairs along an axis of the lattice are therefore divided into two sets. In one
-set the first site of each pair has an even index, in the other set an odd index.
+solutions of this part alone, the exact flow of the part is y -> exp(tau f(y)).y. The flows of two pairs
+commute if the pairs share no site. The pairs along an axis of the lattice are therefore divided into two
+sets. In one set the first site of each pair has an even index, in the other set an odd index.
 """
 
 from __future__ import annotations

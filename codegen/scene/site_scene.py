@@ -108,7 +108,7 @@ def _check(problem: Problem) -> None:
 def _with_energy(
     reader: Reader, sites: Sites, y: Sequence[sympy.Symbol], energy: sympy.Expr | None, bonds: Sequence[Bond]
 ) -> Sites:
-    """Return the lattice with the energy of a site and those of its bonds.
+    """Return the lattice with the energies of a site and of its bonds.
 
     SceneError is raised for a bond of sites that the field does not couple.
     """

@@ -108,9 +108,9 @@ class Sites:
     a neighbour that does not exist. The formulas contain the coordinates of the site itself, the time and
     parameters. ``parts`` are the parts of the field whose flows splittings compose
     (:mod:`codegen.scene.site_parts`). In a Hamiltonian scene, ``force`` contains the components n of the
-    force that all bonds together exert on a site (:mod:`codegen.scene.hamiltonian_sites`), ``energy`` is the
-    sum of all energies that contain the state of a site, and ``bonds`` contains those of them that also
-    contain the state of a neighbour, each with the index of the offset of this neighbour.
+    force that all bonds together exert on a site (:mod:`codegen.scene.hamiltonian_sites`). ``energy`` is the
+    sum of all energies that depend on the state of a site. ``bonds`` contains the energies of the bonds of
+    this site; each is paired with the index of the neighbour's offset.
     """
 
     dimension: int
@@ -128,10 +128,10 @@ class Sites:
         return not self.outside
 
     def share(self, exists: Sequence[Expr | bool]) -> Expr:
-        """Return the energy of a site, of which the sum over all sites is the total energy. Two neighbours
-        have one half each of the energy of their bond. If a neighbour is outside an open boundary, the site
-        has the whole energy: ``exists`` is true or 1 for each offset whose neighbour exists, and false or 0
-        otherwise."""
+        """Return the share of a site in the total energy, which is the sum of the shares of all sites. Each
+        of two neighbours has one half of the energy of their bond. If a neighbour is outside an open
+        boundary, the site has the whole energy of the bond. ``exists`` is true or 1 for each offset whose
+        neighbour exists, and false or 0 otherwise."""
         assert self.energy is not None
         share, space = self.energy, self.energy.space
         for number, bond in self.bonds:

@@ -1,4 +1,4 @@
-"""Coordinates that do not change: parameters of a system, or of each site of a lattice, as part of its state.
+"""Coordinates that do not change: parameters that are part of the state of a system or of a site.
 
 If the field reads only the time and such coordinates, the equation of a solution is y' = A(t).y with A(t) =
 f(y0, t), and methods for linear equations apply. On a lattice, the field may read the static coordinates of
@@ -16,8 +16,8 @@ from codegen.scene.site_scene import with_frozen_neighbours
 def reads_only_static(scene: Problem) -> bool:
     """Return True if the field of a scene reads the time, parameters, and coordinates that do not change, but
     no other coordinate of the system, of a site, or of its neighbours."""
-    # A coordinate without a generator is the usual form of a static coordinate. Without this test, large
-    # fields would be differentiated in vain.
+    # A static coordinate usually has the generator zero. If no generator is zero, the function returns early,
+    # because the differentiation of a large field takes long.
     if not any(map(_vanishes, scene.roots)):
         return False
     one = scene if scene.sites is None else with_frozen_neighbours(scene)

@@ -55,10 +55,9 @@ def StiefelScene(
     row; by default its columns are the first k unit vectors. ``span`` is the rational time interval.
 
     The generator of the motion is W X^T - X W^T with W = V - X (X^T V)/2. Emitted steps of the families rkmk,
-    cf and cg cost O(n k^2) operations besides V. The length of the code does not depend on n if no matrix in
-    V is given by a list of its entries.
-    :class:`SceneError` is raised for a wrong size, an initial matrix without orthonormal columns, and a
-    velocity that is not tangent.
+    cf and cg cost O(n k^2) operations besides the evaluations of V. The length of the code depends on n only
+    if a matrix in V is given by a list of its entries. :class:`SceneError` is raised for a wrong size, an
+    initial matrix without orthonormal columns, and a velocity that is not tangent.
     """
     if not isinstance(x, Unknown):
         raise SceneError(f"x = {x!r}", where=name, expected="unknown(n, k)")

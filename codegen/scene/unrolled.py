@@ -84,7 +84,7 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 def small(scene: Problem) -> Problem:
     """Return an unrolled lattice with few sites. In a periodic lattice, every site has all neighbours.
 
-    An open lattice has a site with all neighbours if it then has at most :data:`MOST_SITES` sites.
+    If :data:`MOST_SITES` sites suffice, an open lattice is so large that one of its sites has all neighbours.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension

@@ -1,4 +1,4 @@
-"""Pipe-laying: a geometrically exact rod under gravity, clamped at one end, its other end moved by a vessel.
+"""Pipe-laying: a geometrically exact rod under gravity, with one clamped end and one end on a moving vessel.
 
 Section 2.3.1 of H. Marthinsen's thesis describes the problem: a pipe between the bottom of the sea and a
 vessel. The rod is that of ``free_rod``: a chain of N cross sections at the distance ds. A further section

@@ -19,7 +19,8 @@ J, K, B = param("J", 1), param("K", Rational(1, 2)), param("B", Rational(1, 5))
 offsets = [(1, 0), (0, 1)]
 around = [neighbour(S, (x * i, x * j)) for i, j in offsets for x in (1, -1)]
 single = Matrix([0, 0, K * S[2] + B])
-# J (S + T) turns both spins S and T of a pair. The term J S does not turn S, and J T does not turn T.
+# Both spins S and T of a pair have the generator J (S + T), because J S does not turn S, and J T does not
+# turn T.
 sums = [J * (S + neighbour(S, offset)) for offset in offsets]
 
 scene = SiteScene(
