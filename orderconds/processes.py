@@ -1,7 +1,7 @@
 """Parallel execution of jobs in worker processes. The workers end when the process that started them ends.
 
-Jobs and results must not contain numbers of python-flint, because these cannot be pickled. Jobs and results
-may contain strings, numbers of Python, and records of strings and numbers.
+Jobs and results may contain strings, Python numbers, and records of strings and Python numbers. They must not
+contain numbers of python-flint, because these cannot be pickled.
 """
 
 from __future__ import annotations
@@ -50,9 +50,9 @@ def in_processes(
             workers[connection] = worker
         yield from _distribute(list(workers), jobs)
         for connection in workers:
-            # A worker ends only when it receives an empty tuple. Closing the connection does not end the
-            # worker, because workers started later have inherited the connection. A worker that has already
-            # died raises ConnectionError.
+            # A worker ends when it receives an empty tuple. Closing the connection would not end the worker,
+            # because workers that were started later have inherited the connection. If a worker has already
+            # died, ``send`` raises ConnectionError.
             with suppress(ConnectionError):
                 connection.send(())
     except BaseException:
@@ -108,8 +108,8 @@ def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]
 
 
 def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
-    """Run the jobs that arrive at the connection, each in a tuple, and send the results back. Return when an
-    empty tuple arrives. Ctrl-C is ignored, because the parent process handles it."""
+    """Run the jobs that arrive at the connection, and send the results back. Each job arrives in a tuple. An
+    empty tuple ends the function. Ctrl-C is ignored, because the parent process handles it."""
     import threading
 
     global _is_worker

@@ -6,9 +6,9 @@ The plugin is active only if one of its flags is given. The following flags corr
 ``--orderconds-execute`` and ``--orderconds-tolerance``. Files of every supported format are examined. A
 tableau that claims no order is skipped, and its computed order is reported. With
 ``--orderconds-require-claims`` such a tableau fails. A file that contains no tableau, such as
-``pyproject.toml``, is skipped. The names of skipped files and the reasons are printed at the end. A file
-whose own path is on the command line is not skipped, except if the file is a Python module. Python modules
-are parsed and not imported.
+``pyproject.toml``, is skipped. The names of skipped files and the reasons are printed at the end. If
+the path of such a file is itself on the command line, the file fails, except if it is a Python module. Python
+modules are parsed and not imported.
 """
 
 from __future__ import annotations

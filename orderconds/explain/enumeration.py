@@ -73,7 +73,7 @@ class ShownTree:
 
 @dataclass(frozen=True, repr=False)
 class ShownTrees:
-    """All trees of one kind and order, in the order of enumeration."""
+    """All trees of one kind and one order, in a fixed sequence."""
 
     kind: Kind
     order: int

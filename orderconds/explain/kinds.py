@@ -24,15 +24,15 @@ Member = Any
 
 
 MAX_TREES = 7_000
-"""The largest number of trees of one order for which conditions are derived. A limit is necessary because the
-number of trees grows exponentially with the order."""
+"""Conditions of an order are derived only if the number of trees of this order does not exceed this limit.
+The number of trees grows exponentially with the order."""
 
 
 @dataclass(frozen=True)
 class Kind:
     """One kind of trees, words or forests.
 
-    Five attributes are functions. ``members`` enumerates the trees of an order, the members of the kind.
+    Five attributes are functions. ``members`` enumerates the trees of an order; they are called the members.
     ``count`` computes the number of members from generating functions, without enumeration. For one member,
     ``text`` returns its text, ``diagram`` its drawing, and ``names`` its elementary differential or
     Hamiltonian as text. One family provides the conditions of the members. If ``independent`` is true, the
@@ -124,8 +124,8 @@ def of_family(label: str) -> Kind | None:
 
 
 def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if there are more than :data:`MAX_TREES` trees of any order from 1 to ``order``.
-    The trees are those that index the conditions of ``family``.
+    """Raise an InputError if one of the orders from 1 to ``order`` has more than :data:`MAX_TREES` trees. The
+    trees are those that index the conditions of ``family``.
 
     >>> refuse_too_many_trees(families.get("rk"), 12)
     """

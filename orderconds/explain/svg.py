@@ -15,7 +15,8 @@ from html import escape
 from orderconds.explain.diagram import Branch, Diagram, Edge, Vertex
 
 STEP = 18.0
-"""The distance in px between neighbouring vertices of one level, and between consecutive levels."""
+"""The horizontal distance between neighbouring vertices of one level, and the vertical distance between
+consecutive levels, both in px."""
 RADIUS = 3.5
 MARGIN = 10.0
 SIZE = 11.0
@@ -129,8 +130,9 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Yield the SVG elements of the diagram and its caption. The left end of both is at x. The roots are
-        half a step above the horizontal line at ``ground``, and the caption is below this line."""
+        """Yield the SVG elements of the diagram and its caption. Both are centred in a block of this width
+        that begins at x. The roots are STEP / 2 above the horizontal line at ``ground``, and the caption is
+        below this line."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)

@@ -3,8 +3,8 @@ with symbols in place of numbers.
 
 Consider the coefficient of a word in a product of exponentials. The coefficient is a sum over indices
 ``j_1 <= ... <= j_k`` with a factor 1/r! for each run of r equal indices. This module writes the coefficient
-as several sums with strict inequalities, one for each division of the word into runs. A word that repeats one
-letter k times needs only one sum: its coefficient is the k-th power of this sum, divided by k!. If a
+as several sums with strict inequalities, one for each division of the word into runs. A word of k equal
+letters needs no such division: its coefficient is S^k/k!, where S is the index sum of one letter. If a
 condition contains such a word, both sides are multiplied by k! (:func:`multiplier`). For example, the printed
 condition is ``sum_i b_i c_i^2 = 1/3`` and not ``1/2 sum_i b_i c_i^2 = 1/6``.
 """
@@ -42,8 +42,8 @@ variation of the velocity of this stage."""
 
 
 def multiplier(tree: Velocity) -> int:
-    """Return the factor by which the condition of a tree is multiplied. The factor clears the factorials of
-    repeated letters in the tree.
+    """Return the factor by which the condition of a tree is multiplied. The product has no
+    denominators from the words of equal letters in the tree.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -74,8 +74,8 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``. If the word repeats one
-        letter k times, the coefficient is multiplied by k!."""
+        """Return the coefficient of a word in the group element of stage ``row``. If the word consists of
+        k equal letters, the coefficient is multiplied by k!."""
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
@@ -129,8 +129,8 @@ class ExponentialsFormula(ActionFormula):
         """Return the tree's coefficient in the exponent of the exponential with index ``place``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``. If the word repeats one
-        letter k times, the coefficient is multiplied by k!."""
+        """Return the coefficient of a word in the group element of stage ``row``. If the word consists of
+        k equal letters, the coefficient is multiplied by k!."""
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
         return product(*(self._whole_exponent(row, letter) for letter in word))
@@ -257,7 +257,7 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i). If the word repeats one letter k times, the
+        """Return the coefficient of a word in exp(X_i). If the word consists of k equal letters, the
         coefficient is multiplied by k!."""
         if len(set(word)) > 1:
             return self._exponential(row, word)

@@ -33,8 +33,7 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file need not claim an order in this family, because the order equals the order in
-        ``rk``."""
+        """Return None: the order equals the order in ``rk``, and a file claims only the latter."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

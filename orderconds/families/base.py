@@ -96,8 +96,8 @@ class Family(ABC):
     """The family to which this family reduces on an abelian group, where all brackets are zero; None if no
     such family accepts all tableaux of this family."""
     low_order: ClassVar[str | None] = None
-    """The name of another family with the same conditions up to order 2. Conditions of these orders contain
-    no bracket and no momentum."""
+    """The name of another family whose conditions of orders 1 and 2 are the same, because these conditions
+    contain neither brackets nor momenta."""
     bounds_others: ClassVar[bool] = False
     """True if ``check`` computes the order in this family to obtain bounds of the orders in other
     families."""
@@ -185,7 +185,8 @@ class Family(ABC):
         """Return True if the conditions in :meth:`conditions` are proved to imply all conditions of this
         order. The proof does not use ranks modulo primes.
 
-        By default a theorem about trees or words proves the implication, and nothing is computed.
+        By default the result is True without a computation, because a theorem about trees or words proves
+        the implication.
         """
         return True
 
@@ -285,8 +286,8 @@ class Family(ABC):
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants of this family, in order of increasing cost, in which a complete file claims an
-        order."""
+        """Return the variants of this family in which a complete file claims an order. The cheapest variant
+        comes first."""
         return (self,)
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -336,8 +337,8 @@ class Family(ABC):
         """Return a lower bound of the order of a method in this family, or 0 if no bound is known. The bound
         follows from the orders of the method in other families.
 
-        ``orders`` maps the labels of the other families to these orders. A subclass need not derive bounds
-        that already follow from :attr:`implies`.
+        ``orders`` maps the labels of the other families to these orders. Bounds that
+        follow from :attr:`implies` are derived elsewhere.
         """
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
@@ -369,7 +370,7 @@ class Family(ABC):
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
-        """Return the reductions for a method, which are theorems that make some conditions superfluous.
+        """Return the reductions for a method: the theorems that make some conditions superfluous.
 
         ``orders`` maps the labels of other families to the proved orders of the method in these families.
 
@@ -395,8 +396,8 @@ class Family(ABC):
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return pairs (label of a family, order): the orders of a symmetric method that satisfies the
-        conditions of this family up to ``order``."""
+        """Return pairs (label of a family, order). A symmetric method that satisfies the conditions of this
+        family up to ``order`` has at least these orders."""
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:

@@ -88,8 +88,8 @@ class CommutatorFreeFamily(OrderedForestFamily):
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric, because the products of exponentials that lead
-        to its stages are symmetric."""
+        """Return True if the products of exponentials that lead to the stages are proved to be symmetric. The
+        method is then symmetric, too."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -60,8 +60,8 @@ class CrouchGrossmanFamily(OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric, because the products of exponentials that lead
-        to its stages are symmetric."""
+        """Return True if the products of exponentials that lead to the stages are proved to be symmetric. The
+        method is then symmetric, too."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:

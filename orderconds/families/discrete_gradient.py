@@ -40,7 +40,7 @@ class DiscreteGradientFamily(Family):
     keeps_energy = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the condition of this order on the quadrature rule.
+        """Return the condition that a method of this order imposes on its quadrature rule.
 
         Raises :class:`~orderconds.errors.InputError` for orders above two.
         """
@@ -59,6 +59,6 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None. A :class:`Work` counts evaluations of the vector field, but a step of these methods
-        evaluates the energy and its differential."""
+        """Return None, because a :class:`Work` counts evaluations of the vector field, but a step of these
+        methods evaluates the energy and its differential."""
         return None

@@ -1,8 +1,8 @@
 """Exponents of methods for Y' = A(t) Y, expanded in words.
 
 The exponents are linear combinations of products of A_i = h A(c_i h) = sum_k c_i^(k-1) h^k X_k, where c_i are
-the nodes. Letter k denotes X_k, the coefficient of t^(k-1) in A, and has weight k. The letters of a word are
-in the order of action.
+the nodes. Letter k denotes X_k, the coefficient of t^(k-1) in A, and has weight k. The first letter
+of a word acts first.
 """
 
 from __future__ import annotations

@@ -55,13 +55,12 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file need not claim an order in this family, because the order equals the order in
-        ``magnus``."""
+        """Return None: the order equals the order in ``magnus``, and a file claims only the latter."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` unless the last exponent contains no commutators
-        and all other exponents contain only commutators."""
+        """Raise :class:`~orderconds.errors.InputError` if the last exponent contains commutators, or if
+        another exponent has terms that are not commutators."""
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):

@@ -137,7 +137,8 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return the linear part of the polynomial in Lyndon words that represents a word in the shuffle algebra.
+    """In the shuffle algebra, every word is a polynomial in Lyndon words. Return the linear part of this
+    polynomial.
 
     A Lie element has the value zero on every shuffle product of non-empty words. Hence the products in the
     polynomial have the value zero. The linear part therefore gives the value of the Lie element on the word.

@@ -2,7 +2,8 @@
 
 The values of a Lie group method, and of the exact flow, on words satisfy the shuffle relations. The values on
 Lyndon words therefore determine all other values (:mod:`orderconds.words.lyndon`). The alphabet consists of
-the ordered trees, sorted by decreasing size; trees of equal size are in the order of enumeration.
+the ordered trees, sorted by decreasing size; trees of equal size keep the order in which they are
+enumerated.
 
 Each condition is multiplied by the factorial of the length of its word, and by the factorial of the number of
 branches at each vertex. For example, the printed condition is sum_i b_i c_i^2 = 1/3, and not 1/2 sum_i b_i

@@ -71,7 +71,7 @@ class PartitionedFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the elementary weights of a pair of tableaux, in the order of ``conditions``."""
+        """Return the elementary weights of a pair of tableaux, one for each element of ``conditions``."""
         return rooted_weights(as_pair(method), ring, conditions)
 
     @classmethod

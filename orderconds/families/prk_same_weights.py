@@ -49,8 +49,8 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a tableau file need not claim an order in this family, because every method of
-        this family has the same order in the family ``prk``."""
+        """Return None: every method of this family has the same order in ``prk``, and a tableau file claims
+        only the latter."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -39,8 +39,8 @@ BUILT_IN = {
     "cayley": "orderconds.families.cayley",
     "taylor": "orderconds.families.taylor",
 }
-"""A map from the name of each built-in family to the module of the family. ``orderconds list families`` uses
-the same order."""
+"""A map from the name of each built-in family to the module of the family. ``orderconds list families`` lists
+the families in this sequence."""
 
 ENTRY_POINT_GROUP = "orderconds.families"
 """The entry-point group in which other packages register families. An entry has the form name =

@@ -107,8 +107,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         Without truncation, their number is the number of rooted trees, 1, 1, 2, 4, 9, .... The reason is that
         the method applies a Runge-Kutta method in the Lie algebra, which is a vector space. If dexpinv is
         truncated, there is one additional condition at order R + 3, with R as in the module docstring. No
-        tableau satisfies this condition. Up to order :data:`RANKED`, ranks of matrices select the conditions,
-        which requires NumPy. Beyond this order, all of :meth:`conditions` are returned.
+        tableau satisfies this condition. Up to order :data:`RANKED`, the conditions are selected by ranks of
+        matrices, and this selection requires NumPy. At higher orders, all of :meth:`conditions` are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -220,7 +220,7 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # If random methods have ``order`` stages, their values distinguish all trees of this order.
+        # Random methods with ``order`` stages have different values for different trees of this order.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

@@ -45,8 +45,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a tableau file need not claim an order in this family, because every method of
-        this family has the same order in the family ``vrkmk(0)``."""
+        """Return None: every method of this family has the same order in ``vrkmk(0)``, and a tableau file
+        claims only the latter."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

@@ -39,7 +39,7 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings into ``parts`` parts. Letters 0, 1, ... denote the parts A, B, ... in the order of the file.
+    """Splittings into ``parts`` parts. Letters 0, 1, ... denote the parts A, B, ... as the file lists them.
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)

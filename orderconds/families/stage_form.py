@@ -47,8 +47,8 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 
 
 def refuse_explicit(label: str, explicit: bool) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. An explicit method has a strictly
-    lower triangular matrix A. Families whose coefficients are not a tableau (A, b) call this function.
+    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. Families whose coefficients are
+    not a tableau (A, b) call this function, because only a method with a matrix A can be explicit.
 
     >>> refuse_explicit("splitting", False)
     """

@@ -58,8 +58,8 @@ class SymmetricCompositionFamily(CompositionFamily):
     bounds_others = False
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` unless the basic method is symmetric and the step
-        sizes are a palindrome."""
+        """Raise :class:`~orderconds.errors.InputError` if the basic method is not symmetric, or if the step
+        sizes are not a palindrome."""
         expected = 'base = "symmetric-2", and step sizes that form a palindrome'
         if not isinstance(method, Composition):
             raise InputError('base = "adjoint-pair"', where=f"family {self.name}", expected=expected)

@@ -76,8 +76,8 @@ class VariationalCrouchGrossman(ActionFamily):
         return CrouchGrossmanFormula()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric. With s stages, it suffices that reversal of
-        the step maps the product of exponentials of stage i to the product of stage s + 1 - i."""
+        """Return True if the method is proved to be symmetric. A method with s stages is symmetric if the
+        reversal of the step exchanges the products of exponentials of the stages i and s + 1 - i."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:

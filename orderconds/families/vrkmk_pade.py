@@ -70,7 +70,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a tableau file need not claim an order in this family."""
+        """Return None: a tableau file without a claim in this family counts as complete."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -78,8 +78,8 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the smaller of 2 and the order in ``rk``. A higher order would need a theorem about the
-        truncation of dexp."""
+        """Return the smaller of 2 and the order in ``rk``. To prove a higher order, a theorem about the
+        truncation of dexp would be necessary."""
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:

@@ -1,5 +1,5 @@
-r"""Numbered equations in LaTeX for a paper, with a column of trees. The equations are narrow enough for one
-column of a two-column article.
+r"""Numbered equations in LaTeX for a paper. A picture of a tree may precede each equation. The equations are
+narrow enough for a two-column article.
 
 Long left-hand sides are broken between terms.
 """
@@ -30,7 +30,7 @@ class Equation:
 
 
 def numbered(equations: Sequence[Equation]) -> str:
-    r"""Return an environment of the package amsmath that contains the equations.
+    r"""Return the equations in an environment of the LaTeX package amsmath.
 
     The environment is ``alignat``, and the equations are aligned at the equality signs. If some left-hand
     side is broken into several lines, the environment is ``align``, and all equations are aligned at the left

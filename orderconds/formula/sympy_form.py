@@ -1,8 +1,8 @@
 """Conversion of formulas to SymPy expressions. A coefficient becomes an entry of an ``IndexedBase``. An index
 sum becomes a ``Sum``.
 
-This is the only module of ``orderconds`` that imports SymPy at the top. Other modules import this
-module only when they need SymPy, because the import of SymPy is slow.
+The import of this module also imports SymPy, which is slow. Therefore other modules import this module only
+when they need SymPy.
 """
 
 from __future__ import annotations

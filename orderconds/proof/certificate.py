@@ -41,8 +41,8 @@ class Certificate:
 
     ``tableau`` contains the coefficients of the solution, as balls. ``facts`` are pairs (family, order): the
     orders that the equations imply. ``equations`` is the number of equations. ``radius`` bounds the distance
-    of every decimal of the file from the solution. ``printed`` maps each number that the source of the method
-    prints to a bound of the distance from the solution. ``misrounded`` contains the decimals that differ from
+    of every decimal of the file from the solution. ``printed`` maps each number in the publication of the
+    method to a bound of its distance from the solution. ``misrounded`` contains the decimals that differ from
     the correctly rounded solution. ``lower_facts`` are the orders that the equations imply for the embedded
     method.
     """
@@ -177,8 +177,8 @@ def _certificate(
 
 
 def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
-    """Yield each decimal for which it is proved that its distance from the solution is more than half a unit
-    of its last digit."""
+    """Yield each decimal that is proved to differ from the solution by more than half a unit of its last
+    digit."""
     for unknown, x in zip(proof.unknowns, solution, strict=True):
         given, unit = _fmpq(unknown.constant.value), _fmpq(unknown.constant.unit)
         low, high = endpoints(x)

@@ -77,7 +77,7 @@ class Equations:
         """Return the left-hand side minus the right-hand side of each equation. ``point`` contains the values
         of the unknowns in ``ring``.
 
-        With ``places``, return only the equations with these indices.
+        If ``places`` is given, only the equations with these indices are evaluated.
         """
         values = {u.name: x for u, x in zip(self.proof.unknowns, point, strict=True)}
         method, embedded = self.proof.over(ring, values)
@@ -196,9 +196,8 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions of the embedded method of a 2N scheme. Return an empty tuple unless the embedded
-    method is the update followed by one exponential. Also return an empty tuple if the embedded method has a
-    higher order than ``proof`` states."""
+    """Return the conditions of the embedded method of a 2N scheme. Return an empty tuple if the embedded
+    method is not the update followed by one exponential, or if its order is higher than ``proof`` states."""
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
         return ()
@@ -245,7 +244,8 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
 def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
     """Return True if ``nodes`` are proved to be the Gauss nodes on [0, 1].
 
-    The test is: the product of t - c_i over all nodes c_i is orthogonal to all polynomials of lower degree.
+    The nodes are the Gauss nodes if the product of t - c_i over all nodes c_i is orthogonal to all
+    polynomials of lower degree.
 
     >>> from orderconds.ring import QQ
     >>> gauss_nodes([QQ.rational(1, 2)], QQ), gauss_nodes([QQ.zero, QQ.one], QQ)

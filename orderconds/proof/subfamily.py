@@ -29,7 +29,7 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 def independent_conditions(
     family: Family, symbolic: SymbolicCoefficients, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions up to ``order`` that do not follow from other conditions in the sub-family.
+    """Return conditions up to ``order`` that imply, for the sub-family, all other conditions up to ``order``.
 
     The function ``read(method, ring)`` converts a method from the format of the file to the format that the
     family evaluates. ``ring`` is the ring of the coefficients. By default the method is not converted.

@@ -63,8 +63,8 @@ class Tower:
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the current field, or Q if no root was adjoined, and a function that converts every number
-        of the tower to an element of this ring."""
+        """Return the current field (Q if no root was adjoined). Also return a function that converts every
+        number of the tower to an element of this field."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -187,8 +187,8 @@ class _Relation:
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
     """Return the first of the elements b, ab, b + a, b - a, ... that generates the algebra K[x]/(polynomial
-    of b), where K = Q(a) is ``field``. The result is (m, relation) for the element b + m a, and (None,
-    relation) for ab."""
+    of b), where K = Q(a) is ``field``. The result is (m, relation) for the element b + m a, but (None,
+    relation) for the element ab."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)

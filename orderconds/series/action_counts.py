@@ -1,10 +1,10 @@
-"""The numbers of unrooted action trees, from generating functions."""
+"""The numbers of action trees and of elementary Hamiltonians, computed from generating functions."""
 
 from __future__ import annotations
 
 
 def tree_counts(order: int) -> tuple[int, ...]:
-    """Return the numbers of unrooted trees (elementary Hamiltonians) with 1, 2, ..., ``order`` vertices.
+    """Return the numbers of independent elementary Hamiltonians with 1, 2, ..., ``order`` vertices.
 
     The generating function of the numbers is U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W =
     1/(1 - T). The power of x is the number of vertices. T counts trees with values in the Lie algebra g, and

@@ -108,7 +108,8 @@ def _largest_rank(order: int) -> int:
     products of conditions of lower order.
 
     This is the number of monomials of degree ``order`` in unknowns of degrees 1, 2, .... There are U_n
-    unknowns of degree n, where U_n is the number of unrooted trees with n vertices.
+    unknowns of degree n, where U_n is the number of independent elementary Hamiltonians with n vertices
+    (:func:`~orderconds.series.action_counts.tree_counts`).
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

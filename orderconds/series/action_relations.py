@@ -76,7 +76,7 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
 
 
 SEED = 61
-"""The seed for the random method over Q. Any other seed is equally suitable."""
+"""The seed for the random method over Q. Every other seed is equally suitable."""
 
 
 class _Drawn(Rationals):
