@@ -124,8 +124,8 @@ def trees(kind: str, order: int) -> ShownTrees:
     """Return all trees, forests or words of ``kind`` and ``order``, as ``orderconds trees`` lists them.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown kind, and
-    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 40. The same error is
-    raised if there are more than :data:`MAX_TREES` trees of this order.
+    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 40, and for an order
+    with more than :data:`MAX_TREES` trees.
 
     >>> trees("rooted", 4)
     <4 rooted of order 4>

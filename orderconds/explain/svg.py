@@ -71,8 +71,8 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # If the position of the edge to the parent in a word matters, a note at the right of the vertex shows the
-    # position. The outline then leaves room for the note.
+    # If the branches and the edge to the parent form a word, a note at the right of the vertex shows the
+    # position of this edge in the word. The outline then leaves room for the note.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 
@@ -159,8 +159,8 @@ def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
 
 
 def _formula(text: str) -> str:
-    """Return the text of an elementary differential in which primes and superscript digits replace ``'`` and
-    powers such as ``^2``."""
+    """Return the text of an elementary differential, with primes instead of ``'`` and superscript digits
+    instead of powers such as ``^2``."""
     raised = re.sub(r"\^(\(\d+\)|\d+)", lambda match: match[1].translate(RAISED), text)
     return raised.replace("'", "′")
 

@@ -149,7 +149,7 @@ class ExponentialsFormula(ActionFormula):
         this side."""
         if not word:
             return one()
-        # The divisions are reversed, so that all letters come from different exponentials in the first term.
+        # The divisions are reversed. In the first term, all letters then come from different exponentials.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 

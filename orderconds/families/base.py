@@ -452,7 +452,7 @@ def all_nonzero(weights: Sequence[Element], ring: Ring) -> bool:
 
 
 def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> None:
-    """Raise :class:`~orderconds.errors.ZeroWeight` unless all weights are proved to be non-zero.
+    """Raise :class:`~orderconds.errors.ZeroWeight` if one of the weights is or may be zero.
 
     >>> from orderconds.ring import QQ
     >>> require_nonzero_weights("vcg", QQ, [QQ.one])

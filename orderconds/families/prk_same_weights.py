@@ -54,7 +54,7 @@ class SameWeightsFamily(PartitionedFamily):
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` unless b = bhat."""
+        """Raise :class:`~orderconds.errors.InputError` if b and bhat are or may be different."""
         pair = as_pair(method)
         for i, (x, y) in enumerate(zip(pair.b, pair.b_hat, strict=True), 1):
             if x is not y and ring.is_zero(x - y) is not True:

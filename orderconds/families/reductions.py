@@ -52,8 +52,8 @@ class UnseenCut(Struct, frozen=True):
 class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
-    ``even`` is true if the method is symmetric. The order of a symmetric method is even. ``substitute`` or
-    ``cut`` is None if the reduction does not apply.
+    ``even`` is true if the method is symmetric, because its order is then even. ``substitute`` and ``cut``
+    describe the other two reductions. Each is None if the reduction does not apply.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]

@@ -81,7 +81,7 @@ class SymplecticPartitionedFamily(Family):
         """Return the elementary weights of a tableau (A, b), one for each element of ``conditions``. The ring
         must have division, because the formulas divide by b_i.
 
-        Raises :class:`~orderconds.errors.ZeroWeight` unless all b_i are proved to be non-zero.
+        Raises :class:`~orderconds.errors.ZeroWeight` if one of the weights b_i is or may be zero.
         """
         weights = self._memo(method, ring)
         return tuple(weights(condition.key) for condition in conditions)

@@ -15,8 +15,8 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""A relation is accepted only if random numbers would satisfy a relation with equally small coefficients with
-a probability below 2^-GUARD."""
+"""Random numbers can satisfy a relation by chance. A relation is accepted only if the probability of a chance
+relation with equally small coefficients is below 2^-GUARD."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
@@ -57,8 +57,8 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return a square-free integer d > 1 such that x = p + q sqrt(d), to ``bits`` binary digits, with
-    rational p and q != 0. Return None if no d is found.
+    """Return a square-free integer d > 1 for which rational p and q != 0 exist such that x and p + q sqrt(d)
+    agree to ``bits`` binary digits. Return None if no d is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

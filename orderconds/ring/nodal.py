@@ -101,8 +101,8 @@ class NodalAlgebra:
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
     """Return the algebra for the nodes c_i = sum_j a_ij of the first matrix.
 
-    The result is None if the coefficients are not in a number field other than Q, or if two nodes are equal.
-    The result is also None if one of the following numbers is not rational: b.c^k for some k, a coefficient
+    The result is None if ``ring`` is not a number field, if it is the field Q, or if two nodes are equal. The
+    result is also None if one of the following numbers is not rational: b.c^k for some k, a coefficient
     of the polynomial M, or a coefficient of some A c^k as a polynomial in c.
 
     >>> from orderconds.tableau import Tableau, find

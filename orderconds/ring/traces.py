@@ -83,8 +83,8 @@ class Traces:
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
-        """Record an operation of two elements, and return the result. The two elements must not both be
-        constants."""
+        """Record an operation of two elements, and return the result. Operations between two constants are
+        evaluated by the caller."""
         left, right = x.placed(), y.placed()
         if kind != DIVIDE and left > right:
             left, right = right, left

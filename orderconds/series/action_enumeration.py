@@ -5,8 +5,8 @@ A g-valued tree denotes an element of the Lie algebra g, and a g*-valued tree an
 vertices of a tree are copies of the Hamiltonian H.
 
 The cost of a tree measures how difficult its condition is to read. The cost is a sum of non-negative terms,
-among them the costs of the subtrees. Hence a tree whose cost is at most a limit has only subtrees whose costs
-are at most this limit. Subtrees are tried in order of cost, so the search ends at the first subtree whose
+among them the costs of the subtrees. Hence no subtree costs more than the whole tree. To find the trees
+below a cost limit, subtrees are tried from low to high cost, and the search ends at the first subtree whose
 cost exceeds the limit. A long list is enumerated in parts, with increasing cost limits. A check stops when it
 has decided the order, and the remaining parts are not computed. For example, there are 6331 trees with six
 vertices, but the few hundred simplest trees decide the order of most methods.

@@ -23,8 +23,8 @@ from math import factorial, prod
 
 
 class _Node:
-    """The base class of the three kinds of nodes. A node stores the number of copies of H in the tree below
-    the node, the cost and the canonical text of this tree.
+    """The base class of the three kinds of nodes. A node stores three properties of the tree below
+    it: the number of copies of H, the cost and the canonical text.
 
     The cost measures how difficult the condition of a tree is for a reader. The text is computed on demand,
     because most trees are only counted and compared.
