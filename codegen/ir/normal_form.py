@@ -16,12 +16,12 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers, as sorted pairs (number of a node in the expression space, exponent)."""
+"""A product of powers: sorted pairs of the index of a node in the expression space and an exponent."""
 
 Polynomial = dict[Monomial, Number]
 
 Relation = tuple[tuple[str, str], Sequence[tuple[Number, tuple[str, ...]]]]
-"""A product of two symbols, and the terms (factor, symbols) of a sum that equals the product."""
+"""Two symbols, and a sum that equals their product. Each term of the sum is a pair (factor, symbols)."""
 
 ONE = Number.rational(1)
 MOST_TERMS = 400
@@ -39,8 +39,8 @@ class TooLong(ArithmeticError):
 class NormalForms:
     """Brings expressions of one space to normal form.
 
-    Each relation replaces a product of two symbols by an equal sum. Repeated replacement must end. The
-    expressions in ``whole`` are not expanded.
+    Each relation replaces a product of two symbols by an equal sum. Callers must ensure that repeated
+    replacement ends. The expressions in ``whole`` are not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
@@ -73,8 +73,7 @@ class NormalForms:
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # ``root`` itself is a valid result, because the result must only equal ``root`` wherever the
-            # relations hold.
+            # ``root`` itself is a valid result, because callers do not rely on a reduced expression.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
@@ -168,8 +167,8 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # This test limits the work of one product. The limit for pairs of terms is MOST_TERMS^2, because like
-        # terms are added, and a product often has far fewer terms than pairs.
+        # This test limits the work of one product. The number of pairs of terms may exceed MOST_TERMS,
+        # because like terms are added: a product often has far fewer terms than pairs.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
@@ -183,7 +182,7 @@ class NormalForms:
         return total
 
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
-        """Return a polynomial without the left side of any relation."""
+        """Return an equal polynomial in which no term contains the left side of a relation."""
         done: Polynomial = {}
         # ``popitem`` removes the entry that was inserted last, so the order of reduction does not depend on
         # hashes.

@@ -20,8 +20,8 @@ from functools import cached_property
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 
-# The lengths of texts and exponents are limited, because Fraction("1e999999999") would build an integer with
-# a billion digits.
+# The pattern limits the number of digits, also of exponents, because Fraction("1e999999999") would build an
+# integer with a billion digits.
 _TYPED = re.compile(r"[+-]?(\d{1,99}/\d{1,99}|(\d{1,99}\.?\d{0,99}|\.\d{1,99})([eE][+-]?\d{1,3})?)", re.ASCII)
 _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 
@@ -73,9 +73,8 @@ class Number:
     def read(cls, text: str) -> Number:
         """Return the rational number that a user typed, such as ``1/2``, ``0.25`` or ``-3e-2``.
 
-        ValueError is raised for any other text, and for numbers outside the range of doubles. The message is
-        the expected form. The lengths of the digits and of the exponent are checked before the number is
-        built.
+        ValueError is raised for any other text, and for numbers outside the range of doubles. The error
+        message describes the expected text. The number of digits is checked before the number is computed.
 
         >>> Number.read("-3e-2") == Number.rational(-3, 100)
         True
@@ -168,8 +167,8 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
-        # The value is computed to 40 digits and then rounded to a double with 17 digits. The error of the
-        # first rounding is negligible.
+        # The value is computed to 40 digits, far more than the 17 digits of a double. Therefore the
+        # additional rounding is negligible.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:

@@ -3,8 +3,8 @@
 A class defines how the operation is printed, which kinds its arguments and results have, and how the
 operation is evaluated. An operation whose attribute ``dual`` is true acts on the dual of the Lie algebra.
 
-The bracket is [x, y] = AB - BA for the matrices A and B of x and y. The dual maps ad*_x and Ad*_g of ad_x and
-Ad_g have no change of sign and no inverse.
+The bracket is [x, y] = AB - BA for the matrices A and B of x and y. The dual maps ad*_x and Ad*_g are the
+transposes of ad_x and Ad_g: the definitions contain neither a sign nor an inverse.
 """
 
 from __future__ import annotations
@@ -44,11 +44,11 @@ class Problem(Protocol):
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
-        """Return the state after the exact flow of one part of the vector field for the time tau."""
+        """Return the state after the time tau in the exact flow of one part of the vector field."""
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Apply the product of the functions of ad_x in ``word`` to v. If ``dual`` is true, ad*_x replaces
-        ad_x.
+        """Apply a product of functions of ad_x to v. ``word`` lists the functions. If ``dual`` is true, ad*_x
+        replaces ad_x.
         """
 
     def dimension(self) -> int:

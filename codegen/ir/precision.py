@@ -16,9 +16,7 @@ from codegen.ir.number import Number
 from orderconds.errors import InputError, UnknownName
 
 SUBNORMAL = {24: -149, 53: -1074}
-"""The binary exponent of the smallest positive number of a format, by the number of bits of the
-significand.
-"""
+"""Maps the number of bits of a significand to the binary exponent of the smallest positive number."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +59,8 @@ class Precision:
         large.
         """
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # A comparison with a NaN is false, so the negated condition also refuses a NaN.
+        # The condition is written with ``not``, because every comparison with a NaN is false: a NaN is
+        # refused, too.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(

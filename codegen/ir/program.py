@@ -91,7 +91,9 @@ Statement = Assign | Solve
 
 
 EMBEDDED = "embedded"
-"""The output name of the embedded solution: a second new state of lower order for the error estimate."""
+"""The name of the output for the embedded solution: a second new state, of lower order, which is used only
+for the error estimate.
+"""
 
 
 POWERS = "power"

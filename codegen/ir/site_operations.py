@@ -22,7 +22,7 @@ class Total(Operation):
     noun = "sum{s} over all sites"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the argument, the sum for a single site."""
+        """Return the argument, because a single site has only this term."""
         return args
 
 
@@ -63,7 +63,7 @@ class Excess(Operation):
 
 @dataclass(frozen=True)
 class Corrected(Operation):
-    """g + (r/s) x for the arguments g, x, r, s. For s = 0 it is g."""
+    """g + (r/s) x for the arguments g, x, r, s. For s = 0 the result is g."""
 
     name = "corrected"
     takes, gives = D + A + R + R, D
@@ -77,7 +77,7 @@ class Corrected(Operation):
 
 @dataclass(frozen=True)
 class Wedge(Operation):
-    """(p f - q gamma)/s for the arguments gamma, f, p, q, s. For s = 0 it is zero."""
+    """(p f - q gamma)/s for the arguments gamma, f, p, q, s. For s = 0 the result is zero."""
 
     name = "wedge"
     takes, gives = D + A + R + R + R, A

@@ -17,13 +17,14 @@ if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
 
 STATE, WORK, RESULT = "state", "work", "result"
-"""The arrays of a step: the old state, the workspace, and the new state. Row k of an array contains number k
-of every site.
+"""The arrays of a step: the old state, the workspace, and the new state. An array has one row for each
+quantity and one column for each site.
 """
 
 EXISTS = "exists"
-"""Row k of this array contains 1 for each site whose neighbour k exists, and 0 for all other sites.
-The numbers follow from the place of a site and are not in memory."""
+"""Row k of this array contains 1 for each site whose neighbour k exists, and 0 for all other sites. These
+numbers are computed from the position of the site, and are not stored in memory.
+"""
 
 OWN = -1
 """The value of ``neighbour`` that denotes the site itself."""
@@ -44,7 +45,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Load:
-    """A number that a sweep reads, with its ``symbol`` in the formulas and the ``row`` that contains it.
+    """A number that a sweep reads: ``row`` contains the number, and ``symbol`` denotes it in the formulas.
 
     The number belongs to the site itself if ``neighbour`` is :data:`OWN`, otherwise to the neighbour whose
     offset has the index ``neighbour``.
@@ -183,7 +184,7 @@ class SiteFlow:
 
 @dataclass(frozen=True)
 class SiteStep:
-    """One step of a lattice: ``sweeps`` in order, which store values in ``rows`` rows of the workspace.
+    """One step of a lattice. The ``sweeps`` are executed in order, and use ``rows`` rows of the workspace.
 
     If there are ``flows``, the step executes the sweeps of these flows, one after the other. The sweeps of
     the first and of the last flow visit every site. The first sweep reads the old state, and all other sweeps
@@ -288,8 +289,9 @@ class SiteStep:
 
 def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     """Return the numbers of doubles that sweeps read and write for each site. A number that a sweep reads at
-    several sites is counted once, because the other reads find it in the cache. The numbers that describe an
-    iteration, and the terms of sums over all sites, are read once more."""
+    several sites is counted once, because the other reads find it in the cache. The changes and sizes of
+    unknowns in the rows ``measured``, and the terms of sums over all sites, are read once more.
+    """
     listed = list(sweeps)
     # A sweep over pairs is counted in the same way, because its pairs contain each site at most once.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)

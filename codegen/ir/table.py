@@ -74,7 +74,8 @@ class PiecewisePolynomial(str):
     def value(self, domain: Domain, x: Scalar, sign: Sign) -> Scalar:
         """Return the value at x in any domain.
 
-        ``sign`` compares x with the knots. If it returns None, for example for a NaN, x itself is returned.
+        ``sign`` returns the sign of x minus a knot. If the sign is None, for example for a NaN, x is
+        returned.
         """
         first, last = 0, len(self.knots)
         while first < last:
@@ -86,7 +87,7 @@ class PiecewisePolynomial(str):
         return self.on_interval(domain, x, first)
 
     def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
-        """Return the value at x of the polynomial of interval number ``place``."""
+        """Evaluate the polynomial of the interval with the index ``place`` at x."""
         *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
         step = x - domain.rational(*self.bases[place].as_integer_ratio())
         for c in reversed(rest):

@@ -68,7 +68,7 @@ class OrderLoop:
 def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
     """Return the loop that computes the coefficients of a recurrence.
 
-    The scalars of the recurrence must be expressions of ``space``, and its scale must be 1.
+    The scalars of the recurrence must be expressions of ``space``, and the scale of the recurrence must be 1.
     """
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
@@ -102,7 +102,7 @@ def coordinate_names(count: int) -> tuple[str, ...]:
 
 
 def _known(x: Expr | None) -> Expr:
-    assert x is not None, "coefficient n is needed of a series that is constant in time"
+    assert x is not None, "a series that is constant in time has no coefficient n"
     return x
 
 

@@ -260,8 +260,9 @@ class Recurrence:
 
     ``roots`` are the derivatives of the coordinates called ``symbols``; ``values`` are the values of all
     other symbols, including the time ``t``. Each derivative is stored as a pair: a numeric factor, and a
-    series without this factor. If there are more coordinates than derivatives, the coefficients of the last
-    coordinates have to be given (:meth:`append`): on a lattice, they are those of neighbours.
+    series without this factor. If there are more coordinates than derivatives, the caller must append the
+    coefficients of the last coordinates (:meth:`append`). On a lattice, the last coordinates belong to
+    neighbours.
     """
 
     def __init__(
@@ -290,8 +291,9 @@ class Recurrence:
         return [coordinate.terms for coordinate in self.coordinates]
 
     def following(self, n: int) -> list[Coefficient]:
-        """Return coefficient n + 1 of each coordinate that has a derivative; the coefficients 0, ..., n of
-        all coordinates are known."""
+        """Return coefficient n + 1 of each coordinate that has a derivative. The coefficients 0, ..., n of
+        all coordinates must be known.
+        """
         factors: dict[object, Scalar] = {}
         new = []
         for number, slope in self.slopes:

@@ -39,11 +39,11 @@ parts.
 """
 
 PLACES = ((0, 1), (0, 2), (1, 2))
-"""The places (j, k) above the diagonal, in the order of the coordinates."""
+"""The indices (j, k) of the entries above the diagonal, in the order of the coordinates."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices. This function gives the derivatives of exp X. It also gives exp X
-in many digits and over power series.
+"""The exponential of real 6 x 6 matrices. It is used for the derivatives of exp X, for exp X with many
+digits, and for exp X over power series.
 """
 
 
@@ -147,7 +147,7 @@ def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
 def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
     """Return the exponential of the matrix with the coordinates ``x``.
 
-    All results are NaN if fewer than three digits might be correct.
+    All results are NaN if three correct digits cannot be guaranteed.
     """
     scale, squarings, norm = _halvings(_bound(x))
     total = _polynomial([a * scale for a in x], norm)

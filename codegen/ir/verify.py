@@ -72,7 +72,8 @@ class _Verifier:
 
     def block(self, block: Solve) -> None:
         """Check one block of equations. Its body may read the unknowns of the block."""
-        # The numbers of starts and images are checked first, because start k and image k belong to unknown k.
+        # A block must have as many starts and images as unknowns, because start k and image k belong to
+        # unknown k.
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")

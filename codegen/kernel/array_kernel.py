@@ -107,8 +107,8 @@ def _model(timed: bool) -> Problem:
 def array_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of an explicit program on a scene whose field is given by formulas of matrices.
 
-    MethodError is raised for implicit stages, and for operations that have no formula for elements B S B^T of
-    the algebra with the basis B and a core S.
+    MethodError is raised for implicit stages, and for operations that have no formula for an element B S B^T
+    of the algebra, where B is the basis and S a core.
     """
     assert scene.matrices is not None
     step = _Builder(program, scene, scene.matrices).step()
@@ -124,8 +124,8 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
 class _Builder:
     """Collects the statements of one step.
 
-    An element of the algebra is B S B^T with the basis B and its core S. A point is X_0 + B D with the old
-    state X_0 and its displacement D (:mod:`codegen.ir.array_step`).
+    An element B S B^T of the algebra is represented by its core S, where B is the basis. A point X_0 + B D is
+    represented by its displacement D, where X_0 is the old state (:mod:`codegen.ir.array_step`).
     """
 
     program: Program
@@ -295,13 +295,13 @@ class _Builder:
         """Append a linear combination of matrices S, and return the result, which has the size of the largest
         matrix.
 
-        Each S represents the element B S B^T of the algebra with the basis B.
+        Each S represents the element B S B^T of the algebra, where B is the basis.
         """
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append the bracket of the elements B x B^T and B y B^T of the algebra with the basis B.
+        """Append the bracket of the elements B x B^T and B y B^T of the algebra, where B is the basis.
 
         The bracket is B S B^T with S = N - N^T and N = x G y, where G is the Gram matrix of B. The function
         returns S.

@@ -66,8 +66,8 @@ class Assignments:
             # values of the unknowns of all loops.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # A matrix to leading order in h is computed once before the sweeps, so it must not use values of
-            # the body.
+            # A Newton matrix to leading order in h is computed once, before the sweeps, so the matrix must
+            # not use values of the body.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             # Values that no later expression uses are skipped, because they would cost assignments in every
@@ -162,7 +162,6 @@ class Assignments:
         The limit is half of the work of a sweep of the loop.
         """
         rest = [*self._later(k), *self.roots]
-        # In this case the values are computed again from the final unknowns.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:

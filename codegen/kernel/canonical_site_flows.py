@@ -43,7 +43,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
         elapsed = elapsed + duration if summand is carrier else elapsed
-    # Only kicks depend on time: a part with momenta that depends on time has no exact flow.
+    # Only kicks depend on time, because a part of the Hamiltonian that contains momenta and depends on time
+    # has no exact flow.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
     sweeps: list[Sweep] = []
     index: dict[tuple[object, ...], int] = {}

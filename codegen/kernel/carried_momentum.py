@@ -69,7 +69,8 @@ class Frames:
         if not self.whole:
             return new
         # Only the increment of the momentum is transformed back. Rounding errors make q slightly
-        # non-orthogonal, so a transformation of the whole momentum by q would change its length in each step.
+        # non-orthogonal, so a transformation of the whole momentum by q would change the length of the
+        # momentum in each step.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 

@@ -46,8 +46,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # Without flows, and if the group is not a cotangent bundle, all variants of the group give the same
-    # kernel. Therefore only two orders of the products with constant factors are compared.
+    # If the program has no flows and the group is no cotangent bundle, all variants of the group give the
+    # same kernel. Therefore only two orders of the products with constant factors are compared.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     # Deferred flows are applied only at the beginning or the end of a run. Each step then computes only the

@@ -31,8 +31,8 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
     """Return the kernel with an extended state: the coordinates, then one carry for each coordinate.
 
     A carry is the stored rounding error of a coordinate. All carries are zero initially. :class:`MethodError`
-    is raised if the new value of a coordinate is not the old value plus an increment, and for a step by loops
-    over arrays.
+    is raised if the new value of a coordinate is not the old value plus an increment, or if the step consists
+    of loops over arrays.
     """
     if kernel.arrays is not None:
         raise MethodError(
@@ -112,7 +112,7 @@ class Increments:
     """Computes e - x and f - 1 without cancellation of leading digits, for expressions e and f and a symbol
     x.
 
-    This is possible only if e has the form x + increment, or f the form 1 + increment.
+    e must have the form x + increment, and f must have the form 1 + increment.
     """
 
     def __init__(self, kernel: Kernel) -> None:

@@ -108,8 +108,8 @@ class _Chains:
     sums: dict[tuple[int, int, int], Sum] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # The nodes are ordered, arguments before users. A forward pass computes when each node is ready, a
-        # backward pass the longest chain after each node.
+        # The nodes are ordered, arguments before users. A forward pass computes when each node is ready. A
+        # backward pass computes the longest chain after each node.
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
@@ -152,8 +152,9 @@ class _Chains:
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the nodes on long chains that may be rewritten as sums over late values. For these nodes,
-        the next operation on the chain is not linear in the late values."""
+        """Return nodes that may be rewritten as sums over late values. Each of these nodes is on a long
+        chain, and the next operation on the chain is not linear in the late values.
+        """
         ends = set()
         for node in self.nodes:
             for arg in node.args:
@@ -210,7 +211,9 @@ class _Chains:
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Return the terms c x and c y of a sum as one term c (x + y) or c (x - y), for a late value c."""
+        """Combine two terms of a sum with the same late value c: c x + c y = c (x + y). If the signs of the
+        terms differ, the result contains x - y.
+        """
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
@@ -239,7 +242,7 @@ class _Chains:
         """Return a product in which the factors that are constant in a run are multiplied first."""
         if node.op != "mul":
             return node
-        # c1 (c2 x) = (c1 c2) x, for a fixed c1 on either side.
+        # c1 (c2 x) = (c1 c2) x for fixed c1 and c2. The loops try both orders of the factors of each product.
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):

@@ -29,10 +29,10 @@ class Parted:
     """A program that is split into three programs for the beginning, the steps and the end of a run.
 
     ``begin`` is applied before the first step, ``core`` in each step and ``finish`` after the last step.
-    ``begin`` and ``finish`` are None if they would contain no flows. ``core`` reads a variable :data:`LEAD`,
-    the duration of its joined flow, and ``finish`` a variable :data:`ELAPSED`, the time of all steps. In
-    units of h, ``last`` is the duration of the joined flow in the last step of a run, and ``later`` its
-    duration in every other step.
+    ``begin`` and ``finish`` are None if they would contain no flows. ``core`` reads the variable
+    :data:`LEAD`, which is the duration of the joined flow. ``finish`` reads the variable :data:`ELAPSED`,
+    which is the time of all steps. The joined flow has the duration ``last`` * h in the last step of a run,
+    and ``later`` * h in every other step.
     """
 
     begin: Program | None
@@ -47,8 +47,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
-    # The flows are compared numerically at sample points. The formula of a vanishing Lie bracket need not
-    # simplify to zero, so a symbolic test could fail.
+    # The flows are compared numerically at sample points. A symbolic test could fail, because the formula of
+    # a vanishing Lie bracket may not simplify to zero.
     commute = commuting(scene)
     # The flows of a part can be deferred to the end of a run only if their duration is h and they read no
     # stage time.

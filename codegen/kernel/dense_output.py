@@ -1,9 +1,9 @@
 """Kernels of a continuous extension, which gives the state at any time inside a step.
 
-The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is a polynomial in theta with values
-in the Lie algebra. One kernel computes the coefficients of sigma from the state at the beginning of the step.
-Let y be the state at the beginning of the step. The other kernel computes the point exp(x).y from the
-coordinates of an element x of the Lie algebra.
+Let y be the state at the beginning of the step. The solution at the time t + theta h is exp(sigma(theta)).y,
+where sigma is a polynomial in theta with values in the Lie algebra. One kernel computes the coefficients of
+sigma from y. The other kernel computes the point exp(x).y from the coordinates of an element x of the Lie
+algebra.
 """
 
 from __future__ import annotations

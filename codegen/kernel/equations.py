@@ -1,4 +1,4 @@
-"""Implicit equations u = g(u) of a step, before they become loops that solve them.
+"""Implicit equations u = g(u) of a step. Other modules convert the equations to loops.
 
 The image of an unknown u is the right-hand side g(u). Newton's matrix 1 - g' is obtained by differentiating
 the expressions of the images. After the loop, later statements read the unknowns in place of the images.

@@ -1,17 +1,17 @@
 """Translates programs for semilinear problems u' = L u + N(u) to steps on Fourier modes.
 
 On one Fourier mode, L is a number lambda. The affine maps u -> exp(t lambda) u + c form a group. An element
-(a, b) of its Lie algebra has the velocity a lambda u + b. This module executes a program
-(:mod:`codegen.ir.mode_step` describes the result) with formulas. In these formulas a is a number, and b is a
-linear combination of the values of N. The coefficients of b are functions of z = h lambda. Three formulas are
-sufficient:
+(a, b) of its Lie algebra has the velocity a lambda u + b. This module executes a program with formulas in
+place of numbers (:mod:`codegen.ir.mode_step` describes the result). In these formulas a is a number, and b is
+a linear combination of the values of N. The coefficients of b are functions of z = h lambda. Three formulas
+are sufficient:
 
 - exp(h (a, b)).u = exp(a z) u + h phi_1(a z) b;
 - [(a, b), (c, d)] = (0, lambda (a d - c b));
 - dexp^{-1}_{h (a, b)} (c, d) = (c, beta d + (1 - beta) c b/a), where beta = a z/(exp(a z) - 1).
 
-The first and the third formula follow from the second. For a power series f and the operator ad = ad_{h (a,
-b)}, they use f(ad) = f(0) + (f(a z) - f(0))/(a z) ad. The function phi_1 is (exp(z) - 1)/z.
+The function phi_1 is (exp(z) - 1)/z. The second formula implies f(ad) = f(0) + (f(a z) - f(0))/(a z) ad for a
+power series f and the operator ad = ad_{h (a, b)}. The first and the third formula follow from this identity.
 """
 
 from __future__ import annotations

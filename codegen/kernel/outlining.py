@@ -134,8 +134,8 @@ class Outline:
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # Operands and results of all operations are included, because they need not occur in the roots:
-        # simplification can remove the expressions that read them.
+        # Operands and results of all operations are included. Some of them may not occur in the roots,
+        # because simplification can remove the expressions that read them.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):

@@ -217,7 +217,8 @@ class Trees:
         if len(users) != 1:
             return None
         (user,) = users
-        # A tree must not cross the border of a loop: its parts would run a different number of times.
+        # A tree must not cross the border of a loop, because operations inside and outside the loop are
+        # executed different numbers of times.
         return user if user is not None and self.executions[user].place == self.executions[i].place else None
 
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
@@ -294,8 +295,9 @@ class Trees:
 
 
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
-    """Return, for each coefficient of a sum, a pair: a number and the power of h. Equal coefficients have
-    equal numbers. The coefficient 1 has the number 0."""
+    """Return, for each coefficient of a sum, a pair: a label and the power of h. Equal coefficients have
+    equal labels. The coefficient 1 has the label 0.
+    """
     seen: dict[Coefficient, int] = {}
     # A coefficient of one changes the shape, because it needs no product. Terms with equal coefficients are
     # added and then multiplied once, so equality is part of the shape.

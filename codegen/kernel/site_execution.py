@@ -114,7 +114,8 @@ class Execution:
         self, operation: Operation, variables: tuple[Var, ...], args: tuple[Value, ...]
     ) -> tuple[Value, ...]:
         """Return the results of an operation that evaluates formulas of the scene at a point. The formulas
-        also read this point at neighbours; an earlier sweep has stored these values for all sites."""
+        also read the corresponding points of neighbours. An earlier sweep has stored these points.
+        """
         roots, dim = self._roots(operation), self.problem.group.dim
         values = evaluate(roots, self.domain, self._around(variables, args))
         if isinstance(operation, Energy):
@@ -162,8 +163,10 @@ class Execution:
         return values
 
     def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
-        """Return the symbols of a variable at a neighbour, and record their loads. ``ghosts`` replace the
-        variable outside the lattice; if they depend on time, they differ between evaluations at one point."""
+        """Return the symbols of a variable at a neighbour, and record their loads. Outside the lattice,
+        ``ghosts`` replace the variable. Ghosts that depend on time differ between evaluations at the same
+        point.
+        """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
@@ -175,8 +178,9 @@ class Execution:
         return unique_name(base, self.taken)
 
     def sweep(self, content: Content, sums: tuple[tuple[str, Row], ...]) -> Sweep:
-        """Return the sweep with the given content. Each of ``sums`` is the name of a sum over all sites, and
-        the row with its terms."""
+        """Return the sweep with the given content. Each entry of ``sums`` is a pair: the name of a sum over
+        all sites, and the row that contains the terms.
+        """
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
         stores = tuple(row for rows, _ in content.stored for row in rows)
         unknowns = tuple(s for var in content.unknowns for s in self._names(var))

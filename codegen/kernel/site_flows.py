@@ -25,8 +25,8 @@ from codegen.scene.sites import SitePart
 def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:
     """Return the program and the kernel of a splitting of a lattice.
 
-    MethodError is raised for a field that depends on time, unless the scene is Hamiltonian. It is also raised
-    for a part without exact flow, and for a tableau that cannot be used with the parts of the scene.
+    MethodError is raised if the field depends on time and the scene is not Hamiltonian. The error is also
+    raised for a part without exact flow, and for a tableau that cannot be used with the parts of the scene.
     """
     assert scene.sites is not None
     if not scene.autonomous and not scene.paired:

@@ -2,7 +2,7 @@
 
 Every operation of a step program except the field acts on one site alone. The field also reads the states of
 neighbours. Therefore one sweep stores, at all sites, the point at which the field is evaluated. The next
-sweep evaluates the field. A sweep stores a sum of vectors if one of the terms then need not be stored. Later
+sweep evaluates the field. A sweep stores a sum of vectors if this saves storing one of the terms. Later
 sweeps compute all other sums again from stored terms.
 """
 
@@ -37,7 +37,9 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 
 @dataclass(frozen=True)
 class SiteMethod:
-    """A method on a lattice: the problem of one site, the program before and after each pass, the kernel."""
+    """A method on a lattice. Contains the problem of one site, the program before and after each pass, and
+    the kernel.
+    """
 
     problem: Problem
     lowered: Program

@@ -55,8 +55,8 @@ class Linearisation:
     inside: set[Var] = field(default_factory=set)
 
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
-        """Return the matrix for the equations ``solve``. ``places`` contains four numbers: the number of
-        unknowns of a site, and the rows at which the residuals, the border and the matrix begin.
+        """Return the matrix for the equations ``solve``. ``places`` contains the number of unknowns of a
+        site, and the first rows of the residuals, of the border and of the matrix.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
         the field at another stage of the same block.

@@ -1,10 +1,10 @@
 """Distributes the assignments of a program among sweeps over the sites of a lattice.
 
-A value that the field reads at neighbours is stored by one sweep and read by a later sweep. The equations
-of an implicit method are a block of sweeps that are repeated. Values from outside the block are stored before
+A value that the field reads at neighbours is stored by one sweep and read by a later sweep. The equations of
+an implicit method are a block of sweeps that are repeated. Values from outside the block are stored before
 the block begins, and the last sweep of the block replaces the unknowns by their images. Statements after the
-block read the unknowns in place of the images. A sum over all sites is a number that later sweeps read; one
-sweep stores its terms.
+block read the unknowns in place of the images. For a sum over all sites, one sweep stores the term of each
+site. The terms are added after this sweep, and later sweeps read the sum.
 """
 
 from __future__ import annotations
@@ -257,7 +257,7 @@ class Planner:
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for number in range(len(needs)):
             for var in self._terms(number):
-                # The sum is formed directly after the sweep.
+                # The sum over all sites is computed directly after the sweep that stores the terms.
                 used[var] = max(used.get(var, 0), number + 1)
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]

@@ -1,10 +1,12 @@
 """Discrete gradients on a lattice: inner products and energies are sums over all sites.
 
-The discrete differential D = g + (H1 - H0 - <g, eta>)/|eta|^2 eta of the whole lattice contains three numbers
-that are sums over its sites: the difference of the energies, <g, eta> and |eta|^2. Each site computes its
-term, and the terms of all sites are added. The differences H1 - H0 - <g, eta> are formed at each site before
-they are added, because they are small. If the equations are not Hamilton's equations, the bivector (gamma
-wedge f)/|gamma|^2 contains three further sums (:mod:`codegen.scene.energy`).
+The discrete differential of the whole lattice is D = g + (H1 - H0 - <g, eta>)/|eta|^2 eta. Here g is a
+covector near the differential of the energy, eta is the displacement of a step, and H0 and H1 are the
+energies before and after the step. D contains three numbers that are sums over all sites: the difference of
+the energies, <g, eta> and |eta|^2. Each site computes its term, and the terms of all sites are added. The
+differences H1 - H0 - <g, eta> are formed at each site before they are added, because they are small. If the
+equations are not Hamilton's equations, the bivector (gamma wedge f)/|gamma|^2 contains three further sums
+(:mod:`codegen.scene.energy`).
 """
 
 from __future__ import annotations
@@ -41,7 +43,9 @@ def with_sums(program: Program, problem: Problem) -> Program:
 
 
 def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign, ...]:
-    """Return the assignments that replace one assignment; the last one has its targets."""
+    """Return the assignments that replace ``assign``. The last of these assignments sets the targets of
+    ``assign``.
+    """
 
     def total(name: str, x: Var, y: Var) -> Var:
         return build.add(Total(), "sum", build.add(InnerProduct(x.kind, y.kind), name, x, y))

@@ -1,9 +1,10 @@
 """Taylor's method on a lattice: one sweep over all sites for each degree of the polynomial.
 
 Coefficient n + 1 of the state of a site is a function of the coefficients 0, ..., n of the site and of its
-neighbours (:mod:`codegen.ir.taylor_recurrence`). One sweep computes it at all sites, and stores it for the
-next sweep. The coefficients contain the powers of h. A neighbour outside an open boundary is a function of
-the state of the site and of the time, so its coefficients are those of this function along the solution.
+neighbours (:mod:`codegen.ir.taylor_recurrence`). One sweep computes coefficient n + 1 at all sites, and
+stores the coefficient for the next sweep. The coefficients contain the powers of h. The state of a neighbour
+outside an open boundary is given as a function of the state of the site and of the time. The coefficients of
+this neighbour are the Taylor coefficients of the function along the solution.
 
 The coefficients of one degree contain many expressions that occurred at a lower degree. A sweep stores such
 an expression for later sweeps if computing it again takes more operations than :data:`SHORT`.
@@ -51,7 +52,8 @@ class _Stored:
 
 class TaylorSweeps:
     """The sweeps of a step of Taylor's method of the given degree. ``problem`` is the equation of one site
-    whose neighbours do not move; its ``evolution`` contains the derivatives of the coordinates."""
+    whose neighbours do not move. ``problem.evolution`` contains the derivatives of the coordinates.
+    """
 
     def __init__(self, program: Program, problem: Problem, sites: Sites, degree: int) -> None:
         assert problem.evolution is not None
@@ -114,8 +116,9 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return the coefficients, with zero in place of None where the coefficient of a neighbour outside
-        the lattice need not be zero."""
+        """Return the coefficients. None is replaced by zero if a neighbour outside the lattice may have a
+        coefficient other than zero.
+        """
         if degree == self.degree:
             return terms
         if all(self._follows(x, k) for column in self.sites.outside for k, x in enumerate(column)):
@@ -124,7 +127,8 @@ class TaylorSweeps:
 
     def _follows(self, ghost: Expr, k: int) -> bool:
         """Return True if coordinate k of a neighbour outside the lattice is constant, or equal to coordinate
-        k of the site. Its coefficients are then zero where those of the site are zero."""
+        k of the site. In both cases a coefficient that is zero for the site is also zero for the neighbour.
+        """
         return ghost.op == "const" or (ghost.op == "sym" and ghost.payload == self.symbols[k])
 
     def _append(self, terms: Sequence[Coefficient], degree: int) -> list[Row]:
@@ -150,8 +154,9 @@ class TaylorSweeps:
         return rows
 
     def _end(self) -> list[Expr]:
-        """Return the new state: the values of the remaining operations of the program, of which the first
-        computes the Taylor polynomial."""
+        """Execute the program on symbols and return the new state. The first operation computes the Taylor
+        polynomial.
+        """
         env: dict[Var, Value] = {}
         for var in self.program.inputs:
             names = self.symbols if var.kind is not Kind.REAL else (TIME,)
@@ -209,8 +214,9 @@ class TaylorSweeps:
         return local
 
     def _work(self, node: Expr, known: dict[int, int]) -> int:
-        """Return the number of operations in an expression, counted up to a little more than
-        :data:`SHORT`."""
+        """Return the number of operations in an expression. The count ends as soon as it exceeds
+        :data:`SHORT`.
+        """
         if node.id not in known:
             total = 0
             for x in walk([node]):

@@ -84,7 +84,8 @@ def to_kernel(
 class _Translation:
     """The symbolic execution of a program.
 
-    ``env`` holds the values of variables, ``hints`` the names of expressions, ``taken`` the names in use.
+    ``env`` contains the values of variables, ``hints`` contains the names of expressions, and ``taken``
+    contains the names in use.
     """
 
     def __init__(

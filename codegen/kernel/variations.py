@@ -1,8 +1,8 @@
 """Variations of a state: the coordinates in which the Jacobian of a step is expressed.
 
-A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). Momenta,
-and points that are not group elements, are varied in each component. Therefore the Jacobian is a 6 x 6 matrix
-on T*SO(3), and a 3 x 3 matrix on the sphere.
+A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). Momenta are
+varied component by component, and so are points that are not group elements. Therefore the Jacobian is a 6 x
+6 matrix on T*SO(3), and a 3 x 3 matrix on the sphere.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Variations:
             if bundle is not None:
                 base = bundle.base
                 # In the right trivialisation T*G is G x g*: the group element varies by an element of the
-                # algebra, the momentum component by component.
+                # algebra, and the momentum varies component by component.
                 parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
             elif block.kind is Kind.GROUP or moved:
                 parts.append((scene.group, block.symbols))

@@ -70,8 +70,9 @@ SHORTER, ATTEMPTS = 64, 4
 are tried. A step may fail because equal states at all sites can be far from equilibrium."""
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""The sweeps over implicit equations are counted in COUNTED_STEPS steps on a small lattice. SIDES maps the
-dimension of the lattice to its number of sites in each dimension. In higher dimensions this number is 4."""
+"""The sweeps over implicit equations are counted in COUNTED_STEPS steps on a small lattice. The lattice has
+SIDES[d] sites along each axis if its dimension d is 1 or 2, and 4 sites along each axis if d is larger.
+"""
 
 TRIAD = """\
 #include <stddef.h>
@@ -200,8 +201,8 @@ def _step_size(compiled: Compiled, step: SiteStep) -> float:
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
     # If an angle of rotation exceeds about one radian, the loops are repeated without vector instructions.
-    # The shorter step of an explicit method avoids this repetition. Otherwise the time of an explicit step
-    # does not depend on h.
+    # The shorter step of an explicit method avoids this repetition. Apart from this repetition, the time of
+    # an explicit step does not depend on h.
     return h if step.blocks else h / SHORTER
 
 
@@ -219,12 +220,12 @@ class _Runs:
 
     @property
     def numbers(self) -> int:
-        """The numbers that are stored for each site: its state and its workspace."""
+        """How many numbers are stored for each site, for its state and its workspace."""
         return self.lattice.interface.size + self.lattice.interface.workspace
 
     @property
     def itemsize(self) -> int:
-        """The bytes of a number."""
+        """The size of a number in bytes."""
         return precision(self.lattice.interface.precision).bits // 24 * 4
 
     def side(self, sites: int) -> int:
@@ -268,7 +269,8 @@ class _Runs:
         while status == Status.OK and pace * sites * steps < RESOLVED:
             steps *= 2
             status, pace = self.timed(side, steps)
-        # The longest run may fail because the method is unstable. Half the number of steps was successful.
+        # The longest run may fail because the method is unstable. The previous run, with half the number of
+        # steps, was successful.
         steps = steps if status == Status.OK else max(steps // 2, 1)
         return self.timed(side, steps, REPEATED)[1]
 

@@ -35,13 +35,15 @@ REPORT_HAMILTONIANS = {
     "splitting:blanes_moan4": 4,
     "splitting:blanes_moan_rkn6a": 6,
 }
-"""Default methods of the report with equal steps, each with the order that it must have on the scene. The
-first dictionary is for scenes that are given by a field, the second for Hamiltonian scenes."""
+"""The methods that the report runs with equal steps by default, and the order that each method must have on
+the scene. The first dictionary is for scenes that are given by a field, the second for Hamiltonian scenes.
+"""
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
-"""Default methods of the report with step-size control. A figure has only eight colours for methods, and
-methods with equal steps need seven colours on Hamiltonian scenes. Therefore only the first method of this
-list is used on Hamiltonian scenes."""
+"""The methods that the report runs with step-size control by default. A figure has only eight colours for
+methods, and methods with equal steps need seven colours on Hamiltonian scenes. Therefore only the first
+method of this list is used on Hamiltonian scenes.
+"""
 
 README_METHODS = {
     "dipole": (

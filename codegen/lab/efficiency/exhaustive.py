@@ -134,7 +134,7 @@ def _predicted(search: Search, limits: Mapping[float, float], progress: Progress
     predictions: dict[Key, Prediction] = {}
     for k, prediction in enumerate(in_processes(partial(predicted, search.task), jobs)):
         progress(f"{search.problem.name}: running recipe {k + 1} of {len(jobs)} step by step")
-        assert prediction is not None  # None is returned only if there is no bar.
+        assert prediction is not None  # The prediction is None only for a recipe without bars.
         predictions[_key(recipes[k])] = prediction
     return predictions
 

@@ -83,8 +83,8 @@ class Goal:
 
 
 def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
-    """Return False if a recipe is known not to satisfy the needs. The result True is not final, because some
-    needs can only be tested after the recipe is compiled.
+    """Return False if a recipe is known to violate one of the needs. The result True is not final, because
+    some needs can only be tested after the recipe is compiled.
     """
     if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
         return False

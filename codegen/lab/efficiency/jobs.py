@@ -33,8 +33,8 @@ EVEN = 4.0
 delay.
 
 The delay is the sum of two terms. The first term is (n + d)/EVEN. Here n is the number of recipes that were
-taken from the queue, and d is the difference between the order of the queue and the usual order. The second
-term increases by one for every factor of two in the predicted time of the recipes.
+taken from the queue, and d is the difference between the order of its methods and the usual order of fast
+methods. The second term increases by one for every factor of two in the predicted time of the recipes.
 """
 
 FAILED = 4.0
@@ -56,8 +56,8 @@ step-size control. Recipes of one kind have similar costs.
 """
 
 Queue = tuple[Kind, int]
-"""The key of a queue: a kind and an order. The queue contains the recipes of this kind and order, sorted by
-the number of stages.
+"""The key of a queue: a kind of recipe and the order of the methods. The queue contains the recipes of this
+kind and order, sorted by the number of stages.
 """
 
 Job = tuple[Recipe, tuple[Bar, ...]]
@@ -67,9 +67,9 @@ class Jobs(Sequence[Job]):
     """The recipes to predict, each with the bars of its goals.
 
     A job is created only when a worker process is free, so its bars use all predictions up to this time. The
-    queues take turns, and queues of orders that are usual for an error are first. Queues of slow kinds of
-    recipes are delayed by log2(a/b), where a is the least predicted time of this kind and b the least
-    predicted time of all kinds.
+    queues take turns. If the order of a queue is usual for the error, the queue comes early. Queues of slow
+    kinds of recipes are delayed by log2(a/b), where a is the least predicted time of this kind and b the
+    least predicted time of all kinds.
 
     ``controlled`` maps each recipe that can also run with step-size control to the goals that the recipe may
     then satisfy. The recipes of the methods ``early`` are predicted first, so that slow recipes are

@@ -46,10 +46,9 @@ PATIENCE = 0.4
 
 PARTS = 64
 """The span is divided into PARTS equal parts. If no run on the whole span succeeds, only the first part is
-interpreted.
+interpreted. The error on the whole span is then predicted as PARTS times the error on the first part.
 
-For example, the runs may have too few steps to be stable. The error on the whole span is then predicted as
-PARTS times the error on the first part.
+For example, runs on the whole span fail if their steps are too long to be stable.
 """
 
 TRIES = 3
@@ -88,11 +87,12 @@ class Prediction:
     operations. ``explicit`` is True if no equation is solved. If the interpreted runs failed, ``error`` is
     infinite.
 
-    ``rough`` is True if no interpreted run on the whole span had a small error. A possible reason is a fast
+    ``rough`` is True if all interpreted runs on the whole span had large errors. A possible reason is a fast
     motion in a part of the span. Step-size control may then save a large part of the time. If an interpreted
     run with step-size control succeeded, ``controlled`` is the prediction with step-size control. ``vague``
-    is True if ``error`` is large. The predicted time for a small error is then too short. ``failure`` is the
-    reason if the scene or the family does not accept the method.
+    is True if the run that gives ``error`` has a large error. This run may be on the first part of the span
+    only. The predicted time for a small error is then too short. ``failure`` is the reason if the scene or
+    the family does not accept the method.
     """
 
     method: str

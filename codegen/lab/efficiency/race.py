@@ -75,8 +75,8 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # A method that integrates coordinates does not use the manifold of the scene, so its states need not
-        # stay on the manifold.
+        # A method that integrates coordinates does not use the manifold of the scene, so its states may leave
+        # the manifold.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 

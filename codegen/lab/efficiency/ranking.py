@@ -93,7 +93,8 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful rows that are not slower than another form of the equations for the same error.
+    """Return the successful rows, except those whose error another form of the equations reaches in less
+    time.
 
     If there are several forms, the rows are ordered by their errors, from large to small.
     """

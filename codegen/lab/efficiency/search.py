@@ -1,7 +1,7 @@
 """The search for the fastest recipes of the library for several goals.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. A goal is an error
-with needs, such as a symplectic method. The search has three stages.
+A recipe is a method with equal steps or step-size control, on one form of the equations. A goal is a bound of
+the error together with needs, for example that the method is symplectic. The search has three stages.
 
 First, a few interpreted steps predict the time of each recipe (:mod:`codegen.lab.efficiency.prediction`). A
 recipe is dropped without interpreted steps if one step takes too long, or if methods of higher order are far

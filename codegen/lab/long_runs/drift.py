@@ -39,8 +39,8 @@ PARTS = 5
 """The record is divided into PARTS parts. For a drift, the means of the parts must be monotone."""
 
 LOST = 1.0
-"""A conserved quantity counts as lost if its relative deviation is at least LOST. The deviation is then as
-large as the quantity.
+"""A conserved quantity counts as lost if its relative deviation is at least LOST. The deviation is then at
+least as large as the quantity.
 """
 
 BOUNDED, WALK = 0.25, 0.75
@@ -98,11 +98,11 @@ class Drift:
     slope is NaN.
 
     ``persists`` is True if the means over consecutive parts of the record are monotone. ``confined`` is True
-    if a random walk does not explain the deviation. ``unlike_walk`` is True if a random walk does not explain
-    the slope of the line. ``later`` is the largest deviation divided by the largest deviation of the first
-    half. ``ratios`` are the variance ratios of increments over NEAR and over FAR blocks (:data:`WALKING`).
-    ``until`` is the time at which the deviation saturates, or None. After a saturation, only the record
-    before this time is fitted.
+    if the deviation varies much less than a random walk (:data:`CONFINED`). ``unlike_walk`` is True if the
+    line has a slope that a random walk does not explain (:data:`STRAIGHT`, :data:`STEADY`). ``later`` is the
+    largest deviation divided by the largest deviation of the first half. ``ratios`` are the variance ratios
+    of increments over NEAR and over FAR blocks (:data:`WALKING`). ``until`` is the time at which the
+    deviation saturates, or None. After a saturation, only the record before this time is fitted.
     """
 
     slope: float

@@ -171,10 +171,10 @@ def _kept(
     """Return the quantities with their drifts.
 
     The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
-    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. The deviations
-    of all other quantities count as rounding errors only if this change is much smaller than one rounding
-    error. If a quantity saturates within the first samples, the function calls ``early(n)``, which records
-    the first n steps with more samples.
+    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. The deviation
+    of any other quantity counts as rounding error only if the change of the quantity in one step is much
+    smaller than a rounding error. If a quantity saturates within the first samples, the function calls
+    ``early(n)``, which records the first n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:

@@ -79,8 +79,8 @@ class Growth:
 
         ``bounded``: the confidence interval of the exponent is below 1/4. ``random walk``: the interval
         contains the exponent 1/2. ``systematic``: the interval contains the exponent 1. The result contains
-        both words if both laws are possible. Otherwise the result is ``neither law``. For the last three
-        tests, the half width of the interval is at least 0.1.
+        both words if both laws are possible. Otherwise the result is ``neither law``. In the tests for
+        ``random walk`` and ``systematic``, a half width below 0.1 is replaced by 0.1.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"
