@@ -121,8 +121,8 @@ class InterpretedSpectral(Spectral):
 class CompiledSpectral(Spectral):
     """An emitted C module for a semilinear equation, in a shared object.
 
-    If the number n of points is a power of two, the Fourier transforms of the module are used, and otherwise
-    those of NumPy.
+    If the number n of points is a power of two, the module uses its own Fourier transforms. Otherwise the
+    module calls the transforms of NumPy.
     """
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:

@@ -53,7 +53,7 @@ class Reader:
             )
 
     def parameters(self) -> dict[str, Number]:
-        """Return the default values of the parameters in the formulas that were read, by name."""
+        """Map the names of the parameters in the formulas that were read to their default values."""
         return dict(sorted(self.defaults.items()))
 
     def _admit(self, symbol: Parameter) -> None:

@@ -52,11 +52,11 @@ def HamiltonianScene(
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
     ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), and ``q0`` and ``mu0``
-    their exact initial values. The equations are q' = xi.q and mu' = n - ad*_xi mu. The program computes
+    are their exact initial values. The equations are q' = xi.q and mu' = n - ad*_xi mu. The program computes
     xi = D_2 H and n = -(D_1 H).q^-1 by differentiation (:mod:`codegen.scene.canonical_equations`). If ``xi``
     or ``n`` is given, it must equal the computed formulas. ``parts`` are named summands of H, and must add up
-    to H. If the compiler does not recognise the exact flow of a part, ``flows`` may contain formulas for
-    (q, mu) after the time ``Symbol("tau")``.
+    to H. If the compiler does not recognise the exact flow of a part, ``flows`` may contain formulas for (q,
+    mu) after the time ``Symbol("tau")``.
 
     ``wrench`` is a force without potential: a column of ``group.dim`` components in the space frame. Then
     mu' = n + wrench - ad*_xi mu. A scene with a wrench has no energy, and must not have parts. If H does not

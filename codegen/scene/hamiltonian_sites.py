@@ -61,10 +61,10 @@ def HamiltonianSiteScene(
 
     The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the element q of a
     neighbour that does not exist: a column of ``group.size`` formulas in q, t and parameters, or a mapping
-    from each offset to such a column. Constants describe a clamped end, and formulas in t a driven end. For
-    a free end, write an element that exerts no force on the site. ``outside`` is needed for the offset of
-    each bond and for its negative. ``parts`` are named summands of ``H``. Splittings compose their exact
-    flows with the exact flow of all bonds. :class:`SceneError` is raised in the same cases as by
+    from each offset to such a column. Constants describe a clamped end, and formulas in t describe a driven
+    end. For a free end, write an element that exerts no force on the site. ``outside`` is needed for the
+    offset of each bond and for its negative. ``parts`` are named summands of ``H``. Splittings compose their
+    exact flows with the exact flow of all bonds. :class:`SceneError` is raised in the same cases as by
     :func:`codegen.scene.HamiltonianScene` and :func:`codegen.scene.SiteScene`, and for bonds that contain the
     momentum.
     """

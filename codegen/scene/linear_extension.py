@@ -1,8 +1,8 @@
 """The extended phase space of a linear Hamiltonian problem y' = A(t).y with canonical coordinates y = (q, p).
 
-The first half of the coordinates is q, the second half p. The matrix A(t) is in sp(2n) if and only if y' =
-A(t).y is Hamilton's equation for H = (q'.p - p'.q)/2 = -y^T J A y/2 with J = (0, 1; -1, 0). The momentum u
-conjugate to the time satisfies u' = -dH/dt, and its initial value is -H. For a step y -> M(t) y with a
+The first half of the coordinates is q, and the second half is p. The matrix A(t) is in sp(2n) if and only if
+y' = A(t).y is Hamilton's equation for H = (q'.p - p'.q)/2 = -y^T J A y/2 with J = (0, 1; -1, 0). The momentum
+u conjugate to the time satisfies u' = -dH/dt, and its initial value is -H. For a step y -> M(t) y with a
 symplectic matrix M(t), the momentum after the step is U = u + y^T M^T J M' y/2 with M' = dM/dt (H.
 Marthinsen's thesis, equation (4.15)). The step is then a canonical transformation of (q, p, t, u).
 """

@@ -146,7 +146,7 @@ class _Compiler:
         return Matrix(ARGUMENT, self.x.rows, self.x.columns)
 
     def summands(self, formula: MatrixFormula, c: Expr, transposed: bool) -> Iterable[Summand]:
-        """Yield the products whose sum is c F. F is the formula or, if ``transposed`` is true, its transpose."""
+        """Yield the products whose sum is c F. F is the formula, or its transpose if ``transposed``."""
         match formula:
             case Scaled(factor=factor, matrix=matrix):
                 own = self.reader.scalar(factor, "a coefficient of the velocity")

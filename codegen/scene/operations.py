@@ -1,4 +1,4 @@
-"""The operations of step programs that a group or an action implements, by name.
+"""The operations of step programs that a group or an action implements, and their names.
 
 :mod:`codegen.ir.operations` describes the arguments. Not every group has every operation; for example, some
 groups have no Cayley map. An operation that the group does not have raises

@@ -43,8 +43,8 @@ POINTS = 4
 class Orbit:
     """A problem in the form of a field, with the sample points at which formulas are compared.
 
-    ``symbols`` are the coordinates, ``start`` the initial state, ``roots`` the components of f. The group of
-    a Hamiltonian problem is T*G, which acts on itself.
+    ``symbols`` are the coordinates, ``start`` is the initial state, and ``roots`` are the components of f.
+    The group of a Hamiltonian problem is T*G, which acts on itself.
     """
 
     name: str

@@ -24,13 +24,13 @@ class Semilinear:
 
     ``symbol`` contains the real part of the eigenvalue of L as a formula in the wave number. If the imaginary
     part is not zero, ``symbol`` contains a second formula for this part. ``wave`` is the symbol of the wave
-    number and ``space`` the symbol of x. ``length`` is the period and ``initial`` the initial state as a
-    formula in x.
+    number, and ``space`` is the symbol of x. ``length`` is the period, and ``initial`` is the initial state
+    as a formula in x.
 
-    N is a sum of derivatives of pointwise formulas: ``formulas`` are these formulas, and ``outer`` the orders
-    of the derivatives. The formulas may contain u and derivatives of u; ``inner`` contains the orders of
-    these derivatives, with their symbols. If ``kept`` is less than one, only this fraction of the Fourier
-    modes is kept in the values of N. ``timed`` is true if N depends on the time.
+    N is a sum of derivatives of pointwise formulas: ``formulas`` are these formulas, and ``outer`` contains
+    the orders of the derivatives. The formulas may contain u and derivatives of u; ``inner`` contains the
+    orders of these derivatives, with their symbols. If ``kept`` is less than one, only this fraction of the
+    Fourier modes is kept in the values of N. ``timed`` is true if N depends on the time.
     """
 
     wave: str

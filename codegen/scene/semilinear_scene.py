@@ -57,8 +57,9 @@ def SemilinearScene(
     multiplies exp(i k x). The symbol is a formula in the wave number ``k`` and parameters, and may be
     complex; for example, d/dx has the symbol I*k. ``N`` is a formula in ``u``, ``x``, t and parameters. ``N``
     may contain derivatives of u, written Dx(u) or Dx(u, m). Multiples of derivatives Dx(g) of such formulas g
-    may be added (:class:`Dx`). ``length`` is the period, ``u0`` the initial state as a formula in ``x``, and
-    ``span`` the rational time interval. ``dealias`` is the fraction of the modes kept in N; True means 2/3.
+    may be added (:class:`Dx`). ``length`` is the period, ``u0`` is the initial state as a formula in ``x``,
+    and ``span`` is the rational time interval. ``dealias`` is the fraction of the modes kept in N; True means
+    2/3.
 
     Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
     Explicit methods of the families rkmk, cf and cg are possible. These methods use the action of affine maps

@@ -4,7 +4,7 @@ A part consists of formulas for elements of the Lie algebra, the generators. The
 of the velocities f(y).y for the generators f of all parts. If the generators of a part are constant along the
 solutions of this part alone, the exact flow of the part is y -> exp(tau f(y)).y. The flows of two pairs
 commute if the pairs share no site. The pairs along an axis of the lattice are therefore divided into two
-sets. In one set the first site of each pair has an even index, in the other set an odd index.
+sets. The first site of each pair has an even index in one set, and an odd index in the other set.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 class Pair:
     """The interaction of the sites i and i + offset.
 
-    ``first`` are the generators of site i and ``second`` the generators of the other site. All
+    ``first`` are the generators of site i, and ``second`` are the generators of the other site. All
     generators are formulas in the coordinates of both sites.
     """
 

@@ -64,9 +64,10 @@ def SiteScene(
     that does not exist: a column of formulas in ``y``, t and parameters, or a mapping from each offset to
     such a column. Zeros describe a free end if the forces are linear in the neighbours. ``y`` itself
     describes a free end if the forces depend on differences. Constants describe a clamped end, and formulas
-    in t a driven end. ``parts`` are summands of the field; splittings compose their exact flows. A part is a
-    column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours. Discrete
-    gradients need the total energy: the sum of ``energy`` over all sites and of ``bonds`` (:class:`Bond`).
+    in t describe a driven end. ``parts`` are summands of the field; splittings compose their exact flows. A
+    part is a column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
+    Discrete gradients need the total energy: the sum of ``energy`` over all sites and of ``bonds``
+    (:class:`Bond`).
 
     :class:`SceneError` is raised for the same errors as in a field scene. It is also raised for offsets of
     different lengths, for a neighbour outside an open boundary without a formula, for parts that do not add

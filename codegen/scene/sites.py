@@ -1,8 +1,8 @@
 """Sites: the points of a chain or lattice, each with a state of its own, and the neighbours of a site.
 
 The equation of a site contains the coordinates of its own state and those of some neighbours. The offset of a
-neighbour is the difference of the indices: ``(1,)`` is the right neighbour in a chain, ``(0, -1)`` a
-neighbour in a plane lattice.
+neighbour is the difference of the indices. In a chain, the offset of the right neighbour is ``(1,)``. In a
+plane lattice, ``(0, -1)`` is the offset of a neighbour.
 """
 
 from __future__ import annotations

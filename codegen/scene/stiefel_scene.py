@@ -50,9 +50,10 @@ def StiefelScene(
 ) -> Problem:
     """Return the scene X' = V(X) for n x k matrices X with orthonormal columns.
 
-    ``x`` is the unknown (:func:`codegen.scene.matrix_formula.unknown`), ``velocity`` the formula V, which
-    must be tangent: X^T V + V^T X = 0 for all X with orthonormal columns. ``y0`` is the initial matrix row by
-    row; by default its columns are the first k unit vectors. ``span`` is the rational time interval.
+    ``x`` is the unknown (:func:`codegen.scene.matrix_formula.unknown`), and ``velocity`` is the formula V.
+    The velocity must be tangent: X^T V + V^T X = 0 for all X with orthonormal columns. ``y0`` is the initial
+    matrix row by row; by default its columns are the first k unit vectors. ``span`` is the rational time
+    interval.
 
     The generator of the motion is W X^T - X W^T with W = V - X (X^T V)/2. Emitted steps of the families rkmk,
     cf and cg cost O(n k^2) operations besides the evaluations of V. The length of the code depends on n only

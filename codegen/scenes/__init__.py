@@ -86,7 +86,7 @@ EXTENDED = "+u"
 """The suffix of a scene name that denotes the scene extended by u, the momentum conjugate to the time."""
 
 _REGISTERED: dict[str, tuple[Problem, str]] = {}
-"""The registered scenes and their descriptions, by name."""
+"""For each registered name, the scene and its description."""
 
 
 def register(name: str, scene: Problem, about: str = "") -> Problem:

@@ -10,11 +10,11 @@ piece is concentrated in its cross section. As in P. Betsch and P. Steinmann (In
     V = ds/2 sum_a S_a Gamma_a^2 + 1/(2 ds) sum_a D_a |d_a' - d_a|^2.
 
 V is the energy of two neighbouring sections; a prime denotes the second section. S = (GA, GA, EA) are the
-stiffnesses of shear and extension, K = (EI, EI, GJ) those of bending and torsion. With D_1 = D_2 = GJ/2 and
-D_3 = EI - GJ/2, the second sum is sum_a K_a theta_a^2 for a small rotation theta between the sections. V is a
-polynomial and does not change if both sections move by the same rigid motion, so the total momentum is
-constant. In the code, energies and momenta are divided by ds. The equations stay the same, and only V then
-depends on ds.
+stiffnesses of shear and extension, and K = (EI, EI, GJ) are the stiffnesses of bending and torsion. With D_1
+= D_2 = GJ/2 and D_3 = EI - GJ/2, the second sum is sum_a K_a theta_a^2 for a small rotation theta between the
+sections. V is a polynomial and does not change if both sections move by the same rigid motion, so the total
+momentum is constant. In the code, energies and momenta are divided by ds. The equations stay the same, and
+only V then depends on ds.
 """
 
 from collections.abc import Mapping, Sequence

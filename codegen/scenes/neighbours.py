@@ -78,7 +78,7 @@ def _installed(name: str) -> bool:
 
 
 def _taken(names: frozenset[str]) -> dict[str, ModuleType]:
-    """Remove the modules with these names, and their submodules, from ``sys.modules``. Return them by
-    name."""
+    """Remove the modules with these names, and their submodules, from ``sys.modules``. Return a dictionary
+    from names to the removed modules."""
     loaded = [name for name in sys.modules if name.partition(".")[0] in names]
     return {name: sys.modules.pop(name) for name in loaded}

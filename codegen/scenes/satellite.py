@@ -1,4 +1,4 @@
-"""Satellite with gravity gradient on a circular orbit, T*SO(3). Its reaction wheels have momenta as signals.
+"""Satellite with gravity gradient on a circular orbit, T*SO(3). The momenta of its wheels are signals.
 
 g rotates from the body to space, and mu is the total angular momentum in space, including the wheels. The
 wheels carry the momenta h0, h1, h2 about the axes of the body: J w = g^T mu - h, where J is the inertia

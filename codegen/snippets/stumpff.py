@@ -46,8 +46,8 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     ``chain`` of angles (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain * 8^(chain-1) *
     2^-bits; the bound on this error is 2^-LEFT. The stages of a long chain rotate by fractions of the step's
     angle and lose no more digits than the stages of a short chain. Hence an angle of 2^(bits/6) is always
-    allowed. No angle may exceed 2^(2 bits/5). The reason is that the rounding errors of the rotated momentum
-    grow with the square of the angle. A step with a larger angle reports a state that is not finite.
+    allowed. No angle may exceed 2^(2 bits/5), because the rounding errors of the rotated momentum grow with
+    the square of the angle. A step with a larger angle reports a state that is not finite.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

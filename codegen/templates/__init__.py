@@ -1,8 +1,7 @@
 """Jinja2 environments, one for each target (``c``, ``python``, ...).
 
-A variable that is not defined in a template raises an error.
-In an environment, ``snippets/NAME.j2`` denotes a file in ``codegen/snippets/TARGET``, and ``module/NAME.j2``
-denotes a file in ``codegen/templates/TARGET``.
+An error is raised if a template uses an undefined variable. In an environment, ``snippets/NAME.j2`` denotes a
+file in ``codegen/snippets/TARGET``, and ``module/NAME.j2`` denotes a file in ``codegen/templates/TARGET``.
 """
 
 from __future__ import annotations

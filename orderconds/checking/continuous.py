@@ -50,7 +50,8 @@ def _judged(
 ) -> tuple[set[str], tuple[Failure, ...]]:
     """Return the verdicts on the conditions of order n, and the conditions that fail.
 
-    The conditions for theta, theta^2, ... are evaluated in turn, up to the first power with a failure.
+    The conditions for theta, theta^2, ... are evaluated in turn, up to the first power for which a condition
+    fails.
     """
     family = families.get("rk")
     verdicts: set[str] = set()
@@ -65,8 +66,8 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the condition of a tree with n nodes for the coefficient of theta^p. The right-hand side is zero
-    unless p = n."""
+    """Return the condition for the coefficient of theta^p and a tree with n nodes. For p != n the right-hand
+    side is zero."""
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")
 

@@ -24,7 +24,8 @@ up to the first batch with a failure. The report then contains only the failing 
 no error norm."""
 
 STOPPED = "stopped"
-"""The verdict on an order if a limit on the work ended the check before all its conditions were evaluated."""
+"""The verdict on an order if a limit on the work ended the check before all conditions of this order were
+evaluated."""
 
 DOUBLE = "double"
 """The certificate of an order if coefficients in double precision agree with the order but do not prove
@@ -237,10 +238,10 @@ class _Search:
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
     """Yield the conditions that decide order n. At most ``EXHAUSTIVE`` conditions are yielded as one pair
-    (conditions, True). More conditions are yielded in batches, as pairs (batch, False).
+    (conditions, True). A larger number of conditions is yielded in batches, as pairs (batch, False).
 
-    These conditions imply all conditions of order n (:meth:`Family.decisive_conditions`). Each batch is twice
-    as large as the batch before.
+    The yielded conditions imply all conditions of order n (:meth:`Family.decisive_conditions`). Each batch is
+    twice as large as the batch before.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

@@ -69,13 +69,12 @@ class ExtensionOrder(Struct, frozen=True):
 
 
 class RegisterForm(Struct, frozen=True):
-    """The scheme with two registers (2N) to which a tableau can be rewritten, or the reason why there is
-    none.
+    """The scheme with two registers (2N) that is equal to a method, or the reason why there is none.
 
-    ``A`` and ``B`` are the coefficients of K <- A_i K + F(Y), Y <- exp(h B_i K) Y as text. ``space`` is
-    ``group`` if the scheme is equal to the method on every Lie group. For a tableau (A, b), ``space`` is
-    ``vector space``, because the scheme is then equal to the method on vector spaces. ``holds`` states
-    whether there is such a scheme; None means that rounded decimals do not decide the question.
+    ``A`` and ``B`` contain, as text, the coefficients of the scheme K <- A_i K + F(Y), Y <- exp(h B_i K) Y.
+    ``space`` is ``group`` if the scheme is equal to the method on every Lie group. For a tableau (A, b),
+    ``space`` is ``vector space``, because the scheme is then equal to the method on vector spaces. ``holds``
+    states whether there is such a scheme; None means that rounded decimals do not decide the question.
     """
 
     holds: bool | None
@@ -93,7 +92,7 @@ class RegisterForm(Struct, frozen=True):
 
 
 class SymmetryOrder(Struct, frozen=True):
-    """The largest q such that a step of size -h after a step of size h differs from the identity by
+    """The largest q such that a step of size h, followed by a step of size -h, differs from the identity by
     O(h^(q + 1)).
 
     ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
@@ -167,7 +166,7 @@ class Report:
         """The order to which an effectively symmetric method is symmetric; None for all other methods.
 
         Every method of order p is symmetric at least to the order 2 floor(p/2) + 1. A method is effectively
-        symmetric if it is symmetric to a higher order, but not symmetric.
+        symmetric if it is symmetric to a higher order than this, but not to all orders.
         """
         if self.symmetry is None or self.symmetry.order is None or self.symmetry.at_least:
             return None

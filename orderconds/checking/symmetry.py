@@ -30,7 +30,7 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
     method nor a commutator-free method.
 
     ``symmetric`` states whether the method is known to be symmetric. A Runge-Kutta tableau is examined on
-    vector spaces, a commutator-free method on groups.
+    vector spaces, and a commutator-free method is examined on groups.
 
     >>> symmetry_order(Tableau.load("rk4"), False).order, symmetry_order(Tableau.load("gauss2"), True).order
     (5, None)

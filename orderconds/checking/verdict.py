@@ -286,13 +286,12 @@ def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | Non
 
 
 def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Return the decided orders by the label of the family. Orders with the certificate ``decimal`` are
-    included."""
+    """Map the labels of families to the decided orders, including orders that are not proved."""
     return {f.family: f.order for f in computed if f.decided}
 
 
 def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Return the proved orders by label."""
+    """Map the labels of families to the proved orders."""
     return _decided([f for f in computed if f.certificate != "decimal"])
 
 

@@ -302,9 +302,9 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
     """Yield the files to check. For a directory, the tableau files below the directory are yielded, sorted.
     All other arguments are yielded unchanged.
 
-    Files without a tableau below a directory are skipped. If ``skip_others`` is true, such files are also
-    skipped if they are arguments. If ``strict`` is true, a file that resembles a tableau is not skipped. The
-    names of skipped files are written to stderr, with the reason.
+    A file below a directory is skipped if it contains no tableau. If ``skip_others`` is true, a file that is
+    itself an argument is also skipped if it contains no tableau. If ``strict`` is true, files that resemble a
+    tableau are not skipped. The names of skipped files are written to stderr, with the reason.
     """
     for argument in arguments:
         if not argument.strip():

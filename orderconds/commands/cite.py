@@ -50,7 +50,7 @@ def command(name: str, as_json: bool) -> int:
 
 
 def bibliography() -> dict[str, str]:
-    """Return the entries of the library's ``sources.bib`` by key, in the order of the file.
+    """Map the keys in the library's ``sources.bib`` to the entries, in the order of the file.
 
     >>> "kutta1901" in bibliography()
     True

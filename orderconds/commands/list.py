@@ -2,7 +2,7 @@
 scenes of ``codegen``.
 
 Another package provides a listing by an entry point in the group ``orderconds.listings``. The entry point is
-a function without arguments that returns records {"name", "about"}; "about" is a description of one line.
+a function without arguments that returns records {"name", "about"}; "about" is a description in one line.
 """
 
 from __future__ import annotations
@@ -98,4 +98,4 @@ def _tableaux() -> Records:
 
 
 BUILT_IN: dict[str, Callable[[], Records]] = {"families": _families, "tableaux": _tableaux}
-"""The functions that list the kinds of this package, by the name of the kind."""
+"""For each kind of this package, the function that returns the records of this kind."""

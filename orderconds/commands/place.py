@@ -79,6 +79,7 @@ def _write_directly(path: Path, content: bytes) -> None:
         raise
     with os.fdopen(handle, "wb") as stream:
         if os.name == "posix":
-            # Only the opening of the pipe must not wait. A write to a full pipe must wait for the reader.
+            # The flag that avoids waiting was needed only to open the pipe. A write to a full pipe must wait
+            # for the reader.
             os.set_blocking(handle, True)
         stream.write(content)

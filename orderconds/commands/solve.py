@@ -160,7 +160,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     from orderconds.solve.spec import Spec
     from orderconds.tableau.file import verify_name
 
-    # A search may take hours, so the name is verified before it begins.
+    # A search may take hours, so the name is verified before the search begins.
     verify_name(options["name"], "--name")
     # Only the trees up to order p - 1 are counted, because symmetric methods of even order p need only the
     # conditions up to order p - 1.

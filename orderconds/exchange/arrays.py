@@ -1,12 +1,12 @@
 """A tableau as named arrays of coefficients in text form: the content of tables, matrices and C arrays.
 
-The proof of rounded decimals is left out, because the proof refers to names in the file. The arrays of a
-family are: for ``rk`` A, b and embedded_b with embedded_order; for ``prk`` A, b, A_hat, b_hat; for
-``composition`` gamma, or alpha and beta. The arrays for ``cf`` are ``exponentials``, ``count`` and ``start``.
-The rows of ``exponentials`` are the exponentials of all stages and of the update. ``count`` contains the
-number of exponentials of each stage and, as its last entry, of the update. ``start`` contains the index of
-the stage from which each product starts, or 0 if the product starts from y0. If there is an
-``embedded_order``, the last product is the embedded update.
+The proof of rounded decimals is left out, because the proof refers to names in the file. The family ``rk``
+has the arrays A, b and embedded_b, with the number embedded_order. The family ``prk`` has the arrays A, b,
+A_hat and b_hat. The family ``composition`` has the array gamma, or the arrays alpha and beta. The arrays for
+``cf`` are ``exponentials``, ``count`` and ``start``. The rows of ``exponentials`` are the exponentials of all
+stages and of the update. ``count`` contains the number of exponentials of each stage and, as its last entry,
+of the update. ``start`` contains the index of the stage from which each product starts, or 0 if the product
+starts from y0. If there is an ``embedded_order``, the last product is the embedded update.
 """
 
 from __future__ import annotations
@@ -78,8 +78,8 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return the keys and values of a tableau file in which coefficients do not refer to named numbers. Only
-    a root of a polynomial for which there is no formula keeps its name.
+    """Return the keys and values of a tableau file in which coefficients do not refer to named numbers. A
+    number keeps its name only if it is a root of a polynomial and has no formula.
 
     Exact coefficients are in lowest terms; rounded coefficients keep the digits of the file.
 

@@ -98,8 +98,8 @@ def _is_plain(table: Table) -> bool:
 
 
 def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
-    """Return the arrays of a plain Butcher tableau. Raise TableauError unless there are one or two lines with
-    weights.
+    """Return the arrays of a plain Butcher tableau. TableauError is raised if the number of lines with
+    weights is neither one nor two.
 
     A line with weights begins with an empty cell or with a name in ``WEIGHTS``. Each other line contains c_i
     and a row of A.

@@ -135,8 +135,8 @@ def _of_csv(content: bytes) -> Reason | None:
     """Return the reason to skip a CSV file, or None if the file must be read as a tableau.
 
     A file must be read if it is not valid CSV, or if a row begins with the name of an array. A file must also
-    be read if a row begins with an empty cell, as rows of weights do. The header of such a file must not be
-    that of another kind of table.
+    be read if a row begins with an empty cell, as rows of weights do, and the header is not that of another
+    kind of table.
     """
     try:
         table = rows.read(content.decode(), csv_table.NAMES)

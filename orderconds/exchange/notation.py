@@ -30,8 +30,8 @@ def _python(x: Expression, tight: int) -> str:
     """Return x as Python source, with parentheses around x if ``tight`` requires them.
 
     ``tight`` is 1 if x is the first factor of a product or follows a minus sign. ``tight`` is 2 if x is a
-    later factor or a divisor, and 0 in all other positions. A sum needs parentheses if ``tight`` is 1 or 2, a
-    product only if ``tight`` is 2.
+    later factor or a divisor, and 0 in all other positions. A sum needs parentheses if ``tight`` is 1 or 2. A
+    product needs parentheses only if ``tight`` is 2.
     """
     if isinstance(x, Constant):
         if x.is_double:

@@ -2,10 +2,11 @@
 
 A module is parsed, not executed. The assignments at the top level of the module are read in order. The
 assignments may contain lists, tuples, numbers, arithmetic, square roots and names with values from earlier
-assignments. Constructors of arrays and exact numbers of NumPy, SymPy and ``fractions`` are evaluated as well,
-and so are ``np.zeros`` and assignments to entries (``A[1, 0] = 1``). Arithmetic is exact: ``1/3`` is the
-fraction 1/3 and not a double. The file is refused if a statement that the reader cannot evaluate may change
-an array. If the user asks for it, :mod:`orderconds.exchange.python_module` executes the module instead.
+assignments. Constructors of arrays and of exact numbers in NumPy, SymPy and ``fractions`` are evaluated as
+well, and so are ``np.zeros`` and assignments to entries (``A[1, 0] = 1``). Arithmetic is exact: ``1/3`` is
+the fraction 1/3 and not a double. The file is refused if a statement that the reader cannot evaluate may
+change an array. If the user asks for it, :mod:`orderconds.exchange.python_module` executes the module
+instead.
 """
 
 from __future__ import annotations
@@ -81,7 +82,7 @@ def reason_to_skip(content: bytes) -> str:
 def is_plainly_other(content: bytes) -> bool:
     """Return True if a Python module is valid and certainly contains no tableau.
 
-    No value that the module assigns to A, a or b may contain a list or tuple.
+    The result is False if an expression that the module assigns to A, a or b contains a list or a tuple.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
     [True, False, True]
@@ -142,7 +143,7 @@ def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
 
 
 def _follow(statement: ast.stmt, values: Values) -> None:
-    """Update the known values of all names by one statement at the top level of the module. If the reader
+    """Evaluate one statement at the top level of the module, and store the new values of names. If the reader
     cannot evaluate the statement, the values of all names in the statement become unknown."""
     if isinstance(statement, ast.Import) or (isinstance(statement, ast.Expr) and _is_harmless(statement)):
         return
@@ -209,8 +210,8 @@ def _targets_are_names(statement: ast.stmt) -> bool:
 
 
 def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
-    """Follow an assignment to one entry, such as ``A[1, 0] = 1/2``, and return True. Return False for every
-    other statement, and if the array has no such entry or the entry cannot have this value."""
+    """Evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``, and return True. Return False for every
+    other statement, for an entry that does not exist, and for a value that the entry cannot have."""
     if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
         return False
     place: list[int] = []

@@ -114,8 +114,8 @@ def action(tree: Velocity) -> Diagram:
 
 
 def word(letters: Word, name: Callable[[Letter], str]) -> Diagram:
-    """Return the diagram of a word. A Lyndon word is drawn as its standard bracketing, any other word as a
-    sequence of letters.
+    """Return the diagram of a word. A Lyndon word is drawn as its standard bracketing. Every other word is
+    drawn as a sequence of letters.
 
     >>> [vertex.sign for vertex in word((1, 2), str)], [vertex.label for vertex in word((2, 1), str)]
     (['bracket'], ['2', '1'])
