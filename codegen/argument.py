@@ -65,7 +65,7 @@ def numbers(inputs: object) -> tuple[float, ...]:
 
 
 def monotone(t: float, times: object) -> list[float]:
-    """Return the output times ``t_eval`` of a run that starts at the time ``t`` as floats.
+    """Return the output times ``t_eval`` as floats. The run starts at the time ``t``.
 
     ValueError is raised if a time is not finite, or if the sequence t, times[0], times[1], ... is not
     monotone. TypeError is raised if ``times`` is not a sequence of numbers.

@@ -66,7 +66,7 @@ class Arrival:
     accepted: int
     rejected: int
     states: State = None
-    """The states at the times ``t_eval``, or None if no such times were given."""
+    """The states at the times ``t_eval``, or None if ``t_eval`` was not given."""
     crossings: tuple[Crossing, ...] = ()
     """The zeros of event functions that a run of ``integrate`` has found, in the order of the run."""
     status: Status = Status.OK

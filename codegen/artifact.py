@@ -63,8 +63,8 @@ class Artifact:
             ) from None
 
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
-        """Raise an InputError if this module would overwrite the files of another scene or method. In that
-        case ``entry`` has the name and the target of this module, but another scene or method.
+        """Raise an InputError if this module would overwrite the files of another scene or method. The error
+        is raised if ``entry`` has the name and the target of this module, but another scene or method.
 
         Two methods such as ``a.b`` and ``a-b`` have the same default module name. If the user chose the
         prefix of one of the two modules with ``--prefix``, the equal names are intended, and no error is

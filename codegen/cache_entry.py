@@ -143,7 +143,8 @@ def _digest(content: bytes) -> bytes:
 
 @contextmanager
 def working_directory(folder: Path) -> Iterator[Path]:
-    """Create a folder for intermediate files inside the cache, and remove this folder at the end in any case.
+    """Create a folder inside the cache for intermediate files. The folder is removed at the end, even after
+    an error.
 
     Folders and files that killed processes have left are removed first.
     """

@@ -204,8 +204,8 @@ def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module also has a function that steps many independent systems.
 
     C compilers do not vectorise a loop over systems if its body calls a function. An explicit step that calls
-    outlined functions is therefore translated again without functions. MethodError is raised for a semilinear
-    equation.
+    outlined functions is therefore translated again without outlined functions. MethodError is raised for a
+    semilinear equation.
     """
     kernel = compiled.kernel
     if kernel.modes is not None:

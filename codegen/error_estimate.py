@@ -123,7 +123,7 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 
 
 def _hint(method: Method, scene: Problem) -> str:
-    """Return a hint for the user: the smallest larger cut-off with an error estimate of the right order.
+    """Return a hint for the user: the next larger cut-off for which the error estimate has the right order.
 
     If there is no such cut-off, the hint is to use another tableau.
     """

@@ -42,8 +42,8 @@ class Integrator(RunToEnd):
 
     @cached_property
     def fields(self) -> Fields:
-        """The name and the size of each part of a state, such as q and mu, in the order of a state given as a
-        tuple.
+        """The name and the size of each part of a state, such as q and mu. The parts of a state that is given
+        as a tuple have this order.
 
         The result is empty if the integrator was not loaded from an artifact.
         """
@@ -78,8 +78,8 @@ class Integrator(RunToEnd):
         )
 
     def __reduce__(self) -> tuple[Callable[..., Integrator], tuple[object, ...]]:
-        # A loaded library or module cannot be pickled. The pickle contains the emitted files, which are
-        # loaded again.
+        # A loaded library or module cannot be pickled. Therefore the pickle contains the emitted files, and
+        # unpickling loads them again.
         if self.artifact is None:
             raise TypeError("only integrators that codegen.load has returned can be pickled")
         interface = self.interface.as_json()
@@ -205,8 +205,8 @@ class Integrator(RunToEnd):
         The result of a batch has an array of states, and the numbers of steps are sums over the batch.
 
         TypeError is raised if the module has no run with step-size control, which ``emit(...,
-        adaptive=True)`` adds. StepFailed is raised if a step fails, and with the status ``LIMIT`` if
-        ``limit`` steps do not reach the end.
+        adaptive=True)`` adds. StepFailed is raised if a step fails, or if ``limit`` steps do not reach the
+        end (status ``LIMIT``).
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")
@@ -331,8 +331,8 @@ class Integrator(RunToEnd):
         inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the derivative of one step with respect to the state as a matrix. The header of the emitted
-        module describes the rows and columns of the matrix.
+        """Return the Jacobian matrix of one step: the derivative with respect to the state. The header of the
+        emitted module describes the rows and columns of the matrix.
 
         TypeError is raised if the module was emitted without ``jacobian=True``. StepFailed is raised if the
         step fails.
@@ -385,7 +385,7 @@ class Integrator(RunToEnd):
         return [real(values[name], name) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Add the iteration counts that emitted code has returned to the caller's ``statistics``."""
+        """Increase the caller's ``statistics`` by the iteration counts that emitted code has returned."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -414,8 +414,8 @@ def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, 
     """Return the name of each run-time input of a batch with its common value, or with one value for each
     system.
 
-    ValueError is raised if ``inputs`` does not have the shape (number of inputs,) or (number, number of
-    inputs).
+    ValueError is raised if ``inputs`` has neither the shape (M,) nor (N, M), for M inputs and N = ``number``
+    systems.
     """
     import numpy as np
 

@@ -1,5 +1,5 @@
-"""``orderconds regenerate``: emit modules again, and rewrite the files of a folder or compare them with the
-new files byte by byte.
+"""``orderconds regenerate``: emit modules again. The new files replace the files of a folder, or are compared
+with them byte by byte.
 """
 
 from __future__ import annotations

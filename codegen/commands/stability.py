@@ -88,7 +88,7 @@ def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTes
 
 
 def _alone(job: Job) -> list[Stability | NotTested]:
-    """Return the results of a job without progress messages, because this function runs in a separate
+    """Return the results of a job. No progress messages are printed, because this function runs in a separate
     process.
     """
     return _run(job, str)

@@ -26,7 +26,8 @@ CONSTANTS = SeriesDomain(QQ, 0)
 
 @dataclass(frozen=True)
 class Summand:
-    """A part or summand of a Hamiltonian whose exact flow is the composition of commuting named flows."""
+    """A part of a Hamiltonian, or a summand of a part. Its exact flow is the composition of named flows that
+    commute."""
 
     flows: tuple[tuple[str, Flow], ...]
 
@@ -40,7 +41,7 @@ class Summand:
 class Part:
     """A part of a Hamiltonian as the sum of summands with exact flows.
 
-    If no closed form is known, there are no summands, and ``reason`` is a text that says why.
+    If no closed form is known, there are no summands, and ``reason`` says why none is known.
     """
 
     name: str

@@ -65,8 +65,8 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # B - a I is a single square only if it has rank one, so all its 2 x 2 minors vanish. The
-                    # minor of the rows i and k and the columns i and j is linear in a, and its zero is a
-                    # candidate.
+                    # B - a I is a single square only if it has rank one. In this case all its 2 x 2 minors
+                    # vanish. The minor of the rows i and k and the columns i and j is linear in a, and its
+                    # zero is a candidate.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -4,7 +4,7 @@ Each kind of flow has a function that examines the formula of a part. The functi
 flows, or the part with the reason why no flow is known. It returns None if another kind of flow may apply.
 
 A potential V(q) is a kick. On T*R^n a function of the momentum alone is a drift. A quadratic function of q
-and the momentum mu gives a linear flow if the square of its matrix is diagonal without positive entries. On
+and the momentum mu gives a linear flow if the square of its matrix is diagonal and has no positive entry. On
 other groups a quadratic function of the momentum, in the body frame or in the space frame, is a sum of
 rotations (:mod:`codegen.flows.top`).
 """
@@ -19,7 +19,7 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """Return a part that depends on the time as a part without flows. Return None for any other part.
+    """If a part depends on the time, return it without flows. Otherwise return None.
 
     Kicks and flows stated by the scene may depend on the time. They are recognised before this function is
     called.

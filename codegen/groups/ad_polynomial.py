@@ -82,8 +82,8 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
-    # Horner's rule from the highest power down. By t^3 = -z t, t^k is a multiple of t for odd k and of t^2
-    # for even k.
+    # Horner's rule begins with the highest power. Because t^3 = -z t, the power t^k is a multiple of t for
+    # odd k, and a multiple of t^2 for even k.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
         weight = bernoulli_over_factorial(k) * s**k

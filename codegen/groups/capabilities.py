@@ -2,9 +2,9 @@
 
 A group declares a capability by inheriting its class. Code that needs a capability calls
 ``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
-returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``. The
-class of direct products inherits several capabilities, but a product has a capability only if all its factors
-have the capability.
+returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``,
+because the class of direct products inherits several capabilities, but a product has a capability only if all
+its factors have it.
 """
 
 from __future__ import annotations
@@ -329,12 +329,12 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element of the cover's algebra that the derivative of the covering map at e
-        maps to x."""
+        """Return the element of the cover's algebra whose image under the derivative of the covering map at e
+        is x."""
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pivot of each formula of :meth:`lift`, a number. A formula is valid where its pivot is
+        """Return a number for each formula of :meth:`lift`, its pivot. A formula is valid where its pivot is
         positive.
 
         For every g at least one pivot is positive. The formula with the largest pivot has the smallest
@@ -360,7 +360,7 @@ class Rotations(MatrixElements):
 
 
 class PointMotions(LieGroup):
-    """Elements act on the points of a vector space by maps that need not be linear."""
+    """Elements act on the points of a vector space by maps that may be nonlinear."""
 
     provides: ClassVar[str] = "motion of points"
     point_size: int

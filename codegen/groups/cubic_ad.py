@@ -14,7 +14,7 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""A product of functions of ad_x with the only factor dexp_x, or with dexp*_x if ad*_x replaces ad_x."""
+"""The product of functions of ad_x whose only factor is dexp_x. If ad*_x replaces ad_x, it is dexp*_x."""
 
 
 class CubicAd(ClosedFormSeries):
@@ -33,8 +33,8 @@ class CubicAd(ClosedFormSeries):
         """
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Apply the product of functions of ad_x in ``word`` to v, by two brackets. If ``dual`` is true,
-        ad*_x replaces ad_x.
+        """Apply ``word``, a product of functions of ad_x, to v. Two brackets are computed. If ``dual`` is
+        true, ad*_x replaces ad_x.
         """
         b, c = ad_polynomial(d, word, self.squared_rate(d, x), signed=self.signed)
         bracket = self.adt if dual else self.ad
@@ -50,7 +50,7 @@ class CubicAd(ClosedFormSeries):
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over terms (f, W, v) by two brackets.
+        """Return the sum of f W(ad_x) v over terms (f, W, v). Two brackets are computed.
 
         The sum is A + ad_x (B + ad_x C), where A, B and C are linear combinations of the vectors v.
         """

@@ -13,7 +13,7 @@ from codegen.ir.domain import Domain
 
 
 class Galilean(Semidirect):
-    """Maps (y, t) -> (R y + v t + p, t + s) of events: R row by row, then v, p and s.
+    """Maps of events (y, t) to events (R y + v t + p, t + s), with the coordinates R (row by row), v, p, s.
 
     The linear factor (R, v) is SE(3) with the velocity of a boost in place of the translation. This factor
     acts on R^4 by its 4 x 4 matrices. An element (w, b, u, r) of the algebra contains the rates of the

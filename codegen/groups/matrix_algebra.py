@@ -20,7 +20,7 @@ indexed row by row.
 
 @dataclass(frozen=True)
 class MatrixAlgebra:
-    """A vector space of n x n matrices that is closed under [A, B] = AB - BA, with a basis.
+    """A vector space of n x n matrices with a basis. The space is closed under [A, B] = AB - BA.
 
     ``dual`` is the dual basis of the same space. The coordinate i of a matrix A is the sum of the products of
     the entries of ``dual[i]`` and A. ``constants`` are the non-zero structure constants: (i, j, k, c) for the

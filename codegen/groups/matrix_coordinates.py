@@ -37,8 +37,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         point with large coordinates. If some x^3 is not in the algebra, then x^3 is in the algebra for at
         most a fraction 3/2^61 of such points. A wrong result is therefore practically impossible.
         """
-        # The coordinates are powers modulo the prime 2^61 - 1: integers without a pattern that are the same
-        # in each run.
+        # The coordinates are powers modulo the prime 2^61 - 1: integers that have no pattern, but are the
+        # same in each run.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)

@@ -168,7 +168,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def symbols(self, name: str) -> list[sympy.Symbol]:
         """Return the symbols of all factors.
 
-        The name of a symbol is ``name``, the label of the factor, and the index that the factor itself uses.
+        The name of a symbol is ``name``, followed by the label of the factor and by the index that the factor
+        uses.
         """
         pairs = zip(self.factors, labels(len(self.factors)), strict=True)
         return [s for f, label in pairs for s in f.symbols(name + label)]

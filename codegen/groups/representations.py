@@ -41,7 +41,8 @@ class Representation(ABC):
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. A group and its cover have the same Lie algebra and the same Ad."""
+    """True if the representation is Ad. A semidirect product may then have a cover, because a group and its
+    cover have the same Lie algebra and the same Ad."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
@@ -226,30 +227,30 @@ class MatrixColumns(Representation):
         return isqrt(len(matrices.matrix(d, matrices.identity(d))))
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the matrix of g times v."""
+        """Return M v for the matrix M of g."""
         return matvec(self._matrices(group).matrix(d, g), v)
 
     def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the inverse of the matrix of g, times v."""
+        """Return M^-1 v for the matrix M of g."""
         return matvec(self._inverse(d, group, g), v)
 
     def dual(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the transposed matrix of g times p."""
+        """Return M^T p for the matrix M of g."""
         return matvec(_transposed(self._matrices(group).matrix(d, g)), p)
 
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the transposed inverse of the matrix of g, times p."""
+        """Return M^-T p for the matrix M of g."""
         return matvec(_transposed(self._inverse(d, group, g)), p)
 
     def _inverse(self, d: Domain, group: LieGroup, g: Vector[S]) -> Vector[S]:
         return invert(d, self._matrices(group).matrix(d, g), self.dim(group))
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the matrix of x times v."""
+        """Return M v for the matrix M of x."""
         return matvec(self._matrices(group).hat(d, x), v)
 
     def dual_velocity(self, d: Domain, group: LieGroup, x: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the transposed matrix of x times p."""
+        """Return M^T p for the matrix M of x."""
         return matvec(_transposed(self._matrices(group).hat(d, x)), p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
@@ -320,7 +321,7 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True: on one copy ad_x^3 = -w^2 ad_x, where w is the angular velocity in x."""
+        """Return True, because on one copy ad_x^3 = -w^2 ad_x, where w is the angular velocity in x."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:

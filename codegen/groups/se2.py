@@ -17,8 +17,8 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
 
     An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. The
     bracket is [(w, u), (w', u')] = (0, w J u' - w' J u) with J(a, b) = (-b, a). The motion exp(w, u) rotates
-    by w and translates by (c_1(w^2) + c_2(w^2) w J) u with the Stumpff functions c_k. Since ad_x^3 = -w^2
-    ad_x, dexp_x = 1 + c_2(w^2) ad_x + c_3(w^2) ad_x^2.
+    by w and translates by (c_1(w^2) + c_2(w^2) w J) u with the Stumpff functions c_k. The identity ad_x^3 =
+    -w^2 ad_x implies dexp_x = 1 + c_2(w^2) ad_x + c_3(w^2) ad_x^2.
     """
 
     name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"

@@ -169,7 +169,7 @@ class SO3(
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over terms (f, W, v) by two brackets.
+        """Return the sum of f W(ad_x) v over terms (f, W, v). Two brackets are computed.
 
         The sum is A + x cross (B + x cross C), where A, B and C are linear combinations of the vectors v.
         Terms with the same coefficient of ad_x, or of ad_x^2, are added first, and their sum is multiplied
@@ -355,8 +355,8 @@ class SO3(
         )
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return the unit quaternion with the rotation g and a positive component with the index
-        ``formula``.
+        """Return the unit quaternion whose rotation is g and whose component with the index ``formula`` is
+        positive.
         """
         root: S = d.call("sqrt", self.pivots(d, g)[formula])
         half = d.rational(1, 2)

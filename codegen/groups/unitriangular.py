@@ -10,7 +10,8 @@ from codegen.ir.domain import Domain
 
 
 class Unitriangular(MatrixGroup):
-    """The basis of the algebra consists of the elementary matrices E_ij with i < j, row by row."""
+    """Upper triangular matrices with ones on the diagonal. The basis of the algebra consists of the
+    elementary matrices E_ij with i < j, row by row."""
 
     def __init__(self, n: int) -> None:
         check_size("Unitriangular", n, 2)
@@ -18,7 +19,7 @@ class Unitriangular(MatrixGroup):
         super().__init__(f"UT({n})", [elementary(n, place) for place in self.places])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return an equation for each entry on or below the diagonal, which is always 1 or 0."""
+        """Return one equation for each entry on or below the diagonal: 1 on the diagonal, 0 below it."""
         fixed = [(i, j) for i in range(self.n) for j in range(self.n) if (i, j) not in self.places]
         unit: Vector[S] = self.identity(d)
         places = [(i, j, self.n * i + j) for i, j in fixed]

@@ -1,7 +1,7 @@
 """Collect constants: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
 
-The rewriting is exact. Each expression becomes a linear combination of atoms, which are expressions that are
-not linear combinations themselves. Numbers are taken out of products and powers, and are put into numerators.
+The rewriting is exact. Each expression becomes a linear combination of atoms. An atom is an expression that
+is not a linear combination itself. Numbers are taken out of products and powers, and are put into numerators.
 For example, 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), which shortens the chain of dependent products by two
 or three. An expanded sum may have fewer subexpressions in common with other sums. Therefore the result is
 used only if it has fewer operations.
@@ -77,8 +77,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # Pairs of a node and an expression that uses the node. For a root, the second entry is None, because the
-    # caller uses the root.
+    # Pairs of a node and an expression that uses the node. For an expression in ``roots``, the second entry
+    # is None, because the caller uses this expression.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]

@@ -433,7 +433,7 @@ class SeriesDomain:
         return next(shifted) / next(shifted)
 
     def _sum(self, k: int, step: int, first: Scalar, z: Scalar) -> Scalar:
-        """Return the sum over j of first (-z)^j k!/(step j + k)!."""
+        """Return the sum over j of ``first`` (-z)^j k!/(``step`` j + k)!."""
         total, term, j = first, first, 0
         while True:
             j += 1

@@ -2,8 +2,8 @@
 
 In doubles the matrix A is halved s times, until its largest row sum is small. Then a Taylor polynomial of
 exp(A 2^-s) is applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). For a
-matrix A, the polynomial of degree m is y + A (p/m!), where p is the sum of (m!/j!) A^(j-1) y over j from 1 to
-m, by Horner's rule.
+matrix A, the polynomial of degree m is y + A (p/m!). Horner's rule computes p, which is the sum of (m!/j!)
+A^(j-1) y over j from 1 to m.
 
 The integers m!/j! are exact in floating-point arithmetic. Coefficients 1/j! would be rounded, and the same
 rounding error in every step would make the length of y drift if A is skew. With integers all rounding errors
@@ -31,8 +31,8 @@ long. If a matrix needs more halvings, every result is NaN.
 """
 
 SPARSE = 12
-"""The largest number of rows for which a call receives only the non-zero entries of A besides y. Emitted code
-then has one sum for each row, without a loop.
+"""The largest number of rows for which the arguments of a call are y and only the non-zero entries of A.
+Emitted code then has one sum for each row, without a loop.
 """
 
 

@@ -1,5 +1,5 @@
-"""The interpreter, which evaluates a step program over any domain. Tests compare emitted code with its
-results.
+"""The interpreter, which evaluates a step program over any domain. Tests compare the results of emitted code
+with the results of the interpreter.
 """
 
 from __future__ import annotations

@@ -41,8 +41,8 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 """The names of the methods that solve implicit equations."""
 
 SLOWEST = 2.0**-12
-"""The smallest contraction factor of a sweep that is trusted. Near rounding level a smaller measured factor
-is unreliable, so it is replaced by this value.
+"""The smallest contraction factor that is assumed for a sweep. A smaller measured factor is replaced by this
+value, because it is unreliable near rounding level.
 """
 
 UNIT = 2.0**-53

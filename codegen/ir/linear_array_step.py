@@ -1,8 +1,8 @@
 """A step of a large linear problem y' = A(t) y, by products of A and vectors.
 
-The step evaluates the matrices a_i = h A(t_i) at its nodes t_i. Its exponents are sums of letters and
-commutators. A letter is a linear combination of the a_i. A commutator [X, Y] is applied to a vector v as X (Y
-v) - Y (X v), so no product of matrices and no exponential of a matrix is formed.
+The step evaluates the matrices a_i = h A(t_i) at its nodes t_i. The exponents of the step are sums of letters
+and commutators. A letter is a linear combination of the a_i. A commutator [X, Y] is applied to a vector v as
+X (Y v) - Y (X v), so no product of matrices and no exponential of a matrix is formed.
 """
 
 from __future__ import annotations

@@ -36,7 +36,7 @@ Pairs = tuple[tuple[tuple[int, int], ...], ...]
 
 @cache
 def pairs(level: int) -> Pairs:
-    """Return the index pairs of the products that form the product of two jets.
+    """Return the pairs of indices that define the product of two jets.
 
     For each index m < 2^level, these are the pairs (j, k) such that matrix number m of the product of the
     jets A and B contains the term A_j B_k.
