@@ -325,8 +325,8 @@ class MuntheKaasFormula(ActionFormula):
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # The coefficient of X^0 = 1 on a word is zero unless the word is empty. Therefore the product is
-            # zero if m = 0 and ``before`` is not empty, and likewise for n and ``behind``.
+            # The coefficient of X^0 = 1 is zero on every non-empty word. Therefore the product is zero if
+            # m = 0 and ``before`` is not empty. It is also zero if n = 0 and ``behind`` is not empty.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):

@@ -33,7 +33,8 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order equals the order in ``rk``, and a file claims only the latter."""
+        """Return None: the order is equal to the order in ``rk``, and a file claims only the order in
+        ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -89,9 +89,9 @@ class Family(ABC):
 
     # Relations to other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """A map from the names of other families to theorems. By the theorem, every method has at least the same
-    order in the other family as in this family, because the conditions of the other family are a subset of
-    the conditions of this family."""
+    """A map from the names of other families to theorems. By the theorem, the conditions of the other family
+    are a subset of the conditions of this family. Therefore the order of a method in the other family is at
+    least its order in this family."""
     abelian: ClassVar[str | None] = None
     """The family to which this family reduces on an abelian group, where all brackets are zero; None if no
     such family accepts all tableaux of this family."""

@@ -52,7 +52,7 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     extent = extents(elements)
 
     def sum_over_cuts(first: Term, then: Term, word: Word) -> Element:
-        """Return the value on a word of the product ``then * first``, in which ``first`` acts first."""
+        """Return the value of the product ``then * first`` on a word. The factor ``first`` acts first."""
         result = ring.zero
         (least, most), (low, high) = extent(first), extent(then)
         for k in range(max(least, len(word) - high), min(most, len(word) - low) + 1):

@@ -55,7 +55,8 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order equals the order in ``magnus``, and a file claims only the latter."""
+        """Return None: the order is equal to the order in ``magnus``, and a file claims only the order in
+        ``magnus``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

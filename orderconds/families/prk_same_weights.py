@@ -50,7 +50,7 @@ class SameWeightsFamily(PartitionedFamily):
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return None: every method of this family has the same order in ``prk``, and a tableau file claims
-        only the latter."""
+        only the order in ``prk``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

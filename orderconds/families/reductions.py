@@ -2,7 +2,8 @@
 
 ``check`` evaluates orders 1, 2, .... When it evaluates order n, all conditions of lower order hold. Then
 
-- *symmetry*: a symmetric method of at least odd order n - 1 has at least order n (HLW II.3, Theorem 3.2);
+- *symmetry*: if n is even and the method is symmetric, the conditions of order n hold as well, because the
+  order of a symmetric method is even (HLW II.3, Theorem 3.2);
 - *substitution*: the conditions of another family may imply all conditions of order n and cost less. For a
   symplectic pair with b = bhat, the conditions of free trees with directed edges imply the conditions of all
   rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);

@@ -46,7 +46,7 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return None: every method of this family has the same order in ``vrkmk(0)``, and a tableau file
-        claims only the latter."""
+        claims only the order in ``vrkmk(0)``."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

@@ -12,13 +12,13 @@ from orderconds.ring.residues import Residue
 
 
 def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
-    """Return the indices of the pivot columns, which are not linear combinations of earlier columns. The
-    number of pivot columns is the rank.
+    """Return the indices of the pivot columns. A pivot column is not a linear combination of earlier columns.
+    The number of pivot columns is the rank.
 
     Each column contains the values of one function at the samples, one sample in each row. If the samples are
-    random, linear dependence of the columns means linear dependence of the functions, except with a
-    probability of about (number of columns) / prime. The number of pivots is never larger than the number of
-    linearly independent functions.
+    random and the columns are linearly dependent, then the functions are also linearly dependent, except with
+    a probability of about (number of columns) / prime. There are never more pivots than linearly independent
+    functions.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)

@@ -30,8 +30,8 @@ MAX_DIMENSION = 64
 
 
 class DegreeError(ArithmeticError):
-    """The error for a field whose degree would exceed :data:`MAX_DEGREE`, or an algebra whose dimension would
-    exceed :data:`MAX_DIMENSION`."""
+    """The error that is raised if the degree of a field would exceed :data:`MAX_DEGREE`, or if the dimension
+    of an algebra would exceed :data:`MAX_DIMENSION`."""
 
 
 class Tower:

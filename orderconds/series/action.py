@@ -11,8 +11,8 @@ The coefficients at stage i are
 
 where Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
 coefficient of a word in a group element. The letter x is a variation of the velocity of stage i and occurs
-once. The method has order p if and only if ``sum_i b_i tau_t(i)`` is equal to the value of the exact flow for
-every tree t with at most p vertices.
+once. The method has at least order p if and only if, for every tree t with at most p vertices,
+``sum_i b_i tau_t(i)`` is equal to the value of the exact flow.
 
 Families differ only in the map from velocities to group elements. This module uses products of exponentials
 (the families ``vcg`` and ``vcf``). The module :mod:`orderconds.series.action_lie` uses one exponential of a

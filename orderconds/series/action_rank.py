@@ -1,12 +1,12 @@
 """Selection of independent action conditions, by ranks at random methods modulo a prime.
 
-A condition of order n depends on other conditions if its value is a linear combination of other values of
-order n and of products of values of lower order. The coefficients must be constant, and the combination must
-be valid for every method **and for the exact flow**. Such dependences are computed from the values of the
-trees for many random methods and for the exact flow. Pivots are chosen in the canonical order of the trees,
-so that the simplest trees are selected. The values for the exact flow are necessary. Without these values, a
-condition that no method of the family satisfies would count as dependent. An example of this case is
-variational Runge-Kutta-Munthe-Kaas methods with too few terms of dexpinv.
+A condition of order n depends on other conditions if its value is a linear combination of two kinds of
+values: other values of order n, and products of values of lower order. The coefficients must be constant, and
+the combination must be valid for every method **and for the exact flow**. Such dependences are computed from
+the values of the trees for many random methods and for the exact flow. Pivots are chosen in the canonical
+order of the trees, so that the simplest trees are selected. The values for the exact flow are necessary,
+because otherwise a condition that no method of the family satisfies would count as dependent. Variational
+Runge-Kutta-Munthe-Kaas methods with too few terms of dexpinv have such conditions.
 """
 
 from __future__ import annotations
