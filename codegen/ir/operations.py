@@ -371,12 +371,12 @@ class InverseDexp(Operation):
     @property
     def word(self) -> Word:
         """The operation as a product with one factor, the truncated function dexp^{-1} of ad_x."""
-        # If further functions of the same ad_x are applied to the result, a compiler pass joins all these
-        # functions to one product.
+        # If further functions of the same ad_x are applied to the result, a compiler pass combines all these
+        # functions into one product.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
-        """Return the name with the order."""
+        """Return the name of the operation, followed by the order."""
         return f"{self.name}({self.order})"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -406,7 +406,7 @@ class InverseDexpSlope(Operation):
     noun = "derivative{s} of dexpinv"
 
     def text(self) -> str:
-        """Return the name with the order."""
+        """Return the name of the operation, followed by the order."""
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
@@ -448,7 +448,7 @@ class AdSeries(Operation):
         return "series*" if self.dual else "series"
 
     def text(self) -> str:
-        """Return the name with the word."""
+        """Return the name of the operation, followed by the functions in ``word``."""
         return f"{self.name}[{' '.join(factor.text() for factor in self.word)}]"
 
     def signature(self) -> tuple[Kinds, Kinds]:

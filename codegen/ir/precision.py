@@ -102,7 +102,8 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         return 0.0
     # The value is not rounded to a double first, because two successive roundings may decide a tie wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The bit lengths determine the exponent only up to one. This comparison adds one if necessary.
+    # The bit lengths give an exponent that is right or too small by one. This comparison adds one if
+    # necessary.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
     exponent = max(exponent, SUBNORMAL[bits])

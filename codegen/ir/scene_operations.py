@@ -161,7 +161,7 @@ class TaylorStep(Operation):
     noun = "Taylor polynomial{s}"
 
     def text(self) -> str:
-        """Return the name with the degree."""
+        """Return the name of the operation, followed by the degree."""
         return f"{self.name}({self.degree})"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -223,7 +223,7 @@ class FlowOf(Operation):
     noun = "flow{s}"
 
     def text(self) -> str:
-        """Return the name with the part."""
+        """Return the name of the operation, followed by the part in brackets."""
         return f"{self.name}[{self.part}]"
 
     def applied(self, args: Sequence[str]) -> str:
@@ -253,7 +253,7 @@ class SiteFlowOf(Operation):
     noun = "flow{s}"
 
     def text(self) -> str:
-        """Return the name with the part."""
+        """Return the name of the operation, followed by the part in brackets."""
         return f"{self.name}[{self.part}]"
 
     def applied(self, args: Sequence[str]) -> str:
@@ -282,7 +282,7 @@ class FlowFor(Operation):
     noun = "flow{s}"
 
     def text(self) -> str:
-        """Return the name with the part."""
+        """Return the name of the operation, followed by the part in brackets."""
         return f"{self.name}[{self.part}]"
 
     def signature(self) -> tuple[Kinds, Kinds]:

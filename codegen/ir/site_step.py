@@ -1,7 +1,8 @@
 """Steps of lattices: a sequence of sweeps over all sites, with values stored in arrays between the sweeps.
 
-A sweep is a loop that computes the same formulas at each site. The formulas use numbers of the site itself,
-and numbers of neighbours that earlier sweeps have stored. The number of sites is known only at run time.
+A sweep is a loop that computes the same formulas at each site. The formulas read numbers that are stored for
+the site, and numbers that earlier sweeps have stored for its neighbours. The number of sites is known only at
+run time.
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ class Load:
 
 @dataclass(frozen=True)
 class Sweep:
-    """One loop over all sites. Output number k of ``kernel`` is stored in row number k of ``stores``.
+    """One loop over all sites. Output k of ``kernel`` is stored in the row ``stores[k]``.
 
     ``about`` names the operations of the program in the sweep. If a neighbour lies outside the lattice,
     output k of ``outside`` replaces the number that load k of ``read_outside`` would read there. ``outside``
@@ -173,8 +174,8 @@ class SiteBlock:
 class SiteFlow:
     """One flow of a splitting step. ``sweep`` is the index of the sweep that computes it, and ``duration`` is
     in units of h. A flow that depends on time is evaluated at the time t + ``elapsed`` h. In a sweep over
-    pairs, ``colour`` (0 or 1) selects the pairs: it is the parity of the index
-    of the first site of each pair."""
+    pairs, ``colour`` (0 or 1) is the parity of the index of the first site of each pair.
+    """
 
     sweep: int
     colour: int
@@ -239,7 +240,7 @@ class SiteStep:
 
     @property
     def moved_once(self) -> tuple[int, int]:
-        """The numbers of values that a step reads and writes for each site outside of the iterations."""
+        """How many values a step reads, and how many it writes, for each site outside of the iterations."""
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
         return _added([traffic(self.unrepeated), *matrices])
 

@@ -24,7 +24,7 @@ class StatedStep(Operation):
     noun = "stated step{s}"
 
     def text(self) -> str:
-        """Return the name with the name of the step."""
+        """Return the name of the operation, followed by the name of the step."""
         return f"{self.name}({self.step})"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:

@@ -1,7 +1,7 @@
 """Piecewise polynomials of one variable, which are defined by tables of numbers in formulas.
 
 Expressions call a piecewise polynomial like any named function, for example ``sin``. The object that serves
-as the name also contains the data, so expressions and domains need no further kind of node. The name contains
+as the name also contains the data, so expressions need no further kind of node for tables. The name contains
 a digest of the data, so equal tables have equal names.
 """
 

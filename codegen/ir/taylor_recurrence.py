@@ -258,7 +258,7 @@ class _Builder:
 class Recurrence:
     """The series, in powers of s, of the solution y(t + s scale) and of its derivative.
 
-    ``roots`` are the derivatives of the coordinates called ``symbols``; ``values`` are the values of all
+    ``roots`` are the derivatives of the coordinates called ``symbols``. ``values`` are the values of all
     other symbols, including the time ``t``. Each derivative is stored as a pair: a numeric factor, and a
     series without this factor. If there are more coordinates than derivatives, the caller must append the
     coefficients of the last coordinates (:meth:`append`). On a lattice, the last coordinates belong to

@@ -108,7 +108,7 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of an explicit program on a scene whose field is given by formulas of matrices.
 
     MethodError is raised for implicit stages, and for operations that have no formula for an element B S B^T
-    of the algebra, where B is the basis and S a core.
+    of the algebra, where B is the basis and S is a core.
     """
     assert scene.matrices is not None
     step = _Builder(program, scene, scene.matrices).step()

@@ -1,8 +1,8 @@
 """The translation of splitting steps of a Hamiltonian lattice to sweeps, which are loops over all sites.
 
 Some flows move each site independently of its neighbours. Successive flows of this kind form one sweep, which
-reads and writes the state once for all of them. A kick changes only momenta, and depends only on the group
-elements q of neighbours. Therefore the sweep of a kick can overwrite the state.
+reads and writes the state once for all these flows. A kick changes only momenta, and depends only on the
+group elements q of neighbours. Therefore the sweep of a kick can overwrite the state.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 The step program computes with the momentum in one frame. The arguments and results of emitted code contain
 the momentum in the same frame or in the other frame. If the program uses the body frame and the emitted code
-the space frame, a run transforms the momentum once at its beginning and once at its end
+uses the space frame, a run transforms the momentum once at its beginning and once at its end
 (:class:`codegen.ir.kernel.Carried`). A kernel with the option ``whole`` transforms the momentum in each step
 instead.
 """

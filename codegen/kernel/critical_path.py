@@ -20,11 +20,13 @@ from codegen.ir.kernel import Kernel, Let
 TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1, "div": 4, "call": 6}
 """Latency of operations, in units of an addition.
 
-On x86 processors an addition or a product of doubles takes about four cycles, a division about 14. The
-latency of a call is the latency of a polynomial that approximates the function. ``benchmarks/emitted.py``
-times the resulting steps. The exact values matter little. If the latency of a division is set to 2 or 8, the
-code of five explicit methods of the gallery does not change. If the latency of a call is set to 3 or 12, only
-splitting:blanes_moan_rkn4 on fast_heavy_top changes, with the same number of operations."""
+On x86 processors an addition or a product of doubles takes about four cycles, and a division takes about 14
+cycles. The latency of a call is the latency of a polynomial that approximates the function.
+``benchmarks/emitted.py`` times the resulting steps. The exact values matter little. If the latency of a
+division is set to 2 or 8, the code of five explicit methods of the gallery does not change. If the latency of
+a call is set to 3 or 12, only splitting:blanes_moan_rkn4 on fast_heavy_top changes, with the same number of
+operations.
+"""
 
 ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
@@ -136,8 +138,8 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # The node is built without simplification: if it is not rewritten, it keeps its operation and its
-            # rounding.
+            # The node is built without simplification, so a node that is not rewritten keeps its operation
+            # and its rounding error.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain

@@ -28,11 +28,11 @@ from codegen.scene.problem import Problem
 class Parted:
     """A program that is split into three programs for the beginning, the steps and the end of a run.
 
-    ``begin`` is applied before the first step, ``core`` in each step and ``finish`` after the last step.
-    ``begin`` and ``finish`` are None if they would contain no flows. ``core`` reads the variable
-    :data:`LEAD`, which is the duration of the joined flow. ``finish`` reads the variable :data:`ELAPSED`,
-    which is the time of all steps. The joined flow has the duration ``last`` * h in the last step of a run,
-    and ``later`` * h in every other step.
+    ``begin`` is executed before the first step, ``core`` is executed in each step, and ``finish`` is executed
+    after the last step. ``begin`` and ``finish`` are None if they would contain no flows. ``core`` reads the
+    variable :data:`LEAD`, which is the duration of the joined flow. ``finish`` reads the variable
+    :data:`ELAPSED`, which is the time of all steps. The joined flow has the duration ``last`` * h in the last
+    step of a run, and ``later`` * h in every other step.
     """
 
     begin: Program | None
@@ -90,7 +90,7 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 
 def _is_h(letter: Letter) -> bool:
-    """Return True if the duration of a flow is h, up to the rounding of its coefficient to a double."""
+    """Return True if the duration of a flow is c h, and c is 1 after rounding to a double."""
     # A coefficient known only as a ball around 1 cannot be proven to be 1, but it is rounded to 1.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
@@ -121,7 +121,7 @@ def _joined(
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    # One variable contains the duration of all joined flows. Therefore only pairs with the same durations as
+    # All joined flows read their duration from one variable. Therefore only pairs with the same durations as
     # the first pair are joined.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 

@@ -146,7 +146,7 @@ def _read_after(block: Solve, program: Program) -> frozenset[Var]:
 
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
     """Return the values that depend neither on the unknowns nor on h."""
-    # These values are constants in an expansion in h, so they need not be expanded.
+    # An expansion in h leaves these values unchanged.
     moving = {*unknowns, "h"}
     depends: dict[int, bool] = {}
     for node in walk(values):

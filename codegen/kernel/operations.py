@@ -29,11 +29,11 @@ these operations."""
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     """Count the operations of a step by name: ``add`` (with subtractions), ``mul``, ``div``, and calls.
 
-    The key ``step`` contains the operations of every step outside loops, and ``start`` the additional
-    operations of a first step. The label of a block is the key of one sweep of its loop. With Newton's
-    method, a second key of the block contains the operations that compute the entries of its matrix. The
-    inversion of the matrix, changes of sign, comparisons, extrapolation and the stopping rule are not
-    counted.
+    The key ``step`` contains the operations outside loops, which every step executes. The key ``start``
+    contains the additional operations of a first step. The label of a block is the key of one sweep of its
+    loop. With Newton's method, a second key of the block contains the operations that compute the entries of
+    its matrix. The inversion of the matrix, changes of sign, comparisons, extrapolation and the stopping rule
+    are not counted.
     """
     # The operations of an outlined function are counted at each call, so that the counts of steps with and
     # without outlined functions are comparable.

@@ -76,7 +76,7 @@ class Outline:
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
-        # The level of a value is the number of the last block on which the value depends. A tree is outlined
+        # The level of a value is the index of the last block on which the value depends. A tree is outlined
         # only if its inputs and results have the same level (``_even``). The call is then in the same loop as
         # its results.
         self._levels(roots, owners)
@@ -191,7 +191,7 @@ class Outline:
     def _even(self, tree: Tree, read: set[int]) -> bool:
         """Return True if a call that computes the results ``read`` of a tree belongs to one loop only.
 
-        The level of a value is the number of the last loop on which the value depends. Each result must have
+        The level of a value is the index of the last loop on which the value depends. Each result must have
         the largest level of the inputs. The results must also have been created after the inputs, because an
         older node is shared with another operation.
         """

@@ -234,7 +234,7 @@ class Trees:
             places = []
             for v in self.executions[i].assign.args:
                 if v in targets:
-                    # Results have the negative numbers -1, -2, ..., because 0 is the number of the first
+                    # Results have the negative positions -1, -2, ..., because 0 is the position of the first
                     # input variable.
                     places.append(-targets[v])
                 else:

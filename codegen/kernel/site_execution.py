@@ -216,8 +216,8 @@ def kernel_of_sweep(
 ) -> Kernel:
     """Return the kernel that computes expressions from the numbers ``symbols`` that a sweep reads.
 
-    ``hints`` are names for the values of expressions, and ``taken`` are the names that are used already; the
-    names of new values are added to them. ``totals`` are the names of sums over all sites.
+    ``hints`` are names for the values of expressions. ``taken`` contains the names that are used already, and
+    this function adds the names of new values. ``totals`` are the names of sums over all sites.
     """
     schedule = Assignments((), ends, hints, lambda base: unique_name(base, taken))
     body = tuple(_lets(schedule.run()))

@@ -30,8 +30,9 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites
 
 MEASURED = 2
-"""The number of rows for the stopping rule. For each site, one row stores the largest change of an unknown,
-and the other row the largest absolute value of an unknown."""
+"""The number of rows for the stopping rule. For each site, one row contains the largest change of an unknown,
+and the other row contains the largest absolute value of an unknown.
+"""
 
 
 @dataclass

@@ -33,8 +33,9 @@ from codegen.scene.sites import Sites, offset_text
 SHORT = 3
 """The largest number of operations that a sweep computes again instead of reading the result.
 
-A step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum with the limits 1 and 3, and 117 ns with
-the limit 10, because sines are then computed again. The time on a chain of spins differs by 3 per cent."""
+A step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum if the limit is 1 or 3. With the limit 10
+the time is 117 ns, because sines are then computed again. The time on a chain of spins differs by 3 per cent.
+"""
 
 CALL = 10
 """A call of a function counts as this number of operations."""

@@ -206,7 +206,7 @@ class _Translation:
 
     def enter(self, block: Solve) -> Block:
         """Set the unknowns to symbols, execute the body, and return the block."""
-        # Unknowns become symbols, so that the loop body is expressed as a function of them.
+        # The unknowns become symbols, so that the loop body is expressed as a function of the unknowns.
         names: list[str] = []
         starts: list[Expr] = []
         for unknown, start in zip(block.unknowns, block.starts, strict=True):
@@ -245,8 +245,8 @@ class _Translation:
         """Return the variation of the new state, and add equations for the variations of all unknowns to
         ``blocks``."""
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # The equations for the variations of the unknowns follow their block, because the coefficients of
-        # these equations are values at the solution of the block.
+        # Each block is followed by the equations for the variations of its unknowns, because the coefficients
+        # of these equations are values at the solution of the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
         # Tangents are exact derivatives of the step. Only the stopping rule of the iteration is not
@@ -335,8 +335,8 @@ def _outlined(
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
     # ``kept`` contains values of the last sweep. Expressions after the loop correct these values for the last
-    # change of the unknowns. A value that no root reads is removed, so that a function which is called only
-    # for this value does not count as used.
+    # change of the unknowns. A value that no root reads is removed. Otherwise a function that only computes
+    # this value would count as used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # All roots are in one flat list, so that trees that occur in several blocks are found.

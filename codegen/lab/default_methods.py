@@ -20,7 +20,8 @@ from orderconds.tableau import Tableau
 FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
 """Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``. The first list is
-for scenes that are given by a field, the second for Hamiltonian scenes."""
+for scenes that are given by a field. The second list is for Hamiltonian scenes.
+"""
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
 """Default scenes of the report: a scene given by a Hamiltonian, and a scene given by a field."""
@@ -36,7 +37,8 @@ REPORT_HAMILTONIANS = {
     "splitting:blanes_moan_rkn6a": 6,
 }
 """The methods that the report runs with equal steps by default, and the order that each method must have on
-the scene. The first dictionary is for scenes that are given by a field, the second for Hamiltonian scenes.
+the scene. The first dictionary is for scenes that are given by a field. The second dictionary is for
+Hamiltonian scenes.
 """
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")

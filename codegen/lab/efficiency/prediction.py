@@ -83,9 +83,9 @@ class Prediction:
     """The error of a recipe with ``steps`` steps, and the cost of a step.
 
     A step takes ``outside`` + ``sweeps`` * ``sweep`` nanoseconds. ``sweep`` is the time of one iteration over
-    all implicit blocks, ``sweeps`` the average number of iterations, and ``outside`` the time of all other
-    operations. ``explicit`` is True if no equation is solved. If the interpreted runs failed, ``error`` is
-    infinite.
+    all implicit blocks, ``sweeps`` is the average number of iterations, and ``outside`` is the time of all
+    other operations. ``explicit`` is True if no equation is solved. If the interpreted runs failed, ``error``
+    is infinite.
 
     ``rough`` is True if all interpreted runs on the whole span had large errors. A possible reason is a fast
     motion in a part of the span. Step-size control may then save a large part of the time. If an interpreted
@@ -181,8 +181,8 @@ class Predictor:
     """Predicts the times of recipes for one form of a scene. The cost of each operation is computed once.
 
     ``beginning`` returns the equations on the first of :data:`PARTS` parts of the span, and the reference at
-    the end of this part. A kind of method is a family, and True for explicit methods. For each kind,
-    ``failures`` counts the methods whose runs on the whole span failed since the last success.
+    the end of this part. A kind of method is a pair: the family, and True for explicit methods. For each
+    kind, ``failures`` counts the methods whose runs on the whole span failed since the last success.
     ``uncontrolled`` counts the failed runs with step-size control in the same way.
     """
 

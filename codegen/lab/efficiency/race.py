@@ -173,8 +173,8 @@ class Racer:
         return Result(self.entry, control, self.counts[control], self.errors[control], self.seconds(control))
 
     def halved(self, result: Result) -> Result | None:
-        """Return the result of a run with half the step size. The result is None for step-size control, if
-        the run fails, or if it would need more than MOST_STEPS steps.
+        """Return the result of a run with half the step size. Return None if the recipe has step-size
+        control, if the run fails, or if the run would need more than MOST_STEPS steps.
         """
         control = 2.0 * result.control
         if self.entry.recipe.adaptive or control > MOST_STEPS or not math.isfinite(self.error(control)):

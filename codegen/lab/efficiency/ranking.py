@@ -18,9 +18,9 @@ class Place:
     """The fastest candidate ``winner`` and the second fastest candidate ``second`` for an error of
     10^-decade.
 
-    ``seconds`` is the CPU time of the fastest candidate, and ``behind`` the CPU time of the second. If a
-    candidate was measured on several forms of the equations, the name of the form follows its label. If only
-    one candidate reaches the error, ``second`` is '' and ``behind`` is None.
+    ``seconds`` is the CPU time of the fastest candidate, and ``behind`` is the CPU time of the second fastest
+    candidate. If a candidate was measured on several forms of the equations, the name of the form follows its
+    label. If only one candidate reaches the error, ``second`` is '' and ``behind`` is None.
     """
 
     decade: int

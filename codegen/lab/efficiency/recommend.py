@@ -58,7 +58,7 @@ class Recommendation:
     """The result of a search. ``places`` are the fastest runs of the recipes that reach the error, fastest
     first.
 
-    If no recipe reaches the error, ``best`` is the most accurate run, otherwise None. ``predicted`` is the
+    ``best`` is the most accurate run if no recipe reaches the error, and None otherwise. ``predicted`` is the
     number of predictions, and ``raced`` the number of measured recipes. ``complete`` is False if the budget
     ended the search. ``lost`` contains the labels of recipes that lose a conserved quantity in a long run.
     ``referred`` is the fraction of the budget that the reference solution used. ``kinks`` is the number of

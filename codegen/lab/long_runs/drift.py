@@ -126,12 +126,12 @@ class Drift:
     def law(self) -> str:
         """The verdict in words.
 
-        ``lost``: the deviation reaches the size of the quantity, or saturates above half of it. ``exact``:
-        there is no deviation. ``rounding``: rounding errors can explain the deviation. ``drift``: the
-        interval of the slope excludes zero, the means over consecutive parts of the record are monotone, and
-        a random walk does not explain the slope. ``bounded``: there is no drift, and the deviation does not
-        grow. ``random walk``: there is no drift, and the deviation grows like a random walk. Otherwise the
-        verdict is ``too short to tell``.
+        ``lost``: the deviation reaches the size of the quantity, or saturates above half of this size.
+        ``exact``: there is no deviation. ``rounding``: rounding errors can explain the deviation. ``drift``:
+        the interval of the slope excludes zero, the means over consecutive parts of the record are monotone,
+        and a random walk does not explain the slope. ``bounded``: there is no drift, and the deviation does
+        not grow. ``random walk``: there is no drift, and the deviation grows like a random walk. Otherwise
+        the verdict is ``too short to tell``.
         """
         if not self.largest < LOST or (self.until is not None and self.largest >= STAYS * LOST):
             return "lost"
@@ -147,8 +147,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # The slope of the mean is not enough. If a deviation alternates and its size grows, its mean does not
-        # grow, but the deviation is not bounded. Therefore the growth exponent is also tested.
+        # The slope of the mean is not enough. If a deviation grows with alternating signs, its mean does not
+        # grow, although the deviation is not bounded. Therefore the growth exponent is also tested.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
