@@ -130,9 +130,9 @@ def load(name: str) -> Problem:
     ``name``.
 
     ``NAME+u`` is the scene NAME, extended by the momentum u conjugate to the time
-    (:mod:`codegen.scene.extended_phase_space`). The scene must be Hamiltonian or linear, and depend on time.
-    ``NAME[alpha=1/2,eps=3]`` is a scene in which parameters have other values. :class:`SceneError` is raised
-    for a file that fails or defines no scene; the message contains the file and the line.
+    (:mod:`codegen.scene.extended_phase_space`). Such a scene must be Hamiltonian or linear, and must depend
+    on time. ``NAME[alpha=1/2,eps=3]`` is a scene in which parameters have other values. :class:`SceneError`
+    is raised for a file that fails or defines no scene; the message contains the file and the line.
 
     >>> load("driven_spin[nu=3/5]").parameters["nu"].text()
     '3/5'
@@ -235,10 +235,8 @@ def _load(name: str) -> Problem:
 
 
 def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
-    """Return the stiff variants that the file of a gallery scene defines; all other scenes have no stiff
-    variants.
-
-    A user's scene has no variants, even if it has the name of a gallery scene.
+    """Return the stiff variants that the file of a gallery scene defines. A user's scene has no stiff
+    variants, even if it has the name of a gallery scene.
     """
     if scene.name not in GALLERY:
         return ()

@@ -44,9 +44,9 @@ class EmbeddedOrder(Struct, frozen=True):
 class ExtensionOrder(Struct, frozen=True):
     """The claimed and the computed order of a continuous extension in the family ``rk``.
 
-    ``continuous`` states whether b_i(1) = b_i, so that the solution is continuous between steps. ``smooth``
-    states whether the first derivative is continuous, too. ``continuous`` and ``smooth`` are None if the
-    question is not decided. ``failing`` are the failing conditions of the next order, each for the
+    ``continuous`` states whether the solution is continuous from one step to the next: b_i(1) = b_i.
+    ``smooth`` states whether the first derivative is continuous, too. ``continuous`` and ``smooth`` are None
+    if the question is not decided. ``failing`` are the failing conditions of the next order, each for the
     coefficient of one power of theta.
     """
 

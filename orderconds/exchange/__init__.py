@@ -65,7 +65,8 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
 
 
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:
-    """Return the keys and values of a file in the format ``of``; ``name`` is used if the file has no name.
+    """Return the keys and values of a file in the format ``of``; ``name`` becomes the name of the tableau if
+    the content states no name.
 
     If the file does not state the order of its embedded weights, this function computes the order.
     Raises :class:`~orderconds.errors.InputError` for content that cannot be read; the message contains

@@ -15,8 +15,7 @@ _DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
 
 
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
-    """Return a tableau in the format ``to``. The result is text for toml, json, csv, sympy, latex and c, and
-    bytes for numpy.
+    """Return a tableau in the format ``to``: toml, json, csv, sympy, latex or c as text, numpy as bytes.
 
     ``tableau`` may also be a file or a name of the library. Raises :class:`~orderconds.errors.InputError` for
     an unknown format, and for a method that the format cannot represent.

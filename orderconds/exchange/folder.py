@@ -21,8 +21,8 @@ SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h
 """The suffixes of files that may contain a tableau."""
 
 EXCUSES = "DECIMAL"
-"""The name of a text file that a folder of tableaux may contain. The text file lists those tableaux of the
-folder whose order need not be proved."""
+"""The name of a text file that a folder of tableaux may contain. The text file lists tableaux of the folder;
+a proof of their orders is not required."""
 
 NO_KEY = "no key of a tableau (family, A, b, ...)"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)
