@@ -150,7 +150,7 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield the arguments of the C call for the run-time inputs and for the counts of iterations.
+        """Yield those arguments of the C call that concern the run-time inputs and the counts of iterations.
 
         At the end of the block, an error that the input function has raised in the C call is raised again.
         Otherwise the counts are added to the caller's statistics.

@@ -6,8 +6,8 @@ called blind. RKMK methods with a small cut-off are an example, because both res
 
 If the two methods have different orders, the estimate is not blind. The exception is a field that depends on
 the time alone: both methods may then give the same result. In this case, and if the orders are equal, very
-short steps are computed in 100 digits. They give the orders of the estimate and of the local error. The local
-error is measured as the difference between one step of size h and two steps of size h/2.
+short steps are computed in 100 digits. The results give the orders of the estimate and of the local error.
+The local error is measured as the difference between one step of size h and two steps of size h/2.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Drifts: flows of kinetic energies on abelian groups, for which the momentum is constant."""
+"""Drifts: flows of kinetic energies on abelian groups. A drift does not change the momentum."""
 
 from __future__ import annotations
 

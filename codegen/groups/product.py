@@ -31,7 +31,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     """G1 x G2 x ...: the coordinates of the factors follow one another, and every operation acts on each
     factor.
 
-    For example, SO(3) x R^3 describes the attitude and the momentum of a rigid body, and G x R a
+    For example, SO(3) x R^3 describes the attitude and the momentum of a rigid body, and G x R describes a
     configuration and the time. SO(3) x R^3 is not the group of rigid motions, because its rotations do not
     act on translations. The product has a capability if all its factors have the capability.
     """

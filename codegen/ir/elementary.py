@@ -1,4 +1,5 @@
-"""Elementary functions of one argument that formulas of scenes may call, besides sqrt, sin, cos, exp and log.
+"""Elementary functions of one argument. Formulas of scenes may call these, and also sqrt, sin, cos, exp and
+log.
 
 Each function is written once in this table, with its derivatives. The Taylor series of f(a(t)) is computed
 from d/dt f(a(t)) = r a'(t), where r is the derivative of f at a(t). For each function, r is a polynomial in
@@ -22,9 +23,9 @@ class Elementary:
     """A function f of one argument x.
 
     ``slope(x, f)`` and ``curvature(x, f)`` are the first and second derivative at x. Their argument f is the
-    value of the function at x, so that this value need not be computed again. ``at_zero`` is f(0), or None if
-    f(0) is not rational. ``raising`` is true if Python raises an exception for some real arguments for which
-    C computes a NaN or an infinity.
+    value of the function at x, so that this value is not computed twice. ``at_zero`` is f(0), or None if f(0)
+    is not rational. ``raising`` is true if Python raises an exception for some real arguments for which C
+    computes a NaN or an infinity.
     """
 
     name: str

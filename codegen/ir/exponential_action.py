@@ -75,8 +75,8 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 class ExponentialAction(VectorFunction):
     """The function exp(A) y of the entries of A, row by row, and of y.
 
-    If ``pattern`` is not zero, entry k of A is an argument if bit k of the pattern is set. All other entries
-    are zero.
+    If ``pattern`` is zero, all entries of A are arguments. Otherwise the arguments are y and those entries k
+    of A for which bit k of the pattern is set; all other entries are zero.
     """
 
     n: int
@@ -109,7 +109,7 @@ class ExponentialAction(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the matrix and of the vector."""
+        """The number of entries of the matrix that are arguments, and the length of the vector."""
         return (len(self.places), self.n)
 
     @property

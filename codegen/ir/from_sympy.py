@@ -121,10 +121,10 @@ class _Reader:
         return self.space.const(Number.rational(*value.as_integer_ratio()))
 
     def guarded(self, x: Expr, safe: int) -> Expr:
-        """Return x where the present branch of a Piecewise formula is selected, and the number ``safe``
-        elsewhere.
+        """Return an expression that equals x where the present branch of a Piecewise formula is selected, and
+        equals the number ``safe`` elsewhere.
 
-        Outside such a branch, and for a constant x, return x.
+        If x is constant or is not part of such a branch, the result is x.
         """
         # A branch is evaluated even where it is not selected. There a root or a quotient could be a NaN, or
         # raise an exception in Python. The derivative of the branch could also be a NaN. A multiplication by

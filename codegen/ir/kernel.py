@@ -73,8 +73,8 @@ class Newton:
     """Newton's method for u = g(u). ``matrix`` is 1 - g'(u), and ``body`` computes its entries.
 
     The matrix is reused in later sweeps and steps (:mod:`codegen.run.sweeps`). If ``leading`` is true, the
-    matrix is expanded to leading order in h. This matrix is computed and inverted in each step. If
-    ``inverted`` is true, ``matrix`` contains the entries of the inverse matrix.
+    matrix is expanded to leading order in h. Such a matrix is computed and inverted in each step, and no
+    other step uses it. If ``inverted`` is true, ``matrix`` contains the entries of the inverse matrix.
 
     If ``residuals`` is true, the images of the loop are residuals, which are zero at the solution. The matrix
     is then minus the derivative of the residuals to first order in h, and its inverse is used for ``period``
@@ -318,8 +318,8 @@ class Observed:
     """The request for a run to a given end time.
 
     The run writes the states at given output times, and finds the zeros of event functions. The caller
-    supplies ``events`` event functions. The ``extension`` computes the states at output times. If it is None,
-    the run takes shorter steps that end at the output times.
+    supplies ``events`` event functions. The ``extension`` computes the states at output times. If
+    ``extension`` is None, the run takes shorter steps that end at the output times.
     """
 
     events: int = 0

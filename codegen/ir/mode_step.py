@@ -193,8 +193,8 @@ class Evaluation:
 class Nonlinearity:
     """N(u) as a sum of derivatives of pointwise formulas.
 
-    ``inner`` contains the orders of the derivatives of u in the formulas, with their symbols. Output j of
-    ``formulas`` is a function of these derivatives, of x, t and parameters. N is the sum of derivatives of
+    ``inner`` contains the order and the symbol of each derivative of u that the formulas contain. Output j of
+    ``formulas`` is a function of these derivatives, x, t and the parameters. N is the sum of derivatives of
     the outputs: output j is differentiated ``outer[j]`` times with respect to x. If the fraction ``kept`` is
     less than one, only this fraction of the modes is used in the values of N. All other modes are set to zero
     to avoid aliasing.
