@@ -94,8 +94,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
     def first_unmet(self, order: int) -> OrderCondition | None:
         """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. Let r be ``cutoff``. Let
         R = r if r is 0 or odd, otherwise R = r + 1. The truncation of dexpinv changes this condition if
-        ``order`` is R + 3. It changes no condition of lower order. Return None if dexpinv is not truncated,
-        or if ``order`` < 3."""
+        ``order`` is R + 3, but it changes no condition of lower order. Return None if dexpinv is not
+        truncated, or if ``order`` < 3."""
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
@@ -104,10 +104,10 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return the members of :meth:`conditions` that do not follow from other conditions of this order or
         from conditions of lower order.
 
-        Without truncation, their number is the number of rooted trees, 1, 1, 2, 4, 9, .... The reason is that
-        the method applies a Runge-Kutta method in the Lie algebra, which is a vector space. If dexpinv is
-        truncated, there is one additional condition at order R + 3, with R as in the module docstring. No
-        tableau satisfies this condition. Up to order :data:`RANKED`, the conditions are selected by ranks of
+        Without truncation, there is one such condition for each rooted tree, because the method applies a
+        Runge-Kutta method in the Lie algebra, which is a vector space. If dexpinv is truncated, there is
+        one additional condition at order R + 3, with R as in the module docstring. No tableau satisfies this
+        condition. Up to order :data:`RANKED`, the conditions are selected by ranks of
         matrices, and this selection requires NumPy. At higher orders, all of :meth:`conditions` are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]

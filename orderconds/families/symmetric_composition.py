@@ -87,7 +87,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return dict(_polynomial(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum over the steps gamma_i."""
+        """Return the left-hand side of the condition of a word as an index sum over the step sizes."""
         return composition_formula(word, _step)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:

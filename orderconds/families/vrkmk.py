@@ -64,8 +64,8 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         """Return the condition of the tree ``o(o|L(o ... o))`` with ``order`` vertices.
 
         Let r be ``cutoff``. Let R = r if r is 0 or odd, otherwise R = r + 1. The truncation of dexpinv
-        changes this condition if ``order`` is R + 3. It changes no condition of lower order. Return None if
-        dexpinv is not truncated, or if ``order`` < 3.
+        changes this condition if ``order`` is R + 3, but it changes no condition of lower order. Return
+        None if dexpinv is not truncated, or if ``order`` < 3.
         """
         if self.cutoff is None or order < 3:
             return None

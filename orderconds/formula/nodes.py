@@ -128,7 +128,7 @@ def product(*factors: Formula) -> Formula:
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
     # Factors that contain sums count as equal if they differ only in the names of bound indices. This
-    # comparison is slow. It is omitted if only one factor contains a sum.
+    # comparison is slow, so it is omitted if only one factor contains a sum.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:

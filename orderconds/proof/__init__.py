@@ -3,7 +3,7 @@ conditions.
 
 The ``[proof]`` table of a tableau file (:mod:`orderconds.tableau.unknowns`) states which equations the exact
 values of the decimals satisfy. Krawczyk's operator proves that these equations have exactly one solution
-within one unit of the last digit of each decimal. It also encloses the solution
+within one unit of the last digit of each decimal. The operator also encloses the solution
 (:mod:`orderconds.proof.krawczyk`).
 
 The system of equations contains every independent condition of a family. A reduction is a theorem by which
