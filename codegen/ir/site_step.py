@@ -48,8 +48,8 @@ class Row:
 class Load:
     """A number that a sweep reads: ``row`` contains the number, and ``symbol`` denotes it in the formulas.
 
-    The number belongs to the site itself if ``neighbour`` is :data:`OWN`, otherwise to the neighbour whose
-    offset has the index ``neighbour``.
+    If ``neighbour`` is :data:`OWN`, the number belongs to the site itself. Otherwise the number belongs to
+    the neighbour whose offset has the index ``neighbour``.
     """
 
     symbol: str

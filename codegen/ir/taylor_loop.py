@@ -50,9 +50,9 @@ class OrderLoop:
 
     The code of order n contains three groups of symbols: ``names`` for values of order 0, ``coordinates`` for
     the coefficients n of the coordinates, and ``sums`` for the inner sums. ``first`` are the values of order
-    0. ``start`` are the coefficients of order 1 of the coordinates, and ``following`` their coefficients of
-    order n + 1. Inner sum k is formed from the coefficients of two series, and ``left[k]`` and ``right[k]``
-    are the coefficients n of these series.
+    0. ``start`` are the coefficients of order 1 of the coordinates. ``following`` are the coefficients of
+    order n + 1 of the coordinates. Inner sum k is formed from the coefficients of two series, and ``left[k]``
+    and ``right[k]`` are the coefficients n of these series.
     """
 
     names: tuple[str, ...]

@@ -44,7 +44,7 @@ class TimeMomentum(Operation):
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
-        """Return the increment of u for points and a time that are numbers of a domain."""
+        """Return the increment of u. The coordinates of the points and the time are scalars of a domain."""
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")

@@ -203,7 +203,8 @@ class _Chains:
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
-                # Fixed factors are collected separately: their product is the same in every step.
+                # Fixed factors are collected separately, because the product of these factors is the same in
+                # every step.
                 factor = self.new[a.id]
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))

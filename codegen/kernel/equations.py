@@ -188,7 +188,8 @@ class Solved:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # An image that is a symbol or a number is not replaced: reading the unknown would save nothing.
+            # An image that is a symbol or a number is not replaced, because reading the unknown would save
+            # nothing.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 

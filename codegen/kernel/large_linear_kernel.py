@@ -61,7 +61,7 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a linear problem without symmetries, on which the passes of a program are verified."""
+    """Return a linear problem without symmetries. The passes of a program are verified on this problem."""
     from sympy import Matrix as SquareMatrix
     from sympy import Rational, Symbol
 

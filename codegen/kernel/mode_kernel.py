@@ -182,8 +182,9 @@ class _Execution:
         )
 
     def _kernel(self, formulas: tuple[Expr, ...]) -> Kernel:
-        """Return formulas as assignments, in which common subexpressions are computed once. Parameters that
-        are not arguments at run time become constants."""
+        """Return assignments that compute the formulas. Common subexpressions are computed once. Parameters
+        that are not arguments at run time become constants.
+        """
         domain = ExprDomain(formulas[0].space)
         symbols = sorted({n.payload for n in walk(formulas) if n.op == "sym"})
         values = {s: domain.space.sym(s) for s in symbols} | {
@@ -238,8 +239,8 @@ class _Execution:
         powers = {c.power + x.power for c, x in parts}
         if not powers:
             return _Element(ZERO, {}, 1)
-        # All terms of a sum have the same power of h: a consistent method uses h and the field only in
-        # products.
+        # All terms of a sum have the same power of h, because a consistent method uses h and the field only
+        # in products.
         (power,) = powers
         total = ZERO
         for c, x in parts:

@@ -1,8 +1,8 @@
 """Matrices of Newton's method for u = g(u): 1 - g' exactly, or to first order in h.
 
-The first order suffices for short steps: one Newton correction then reduces the error by a factor of O(h^2).
-The first-order matrix contains derivatives at h = 0 only, so a step can compute this matrix cheaply. Inverses
-of small matrices are expanded by cofactors.
+The first order suffices for short steps, because one Newton correction then reduces the error by a factor of
+O(h^2). The first-order matrix contains derivatives at h = 0 only, so a step can compute this matrix cheaply.
+Inverses of small matrices are expanded by cofactors.
 """
 
 from __future__ import annotations

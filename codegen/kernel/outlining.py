@@ -196,8 +196,8 @@ class Outline:
         older node is shared with another operation.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # A result with a lower level than the inputs should be computed outside the loop, but the call is
-        # inside the loop.
+        # A result with a lower level than the inputs belongs outside the loop, but the call would compute the
+        # result inside the loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
         # Later nodes have larger numbers, so a node with a smaller number than an input was not computed from
         # this input.

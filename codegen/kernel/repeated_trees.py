@@ -200,7 +200,8 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
-                    # None represents a reader outside all trees, for which the value must keep its own name.
+                    # None represents a reader outside all trees. A value with such a reader must keep its own
+                    # name.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
             # Outputs also count as readers outside all trees.

@@ -105,8 +105,8 @@ class Iteration:
     """A loop (see :class:`codegen.ir.kernel.Loop`). ``kept`` are the names that the body assigns and that
     statements after the loop read.
 
-    ``matrix`` contains the rows of Newton's matrix, and ``newton`` the statements that only the matrix needs.
-    Both are empty if the loop does not use Newton's method.
+    ``matrix`` contains the rows of Newton's matrix, and ``newton`` contains the statements that only the
+    matrix needs. Both are empty if the loop does not use Newton's method.
     """
 
     loop: Loop
@@ -171,8 +171,9 @@ class Arrangement:
 
 
 def arrange(kernel: Kernel) -> Arrangement:
-    """Return the printable statements of a kernel. Statements keep their order, and operations keep their
-    rounding."""
+    """Return the printable statements of a kernel. The order of statements and the rounding errors of
+    operations do not change.
+    """
     # The step and all its loops share one counter of names, because in some target languages a loop has no
     # scope of its own.
     scope = _Scope(
@@ -369,8 +370,9 @@ class _Scope:
             self.known[call.id] = node.space.sym(name)
 
     def _results(self, node: Expr) -> int | None:
-        """Return the number of results of a call of an outlined function or of a vector function, otherwise
-        None."""
+        """Return the number of results if a node calls an outlined function or a vector function. Return None
+        for all other nodes.
+        """
         vector = component(node.payload)
         return self.outlined.get(node.payload.partition(".")[0]) if vector is None else vector[0].size
 
@@ -387,7 +389,8 @@ class _Scope:
 
     def _power(self, base: Expr, n: int) -> Expr:
         space = base.space
-        # A power is written as a product, in which the base occurs several times, so the base must be a name.
+        # A power is written as a product. The base occurs several times in this product, so the base must be
+        # a name.
         base = self._named(base)
         # In emitted code powers of up to three factors are written as x * x * x.
         if n <= 3:

@@ -42,8 +42,9 @@ class SharedArguments(ExprDomain):
         return super().call(function, *args)
 
     def _first(self, argument: Expr) -> Expr:
-        """Return the first argument that equals this argument as a polynomial. This may be the argument
-        itself."""
+        """Return the earliest argument that equals this argument as a polynomial. If no earlier argument is
+        equal, this argument is returned.
+        """
         # Results are stored by node number, because expanding a polynomial is slow and one argument may occur
         # many times.
         if argument.id not in self.shared:

@@ -145,7 +145,9 @@ class Execution:
         return space.sym(name)
 
     def _around(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> Bindings:
-        """Return the values of all symbols of the formulas of the scene at a point."""
+        """Return the value of each symbol that the formulas of the scene contain, for an evaluation at a
+        point.
+        """
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])

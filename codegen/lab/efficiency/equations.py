@@ -31,8 +31,8 @@ class Equations:
 
     @property
     def problem(self) -> Problem:
-        """The problem to integrate: the scene itself in its own coordinates, otherwise the problem of the
-        form.
+        """The problem to integrate: the scene itself if the equations are in its coordinates, or the problem
+        of the form.
         """
         return self.scene if self.form is None or self.form.printed else self.form.problem
 

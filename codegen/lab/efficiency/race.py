@@ -139,7 +139,7 @@ class Racer:
         return tuple(self.integrator.run(self.initial, h, spans * steps, self.first)), spans * steps
 
     def prepare(self, control: float) -> None:
-        """Do nothing: an emitted module needs no preparation before a run with another control."""
+        """Do nothing, because an emitted module needs no preparation before a run with another control."""
 
     def error(self, control: float) -> float:
         """Return the error of a run, or infinity if the run fails."""

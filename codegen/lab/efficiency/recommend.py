@@ -59,10 +59,10 @@ class Recommendation:
     first.
 
     ``best`` is the most accurate run if no recipe reaches the error, and None otherwise. ``predicted`` is the
-    number of predictions, and ``raced`` the number of measured recipes. ``complete`` is False if the budget
-    ended the search. ``lost`` contains the labels of recipes that lose a conserved quantity in a long run.
-    ``referred`` is the fraction of the budget that the reference solution used. ``kinks`` is the number of
-    times at which the field is not smooth along the solution.
+    number of predictions, and ``raced`` is the number of measured recipes. ``complete`` is False if the
+    budget ended the search. ``lost`` contains the labels of recipes that lose a conserved quantity in a long
+    run. ``referred`` is the fraction of the budget that the reference solution used. ``kinks`` is the number
+    of times at which the field is not smooth along the solution.
     """
 
     request: Request

@@ -67,9 +67,9 @@ class LongRun:
     because chaos amplifies rounding errors in long runs.
 
     ``symplectic`` is the largest symplectic defect of a step from several states of the run, or None if the
-    defect was not measured. ``unmeasured`` is the reason if the defect of a Hamiltonian scene could not be
-    measured, otherwise ''. ``rounding`` is the growth of rounding errors in the quantities that the method
-    conserves exactly.
+    defect was not measured. If the defect of a Hamiltonian scene could not be measured, ``unmeasured`` is the
+    reason. In all other cases ``unmeasured`` is ''. ``rounding`` is the growth of rounding errors in the
+    quantities that the method conserves exactly.
     """
 
     scene: str
