@@ -56,8 +56,8 @@ class StepFailed(ArithmeticError):
 class Arrival:
     """The result of an adaptive run.
 
-    ``state`` is the last state, ``t`` its time, and ``h`` the proposed size of the next step. ``accepted``
-    and ``rejected`` are numbers of steps.
+    ``state`` is the last state, ``t`` is its time, and ``h`` is the proposed size of the next step.
+    ``accepted`` and ``rejected`` are numbers of steps.
     """
 
     state: State
@@ -110,7 +110,7 @@ class Statistics:
 @dataclass(frozen=True)
 class Begun:
     """The checked arguments of a call that integrates. ``form`` converts results to the type of the caller's
-    state. ``numbers`` are the coordinates of the state, and ``values`` the values of the parameters.
+    state. ``numbers`` are the coordinates of the state, and ``values`` are the values of the parameters.
     ``solvers`` are the solvers that the emitted module uses for its implicit equations.
     """
 

@@ -62,9 +62,9 @@ Additions and products cost 1, and functions that are not listed cost 12."""
 class Optimised:
     """A method on a scene, ready to be interpreted.
 
-    ``lowered`` is the step program before the first compiler pass, and ``program`` the step program after the
-    last pass. ``trace`` contains a report of each pass. ``problem`` is the scene in the form that the family
-    of the method requires.
+    ``lowered`` is the step program before the first compiler pass, and ``program`` is the step program after
+    the last pass. ``trace`` contains a report of each pass. ``problem`` is the scene in the form that the
+    family of the method requires.
     """
 
     scene: Problem
@@ -123,8 +123,8 @@ def compile_method(
     other parameters become constants with the scene's values. ``inputs`` are signals that become run-time
     inputs. ``frame`` is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is
     the solver of implicit equations (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate
-    of an embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of
-    the scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
+    of an embedded method. ``jacobian`` adds the derivative of a step. ``form`` is the key of a classical form
+    of the scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
     times. ``events`` is the number of event functions of this run. ``dense`` uses the continuous extension of
     the tableau at output times. ``compensate`` extends the state by the rounding errors of compensated
@@ -318,8 +318,8 @@ def emit(
     by default the family in which its order is highest. External names begin with ``prefix``, by default made
     from the names of scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are signals of
     the scene that become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``.
-    ``adaptive`` adds a run with step-size control, ``jacobian`` the derivative of a step. ``solver`` is the
-    solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the
+    ``adaptive`` adds a run with step-size control. ``jacobian`` adds the derivative of a step. ``solver`` is
+    the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the
     cheapest. ``form`` is the key of a classical form of the scene, by default the equations as printed.
     ``batch`` adds a C function that steps many independent systems
     (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a given end time with
@@ -432,7 +432,7 @@ def emit_kernel(
     """Return a kernel as a module in a target language. ``about`` is added to the manifest entry.
 
     Every external C name and every file name begins with the prefix. UnknownName is raised for an unknown
-    target, InputError if the target or the precision is not available for this kernel.
+    target, and InputError is raised if the target or the precision is not available for this kernel.
     """
     interface = Interface.of(kernel, prefix, precision)
     if kernel.batch and not known_target(target).batches:

@@ -353,8 +353,8 @@ class Integrator(RunToEnd):
         inputs: Signals | None,
         statistics: Statistics | None,
     ) -> Begun:
-        """Return the checked arguments. TypeError is raised for wrong names or inputs, ValueError for a wrong
-        state.
+        """Return the checked arguments. TypeError is raised for wrong names or inputs, and ValueError is
+        raised for a wrong state.
         """
         names = self.interface.inputs
         if bool(names) != (inputs is not None):

@@ -51,8 +51,7 @@ class Semidirect(
     come before the coordinates of a. For an element (x, u) of the algebra, the velocity of the point z is x.z
     + u. The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u), and the exponential is exp(x, u) = (exp x,
     phi(x) u) with phi(x) = sum of x^k/(k+1)!. A capability is a base class such as :class:`Covered`. The
-    product has a capability if the linear factor has the capability and the representation has the necessary
-    formulas.
+    product has a capability if the linear factor has it and the representation has the necessary formulas.
     """
 
     covering_formula = "the image of q in the linear factor; the vectors are those of q"

@@ -350,7 +350,7 @@ class Kernel:
     - ``vary`` is the kernel of the variational equation. Its state is the state of this kernel followed by a
       derivative of the state. Its outputs are the derivative of the new state.
     - ``substeps`` are the parts of a composed step. The kernel is called once for each part, and h and t are
-      the length and the start of the part.
+    then the length of the part and the time at which it begins.
     - ``outlined`` are functions that the expressions of the kernel call.
     - ``carried``: the kernel uses the momentum m of :class:`Carried` in place of mu.
     - ``expansion`` or ``estimate``: emitted code can have a run with step-size control.

@@ -212,8 +212,8 @@ class ModeStep:
 
     The kernel ``symbol`` computes the eigenvalue lambda of L from the wave number. Its outputs are the real
     part of lambda and, if some eigenvalues are not real, the imaginary part. ``length`` computes the period
-    of the domain, and ``initial`` the initial state at the point x. ``wave`` is the name of the wave number
-    in expressions, and ``space`` is the name of x.
+    of the domain, and ``initial`` computes the initial state at the point x. ``wave`` is the name of the wave
+    number in expressions, and ``space`` is the name of x.
     """
 
     tables: tuple[Table, ...]
