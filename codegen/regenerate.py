@@ -34,8 +34,7 @@ class Entry:
 def entries(path: Path = LIST) -> list[Entry]:
     """Return the entries of the list; an InputError names an entry that cannot be read.
 
-    A list without modules is an error. With such a list, every file of ``generated/`` would be removed as
-    stale.
+    A list without modules is an error, because every file of ``generated/`` would be removed as stale.
     """
     text = read_text(path, "a list of modules")
     try:

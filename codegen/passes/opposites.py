@@ -13,7 +13,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
-    """Return the program without adjoint operations that cancel in pairs or do not change their argument."""
+    """Remove adjoint operations that cancel in pairs or do not change their argument."""
     return rewrite(program, _rule)
 
 
@@ -26,8 +26,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # merged equal elements into one variable.
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
-        # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0. The same is false on the
-        # dual: exp(x) leaves its exponent x fixed, but changes most momenta.
+        # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0. On the dual this is
+        # false, because exp(x) changes most momenta.
         own = element is not None and isinstance(element.operation, Exp) and not operation.dual
         if own and element is not None and _line(rewriter, element.args[0]) == _line(rewriter, x):
             return (x,)

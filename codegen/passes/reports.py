@@ -54,14 +54,15 @@ class PassReport:
     @property
     def savings(self) -> Counter[str]:
         """Return the number of operations that the pass removed, by the name of the operation in reports."""
-        # Counter subtraction drops negative differences. An operation that a pass adds is no saving.
+        # Counter subtraction drops negative differences, because an operation that a pass adds is no saving.
         return _nouns(self.earlier) - _nouns(self.program)
 
 
 def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
     """Return a sentence for each reason why a step needs fewer operations, in the order of the passes.
 
-    Operations removed for the same reason by several passes are added: ``2 brackets: the group is abelian``.
+    If several passes remove operations for the same reason, their counts are added: ``2 brackets: the group
+    is abelian``.
     """
     # Operations are grouped by reason, because several passes share a reason.
     total: dict[str, Counter[str]] = {}

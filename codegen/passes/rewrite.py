@@ -17,8 +17,9 @@ class Rewriter:
     """Applies a rule to every assignment of a program.
 
     ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. If the rule
-    returns earlier variables, the assignment is removed. Otherwise it returns targets of assignments that it
-    has appended by ``emit``. The rule may read earlier definitions and the number of uses of each value.
+    returns earlier variables, the assignment is removed. Otherwise the rule returns targets of assignments
+    that it has appended by ``emit``. The rule may read earlier definitions and the number of uses of each
+    value.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]

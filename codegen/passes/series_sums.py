@@ -137,8 +137,7 @@ class SeriesSums:
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return the value of a coefficient; a negative rational number is minus the value of a positive
-    number."""
+    """Return the value of a coefficient c. If c is negative and rational, this is minus the value of -c."""
     # A negative number is written as minus a positive number, so c x and (-c) x share one product. The minus
     # sign only changes an addition into a subtraction and costs nothing.
     if c.value.is_rational and c.value.fraction() < 0:

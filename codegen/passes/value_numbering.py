@@ -1,8 +1,8 @@
 """Value numbering: if an operation is applied to the same values several times, it is computed once.
 
-An example is an exponential that several stages use. The pass is exact. Products of exponentials with a
-common prefix share this prefix. The terms of a sum are sorted by the first appearance of their values, so
-that equal sums are recognised.
+An example is an exponential that several stages use. The pass is exact. Products of exponentials that begin
+with the same factors share the product of these factors. The terms of a sum are sorted by the first
+appearance of their values, so that equal sums are recognised.
 """
 
 from __future__ import annotations

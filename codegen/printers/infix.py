@@ -1,6 +1,6 @@
 """Terms of the run representation as infix text: precedence, parentheses and line breaks.
 
-The targets differ in a few operators and functions only, which subclasses of :class:`Infix` define.
+The targets differ only in a few operators and functions. Subclasses of :class:`Infix` define these.
 Operations are never regrouped. Parentheses reproduce the tree of operations. They are omitted only if
 precedence implies them, as in a b + c.
 """
@@ -57,8 +57,7 @@ SHORT, LONG = 48, 80
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Return all segments joined to one segment; return them unchanged if it had more than ``most``
-    characters."""
+    """Join all segments to one segment, but only if it has at most ``most`` characters."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 

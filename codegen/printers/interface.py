@@ -118,8 +118,8 @@ class Interface:
         """Return plain data for the manifest; :meth:`from_json` reads it back."""
         # Tuples become lists, so that the data equal the data read from a JSON file.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
-        # The fields RUN are omitted without a run to a given end time. The fields LATTICE are omitted for a
-        # single system. Only the manifest of a step on Fourier modes has the fields MODES.
+        # If there is no run to a given end time, the fields RUN are omitted. For a single system, the fields
+        # LATTICE are omitted. Only the manifest of a step on Fourier modes has the fields MODES.
         hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
         hidden += () if self.modes else MODES
         return {k: x for k, x in data.items() if k not in hidden}
@@ -127,7 +127,8 @@ class Interface:
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
         """Return the interface that :meth:`as_json` wrote."""
-        # Lists become tuples, because JSON has no tuples. A list that a manifest does not contain is empty.
+        # Lists become tuples, because JSON has no tuples. If a manifest does not contain a list, the tuple is
+        # empty.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))
 
 

@@ -19,8 +19,9 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line with the run-time inputs and the times at which they are read; no lines without
-    inputs."""
+    """Return a line with the run-time inputs and the times at which they are read; no lines if there are no
+    inputs.
+    """
     if not kernel.inputs:
         return ()
     # Names are not converted to identifiers of the target, because the header shows the names of the scene.

@@ -55,7 +55,7 @@ RECIPROCALS = "reciprocal"
 MOST_PARTS = 2**20
 """The largest number of equal factors into which an exponential is split.
 
-This number is doubled until the exponent of each factor has a norm of at most 1."""
+The number of factors is doubled until the exponent of each factor has a norm of at most 1."""
 
 _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 

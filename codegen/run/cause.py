@@ -23,8 +23,8 @@ CAUSE = "cause"
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
     # Steps with a warm start use the continuation instead of the function ``cause``. With run-time inputs the
-    # test would prove nothing. The values of inputs may cause the failure, and a shorter step reads other
-    # values.
+    # test would prove nothing, because a shorter step reads other values of the inputs, and the old values
+    # may have caused the failure.
     return plan.start is None and not plan.kernel.inputs
 
 

@@ -313,7 +313,8 @@ class _Compiler:
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
             results = library(*passed) if library is not None else [machine.call(function, *passed)]
-            # zip is not strict. A function without a result returns None, for which there is no target.
+            # zip is not strict, because a function without a result returns None, and then there is no
+            # target.
             for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False

@@ -2,8 +2,8 @@
 
 Stumpff functions are computed by the same polynomials and closed forms as in emitted code. The Stumpff
 functions of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last place. Near the
-end of an iteration, this difference may lead to one sweep more or less. The executor uses the functions of
-this module to count the sweeps of emitted code exactly.
+end of an iteration, this difference may change the number of sweeps by one. The executor uses the functions
+of this module to count the sweeps of emitted code exactly.
 """
 
 from __future__ import annotations
@@ -146,7 +146,7 @@ def _short(k: int, z: float, name: str) -> float:
 def _series(k: int, z: float) -> float:
     """Return the Taylor polynomial of the Stumpff function c_k at z.
 
-    The constant term is added last. Of all other terms, even and odd powers are summed separately, in pairs.
+    The constant term is added last. The other terms are summed in pairs, even and odd powers separately.
     """
     first, *rest = _terms(k, "series")
     w = z * z

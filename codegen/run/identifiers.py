@@ -53,8 +53,8 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # Arguments get their identifiers first. Then these identifiers are the same in every function and do not
-    # depend on its other names.
+    # Arguments get their identifiers first, so that these identifiers are the same in every function and do
+    # not depend on its other names.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     for statement in statements(function.body):

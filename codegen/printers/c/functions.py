@@ -65,8 +65,9 @@ class FunctionPrinter:
         return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def forms(self, name: str, near: bool = False) -> str:
-        """Return the variant of the function ``name`` to call; ``near`` is True if the caller has no
-        branches."""
+        """Return the variant of the function ``name`` that is to be called; ``near`` is True if the caller
+        has no branches.
+        """
         # In a module with loops over lanes or sites, the loops evaluate sines and cosines by polynomials.
         # Scalar functions use the same polynomials where these are valid. Then loops and scalar functions
         # have the same roundings.
@@ -87,7 +88,7 @@ class FunctionPrinter:
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
         """Return the declaration of a parameter.
 
-        In a ``header``, array sizes have no ``static``, which C++ does not allow.
+        In a ``header``, array sizes have no ``static``, because C++ does not allow it.
         """
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change. The compiler checks it.

@@ -50,11 +50,11 @@ of helpers."""
 EACH, EACH_SOLVING = 8, 10
 """The stack space, in bytes, that the bound reserves for each floating-point number of a step.
 
-The first value is for steps without equations, the second for steps with equations. A double has 8 bytes
-and a float has 4. The bound is the same for both precisions, because an optimiser also stores pairs of
-floats in vector registers of 16 bytes, that is 8 bytes for each float. If a step solves equations, an
-optimiser moves common subexpressions out of the loop. These values need more space. The largest measured
-values with equations were 8.8 bytes in double precision and 8.0 bytes in single precision."""
+The first value is for steps without equations, the second for steps with equations. A double has 8 bytes and
+a float has 4. The bound is the same for both precisions, because an optimiser also stores pairs of floats in
+vector registers of 16 bytes, that is 8 bytes for each float. If a step solves equations, an optimiser
+computes common subexpressions before the loop, and their values need more space. The largest measured values
+with equations were 8.8 bytes in double precision and 8.0 bytes in single precision."""
 
 LARGEST_STACK = 6 * 2**20
 """The largest permitted bound on the stack of a call. Most systems limit the stack to 8 MiB."""
@@ -181,7 +181,7 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the functions that a unit with loops over lanes or sites calls, in the variants that it uses."""
+    """Return the variants of functions that a unit with loops over lanes or sites calls."""
     names: set[str] = set()
     for function in unit.functions:
         form = near if function.near else complete

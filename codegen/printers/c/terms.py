@@ -207,8 +207,8 @@ class Terms(Infix):
             (array,) = term.args
             return Text((f"{self.prefix}largest({self.line(array)}, {array.shape[0]})",))
         name = FUNCTIONS.get(term.text, term.text)
-        # In single precision ``sqrtf`` is called. ``sqrt`` would convert its argument to double and the
-        # result back.
+        # In single precision ``sqrtf`` is called, because ``sqrt`` would convert its argument to double and
+        # the result back.
         name += "" if name == "isfinite" else self.precision.suffix
         if len(term.args) == 1:
             return Text(closed(f"{name}(", self.text(term.args[0]).segments, ")"))

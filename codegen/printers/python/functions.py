@@ -76,7 +76,7 @@ class FunctionPrinter:
         rows = [[self.constants.text(x) for x in row] for row in table.rows]
         about = [f"# {table.about}"] if table.about else []
         if len(table.name.shape) == 1:
-            # A table is a tuple and not a list, because nothing may change a table.
+            # A table is a tuple and not a list, because tables must not change.
             return [*about, *filled(f"{table.name.text} = (", rows[0], ")", 0)]
         lines = [*about, f"{table.name.text} = ("]
         for row in rows:
@@ -105,7 +105,7 @@ class FunctionPrinter:
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
-            # A large array is printed without its description. The line would be too long.
+            # A large array is printed without its description, because the line would be too long.
             note = f"  # {about}" if about and prod(field.shape) < 100 else ""
             line = f"        self.{field.text} = {self.zeros(field.shape, field.kind)}"
             lines.append(line + note)

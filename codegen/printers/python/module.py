@@ -112,7 +112,8 @@ class _Module:
     def imports(self) -> tuple[list[str], list[str]]:
         """Return the names to import from ``math``, and the names to import from NumPy."""
         names = set(self.needed.library)
-        # Names are imported only if they are used. Linters of the user's project report unused imports.
+        # Names are imported only if they are used, because linters of the user's project report unused
+        # imports.
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
         # The helper for powers returns an infinity for a negative power of zero.
         plain |= {"inf"} if self.called & {"infinity", "power"} else set()
@@ -132,8 +133,8 @@ class _Module:
     def keyword_arguments(self) -> list[str]:
         """Return the run-time parameters, with the scene's values as defaults if all values are known."""
         known = self.recipe.defaults
-        # Either all parameters have defaults or none has. In Python a parameter with a default must not
-        # precede a parameter without a default.
+        # Either all parameters have defaults or none has, because in Python a parameter with a default must
+        # not precede a parameter without a default.
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
         pairs = zip(self.interface.parameters, self.parameters, strict=True)
