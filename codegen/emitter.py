@@ -201,7 +201,7 @@ def compensated(compiled: Compiled) -> Compiled:
 
 
 def with_batch(compiled: Compiled) -> Compiled:
-    """Return a compiled method whose module also has a function that steps many independent systems.
+    """Return a compiled method. Its module also has a function that steps many independent systems.
 
     C compilers do not vectorise a loop over systems if its body calls a function. An explicit step that calls
     outlined functions is therefore translated again without outlined functions. MethodError is raised for a

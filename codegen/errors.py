@@ -17,10 +17,9 @@ class MethodError(InputError):
 
 
 class UnclaimedTableau(MethodError):
-    """A tableau that claims no order in any family that accepts the scene.
+    """The error for a tableau if no family in which it claims an order accepts the scene.
 
-    ``claimed`` are the families in which the tableau claims an order. None of these families accepts the
-    scene.
+    ``claimed`` are the families in which the tableau claims an order.
     """
 
     claimed: tuple[str, ...] = ()

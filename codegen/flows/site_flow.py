@@ -20,8 +20,8 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.site_scene import with_frozen_neighbours
 
 COLOURS = ("even", "odd")
-"""The names of the two sets into which the pairs of neighbours along an axis are divided. The first site of a
-pair has an even index in the first set, and an odd index in the second set."""
+"""The names of the two sets into which the pairs of neighbours along an axis are divided. The index of the
+first site of a pair is even in the first set, and odd in the second set."""
 
 
 POTENTIAL = "potential"
@@ -31,8 +31,8 @@ momenta: the energies of the bonds, and those parts of a site's Hamiltonian that
 
 @dataclass(frozen=True)
 class SiteFlow(Flow):
-    """The flow of part number ``part`` of a lattice. ``colour`` is the index in :data:`COLOURS` of the set of
-    pairs that move, or 0 for a part that couples no sites.
+    """The flow of part number ``part`` of a lattice. ``colour`` is the index of a set in :data:`COLOURS`: the
+    flow moves the pairs of this set. For a part that couples no sites, ``colour`` is 0.
     """
 
     part: int

@@ -405,8 +405,8 @@ class CotangentBundle(LieGroup):
 
 
 class Projection(LieGroup):
-    """A projection onto the group. The projection maps coordinates that nearly satisfy the equations of the
-    group to coordinates that satisfy the equations more accurately.
+    """A projection onto the group. If coordinates nearly satisfy the equations of the group, their projection
+    satisfies the equations more accurately.
     """
 
     provides: ClassVar[str] = "projection onto the group"

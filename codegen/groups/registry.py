@@ -1,7 +1,7 @@
 """Registries, which find a class by its name.
 
-A registry contains classes of this package, which are imported on first use, and classes that were added by
-:func:`codegen.groups.register`.
+A registry contains the classes of this package and the classes that :func:`codegen.groups.register` has
+added. The classes of this package are imported on first use.
 """
 
 from __future__ import annotations

@@ -343,9 +343,7 @@ class SO3(
         return tuple(d.rational(1, 2) * a for a in x)
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return 4 w^2, 4 x^2, 4 y^2 and 4 z^2, where (w, x, y, z) is a unit quaternion whose rotation is
-        g.
-        """
+        """Return 4 w^2, 4 x^2, 4 y^2 and 4 z^2 for a unit quaternion (w, x, y, z) with the rotation g."""
         one = d.rational(1)
         return (
             one + (g[0] + g[4] + g[8]),

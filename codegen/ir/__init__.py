@@ -1,2 +1,2 @@
-"""The two intermediate representations: step programs, whose variables are elements of Lie groups and Lie
-algebras, and kernels, whose variables are scalars."""
+"""The two intermediate representations: step programs and kernels. The variables of step programs are
+elements of Lie groups and Lie algebras. The variables of kernels are scalars."""

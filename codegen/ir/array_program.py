@@ -28,7 +28,7 @@ class Matrix:
     """A matrix that is stored row by row in the array ``name``, from the place ``start`` on.
 
     ``stride`` is the number of places from the start of one row to the start of the next row. The value 0
-    means that ``stride`` is the number of columns, so that the rows follow one another without gaps.
+    denotes the number of columns: the rows then follow one another without gaps.
     """
 
     name: str

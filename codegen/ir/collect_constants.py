@@ -133,8 +133,8 @@ class _Gathering:
     def _spell(self, node: Expr) -> Expr:
         """Return the linear combination of a node as an expression.
 
-        An inverse 1/y is replaced by e/y, where e is the absolute value of the coefficient of the first term
-        that contains 1/y.
+        An inverse 1/y is replaced by e/y. The number e is the absolute value of the coefficient in the first
+        term with 1/y.
         """
         if node.id not in self.written:
             # The expression is built once and then reused, so that it stays a shared subexpression.

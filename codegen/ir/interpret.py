@@ -178,8 +178,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The test comes before the update, so that at convergence all values in ``env`` are computed from the
-        # unknowns that are returned.
+        # The test comes before the update, so that after convergence all values in ``env`` were computed from
+        # the returned unknowns.
         done, size = domain.settled(old, new, size)
         if done:
             return
