@@ -88,7 +88,8 @@ class ModeFormulas:
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
     def time(self, number: int, start: str) -> str:
-        """Return the text of the time of evaluation ``number``.
+        """Return the text of the time at which the nonlinear part is evaluated; ``number`` is the index of
+        the evaluation.
 
         ``start`` is the text of the time at which the step begins.
         """

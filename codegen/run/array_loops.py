@@ -213,9 +213,9 @@ class ArrayLoops:
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that sets a group of entries in row ``row`` of the target.
 
-        A new entry is the constant :data:`_ENTRY` times an entry of ``a.matrix``. This entry has the same
-        column, and its row is the index ``column``. If ``added`` is True, the product is added to the old
-        entry.
+        A new entry is the constant :data:`_ENTRY` times an entry of ``a.matrix``. The entry of ``a.matrix``
+        has the column of the new entry, and its row is ``column``, the column of the constant. If ``added``
+        is True, the product is added to the old entry.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:

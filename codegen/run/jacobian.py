@@ -70,10 +70,11 @@ def vary(plan: Plan, varying: Plan) -> Function:
         *sampled(varying),
         *loaded(symbols[:n], state, read),
         *loaded(symbols[n:], vector, read),
-        # Sweeps for a derivative are not counted. The statistics describe the integration only.
+        # Sweeps for a derivative are not counted, because the statistics describe only the integration.
         *computed(varying, counting=False),
         *ends,
-        # The result is tested before ``vector`` is overwritten. After a failure ``vector`` is then unchanged.
+        # The result is tested before ``vector`` is overwritten, so that ``vector`` is unchanged after a
+        # failure.
         If(negated(all_finite(*new)), (Return(code(NOT_FINITE)),)),
         *stored(vector, new),
         Return(code(OK)),
@@ -150,8 +151,8 @@ class _Jacobian:
                 If(STATUS.equals(code(OK)), (Call(LEAVE, (moving, before, point), (STATUS,)),)),
             ]
         inner: tuple[Statement, ...] = (
-            # The variation is advanced first. The linearised substep is evaluated at the state before the
-            # substep.
+            # The variation is advanced first, because the linearised substep is evaluated at the state before
+            # the substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
             # The index of the substep is increased even after a failure. The status then ends the loop, and
@@ -159,7 +160,7 @@ class _Jacobian:
             Assign(part, part + 1),
         )
         return [
-            # The state of the caller stays unchanged. The substeps advance a copy.
+            # The state of the caller stays unchanged, because the substeps advance a copy.
             Array(point),
             Assign(point, plan.state()),
             *([Array(memories, zero=True)] if plan.remembers else []),

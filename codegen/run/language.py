@@ -277,7 +277,7 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 
 
 def reads(statement: Statement) -> Iterator[Term]:
-    """Yield the names that a statement reads, without the bodies of a loop or branch.
+    """Yield the names that a statement reads outside the bodies of a loop or branch.
 
     Changing an entry of an array counts as reading the array.
     """

@@ -84,8 +84,8 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Each name is listed once. All exponentials of matrices of one size call the same function for the
-        # norm.
+        # Each name is listed once, because all exponentials of matrices of one size call the same function
+        # for the norm.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 

@@ -76,7 +76,7 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Array(momentum),
         Call("to_space", (moving, momentum)),
         For(i, whole(n), (Assign(momentum[i], gained),)),
-        # The result is tested before it is assigned. The caller's state is then unchanged after a failure.
+        # The result is tested before it is assigned, so that a failure leaves the caller's state unchanged.
         If(negated(all_finite(momentum)), (Return(code(NOT_FINITE)),)),
         Assign(state.part(0, carried.first), moving.part(0, carried.first)),
         Assign(state.part(carried.first, n), momentum),

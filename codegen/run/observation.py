@@ -130,8 +130,8 @@ class Observation:
 
     @property
     def memory(self) -> tuple[Term, ...]:
-        """The arrays with the signs and values of the event functions where the search for events has
-        arrived.
+        """The arrays with the signs and values of the event functions at the time that the search has
+        reached.
 
         The tuple is empty if there are no event functions.
         """
@@ -150,8 +150,8 @@ class Observation:
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
         events: tuple[Statement, ...] = ()
         if self.events:
-            # The arrays are cleared. Some compilers cannot prove that all entries are assigned, and would
-            # warn.
+            # The arrays are cleared, because some compilers cannot prove that all entries are assigned, and
+            # would warn.
             arrays = tuple(Array(x, zero=True) for x in (*self.memory, self.measured))
             measured = (*self.measure(now, state), Assign(self.values, self.measured), *self.signed())
             events = (Assign(self.event_count[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))

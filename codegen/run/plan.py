@@ -41,7 +41,7 @@ class Plan:
     @cached_property
     def arrangement(self) -> Arrangement:
         """The statements of the kernel."""
-        # The statements are cached. Every function of a unit reads them, and scheduling rewrites all
+        # The statements are cached, because every function of a unit reads them, and scheduling rewrites all
         # expressions.
         return arrange(self.kernel)
 
@@ -57,8 +57,8 @@ class Plan:
 
     @cached_property
     def _used(self) -> tuple[str, ...]:
-        # The result is cached. Nearly every property below reads it, and computing it walks through the whole
-        # kernel.
+        # The result is cached, because nearly every property below reads it, and computing it walks through
+        # the whole kernel.
         return self.kernel.used_scalars()
 
     @property

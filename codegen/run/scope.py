@@ -59,7 +59,7 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
                 for target in assigned(statement):
                     if target.op == "name" and not target.shape and not target.record:
                         result.setdefault(identifiers.variable(target), target)
-            # Inner blocks are included. A variable may be assigned only there.
+            # Inner blocks are included, because a variable may be assigned only there.
             for inner in blocks(statement):
                 collect(inner)
 

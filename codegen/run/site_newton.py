@@ -109,8 +109,9 @@ class ChainSolver:
         return [Assign(_BASE, self.row(self.newton.matrix)), Assign(_INNER, inner)]
 
     def dot(self, term: Term, plus: bool = False) -> list[Statement]:
-        """Return the loop over k that subtracts ``term`` from the variable for sums; with ``plus`` it adds
-        it."""
+        """Return the loop over k that subtracts ``term`` from the variable for sums; with ``plus`` the loop
+        adds the term.
+        """
         return [For(_K, whole(self.n), (Assign(_SUM, _SUM + term if plus else _SUM - term),))]
 
     def linearise(self) -> Function:

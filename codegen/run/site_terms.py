@@ -1,4 +1,4 @@
-"""The names of arguments and arrays in the functions of a lattice, and the places of numbers in arrays."""
+"""The names of arguments and arrays in the functions of a lattice, and the positions of numbers in arrays."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str,
 
 
 def distributed(loop: For, reductions: tuple[tuple[str, Term], ...] = ()) -> For:
-    """Return a loop over all sites or rows as a parallel loop, for lattices with many sites."""
+    """Return a loop over all sites or rows that is parallel if the lattice has many sites."""
     return replace(loop, parallel=True, reductions=reductions, when=SITES >= MANY_SITES)
 
 

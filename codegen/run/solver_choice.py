@@ -2,9 +2,10 @@
 
 Newton's method keeps an exact matrix as long as the iteration contracts. Simplified Newton computes an
 approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix,
-and each sweep multiplies the error by a factor O(h). The same is true for equation (3.19) of H. Marthinsen's
-thesis (*On symplectic integration in Lie groups and manifolds*), because momenta are computed within a sweep.
-If momenta were unknowns in addition to the velocities, two sweeps would be necessary for each factor O(h).
+and each sweep multiplies the error by a factor O(h). The factor is also O(h) for equation (3.19) of H.
+Marthinsen's thesis (*On symplectic integration in Lie groups and manifolds*), because momenta are computed
+within a sweep. If momenta were unknowns in addition to the velocities, two sweeps would be necessary for each
+factor O(h).
 
 The solver with the least predicted time is chosen, with an exception stated below. A trial
 (:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps of the usage
@@ -58,8 +59,7 @@ ASKED = "as asked for"
 """The reason that is stated for a solver that the caller has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""The numbers of steps in a trial and in a trial with many unknowns, and the size of the longer trial
-step.
+"""The numbers of steps in a trial and in a trial with many unknowns, and the factor of the longer step.
 
 The longer trial step is LONGER times as long as the usual step."""
 

@@ -61,8 +61,9 @@ def counters(plan: Plan) -> tuple[Function, ...]:
 
 
 def count_sweeps(plan: Plan, block: int, sweeps: Term = SWEEPS) -> Statement:
-    """Return the call that counts the sweeps of a loop. If the status is not OK, it also records the
-    failure."""
+    """Return the call that counts the sweeps of a loop. If the status is not OK, the call also records the
+    failure.
+    """
     return Call("count_sweeps", (plan.statistics, whole(block), sweeps, STATUS.differs(code(OK))))
 
 

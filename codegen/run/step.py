@@ -63,8 +63,8 @@ def kernel_step(plan: Plan) -> Function:
     parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
-    # All outputs are computed before the first entry of the state is overwritten. The outputs read the old
-    # state.
+    # All outputs are computed before the first entry of the state is overwritten, because the outputs read
+    # the old state.
     ends, new = outputs(plan.arrangement, plan.symbols)
     # The kernel does not read the entries ``unread``, because other entries determine their values. A NaN in
     # one of these entries would not appear in the new state, so they are tested.
@@ -79,7 +79,7 @@ def kernel_step(plan: Plan) -> Function:
         *sampled(plan),
         *loaded(plan.symbols, state, names_in([*inner, *_errors(plan)])),
         *inner,
-        # Nothing is written to the state before this last test. A failed step leaves the state unchanged.
+        # Nothing is written to the state before this last test, so a failed step leaves the state unchanged.
         If(negated(finite), (Return(code(NOT_FINITE)),)),
         *_errors(plan),
         *_aged(plan),

@@ -77,7 +77,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 def weighted(plan: Plan) -> Function:
     """Return the function that computes the norm of an error estimate."""
     n, i = plan.size, count("i")
-    # The norm is computed by a separate function. The body of the run then contains no loop over components.
+    # The norm is computed by a separate function, so that the body of the run contains no loop over
+    # components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
     # |y_i| is the larger of its values before and after the step. With one of these values alone, the error
@@ -129,7 +130,7 @@ class Controlled:
     def __init__(self, plan: Plan) -> None:
         assert plan.kernel.estimate is not None
         self.plan, self.order = plan, plan.kernel.estimate.order
-        # A trial step works on a copy. A rejected step must leave the state unchanged.
+        # A trial step works on a copy, because a rejected step must leave the state unchanged.
         self.trial, self.error = plan.state("trial"), real("error", plan.size)
 
     def function(self) -> Function:
@@ -148,8 +149,8 @@ class Controlled:
         return (
             *self.begin(),
             While(both(STATUS.equals(code(OK)), moving), self.step()),
-            # Time and step size are also stored after a failure. The caller can then continue from the last
-            # good time.
+            # Time and step size are also stored after a failure, so that the caller can continue from the
+            # last good time.
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.length),
             If(given(self.accepted), (Assign(self.accepted[0], self.accepted_steps),)),
@@ -211,14 +212,14 @@ class Controlled:
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
-        # The memory is cleared. Extrapolation assumes solutions at equal distances in time.
+        # The memory is cleared, because extrapolation assumes solutions at equal distances in time.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (
             Assign(self.trial, state),
             *forgotten,
             Call(ADVANCE, (self.trial, *arguments), (STATUS,)),
-            # A failed step is rejected like a step with a large error. A shorter step may succeed.
+            # A failed step is rejected like a step with a large error, because a shorter step may succeed.
             Assign(self.norm, INFINITY),
             If(STATUS.equals(code(OK)), (measured,)),
         )

@@ -133,7 +133,7 @@ class StepCost:
     """
 
     def __init__(self, kernel: Kernel) -> None:
-        # Operations are counted once. A choice of solvers needs many sums of the same operations.
+        # Operations are counted once, because a choice of solvers needs many sums of the same operations.
         self.kernel, self.work = kernel, operations(arrange(kernel))
 
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:

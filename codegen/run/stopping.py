@@ -1,7 +1,7 @@
 """The stopping rule for all loops over implicit equations.
 
 ``change`` is the largest change of an unknown in a sweep, and ``scale`` the largest absolute value of an
-unknown. ``previous`` is the change in the sweep before. The rate of convergence is change/previous. A loop
+unknown. ``previous`` is the change in the previous sweep. The rate of convergence is change/previous. A loop
 ends in three cases:
 
 - *close*: the change is at rounding level, and the predicted next change, change times rate, is below half a
@@ -73,7 +73,7 @@ CHANGE, SCALE = real("change"), real("scale")
 class Stopping:
     """The stopping rule for one loop.
 
-    ``number`` is the number of this loop. The loops of a kernel are counted from 1.
+    ``number`` is the index of this loop among the loops of the kernel, counted from 1.
     """
 
     plan: Plan
