@@ -13,7 +13,7 @@ class Affine(MatrixGroup):
     """Invertible affine maps y -> A y + b of R^n, as (n + 1) x (n + 1) matrices with the rows (A, b) and
     (0, 1).
 
-    The algebra has the elementary matrices of the first n rows as its basis, row by row.
+    The basis of the algebra consists of the elementary matrices of the first n rows, row by row.
     """
 
     def __init__(self, n: int) -> None:

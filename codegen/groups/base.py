@@ -49,7 +49,8 @@ class LieGroup(ABC):
     coordinates: ClassVar[str] = "coordinates"
     """A noun for the coordinates of an element, used in the names of the classical forms of a scene."""
     provides: ClassVar[str] = "group operations"
-    """A noun for the operations that a capability adds, used in the error message for a group without them.
+    """A noun for the operations that a capability adds, used in the error message for a group that lacks
+    them.
     """
 
     @abstractmethod

@@ -88,7 +88,7 @@ def transposed(a: Vector[S], n: int) -> Vector[S]:
 
 
 def determinant(a: Vector[S], n: int) -> S:
-    """Return the determinant of an n x n matrix without divisions, by expansion along the rows.
+    """Return the determinant of an n x n matrix, by expansion along the rows. No divisions are needed.
 
     The number of products is n (2^(n-1) - 1).
 
@@ -118,7 +118,8 @@ formulas.
 def product(d: Domain, a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
     """Return the product of two n x n matrices.
 
-    Large matrices are multiplied by a call of a vector function, small matrices entry by entry.
+    Large matrices are multiplied by a call of a vector function. Small matrices are multiplied entry by
+    entry.
     """
     return matmul(a, b, n) if n < LOOPED else d.vector(f"product{n}", (*a, *b))
 

@@ -1,4 +1,4 @@
-"""Matrix groups given by a basis of their Lie algebra, without closed forms.
+"""Matrix groups that are given by a basis of their Lie algebra and have no closed forms.
 
 The exponential is the matrix exponential, a vector function (:mod:`codegen.ir.vector_function`) of every
 domain. The derivative of the matrix exponential gives dexp: if L is the derivative of exp at x in the

@@ -1,4 +1,4 @@
-"""Array programs: assignments of whole matrices, which emitted code computes by loops.
+"""Array programs: assignments of whole matrices. Emitted code executes each assignment by loops.
 
 The text of a loop does not depend on the number of rows, so emitted code stays short for large matrices. A
 :class:`Matrix` is an array, or a rectangular part of an array. Each assignment changes one matrix. The
@@ -20,7 +20,7 @@ ROW, COLUMN = "row.index", "column.index"
 name in a scene."""
 
 Arrays = MutableMapping[str, list[Scalar]]
-"""The entries of arrays, row by row, by the names of the arrays."""
+"""A table from the name of each array to its entries, row by row."""
 
 
 @dataclass(frozen=True)

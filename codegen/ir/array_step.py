@@ -1,4 +1,4 @@
-"""A step on n x k matrices with orthonormal columns, by loops over arrays, without n x n matrices.
+"""A step on n x k matrices with orthonormal columns. The step loops over arrays and forms no n x n matrix.
 
 A generator is an element of so(n) whose exponential moves the state. All generators of a step have the form B
 S B^T with one n x r matrix B, the basis, and skew r x r matrices S, the cores. The first k columns of B are
@@ -29,7 +29,7 @@ from codegen.ir.array_program import (
 from codegen.ir.expr import Expr
 
 TERMS = 8
-"""The number of terms of phi(z) = (exp(z) - 1)/z that is assumed for counts of operations. In a run the
+"""Counts of operations assume that phi(z) = (exp(z) - 1)/z is a sum of this number of terms. In a run the
 number of terms depends on the norm of z.
 """
 

@@ -2,9 +2,9 @@
 
 The rewriting is exact. Each expression becomes a linear combination of atoms. An atom is an expression that
 is not a linear combination itself. Numbers are taken out of products and powers, and are put into numerators.
-For example, 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), which shortens the chain of dependent products by two
-or three. An expanded sum may have fewer subexpressions in common with other sums. Therefore the result is
-used only if it has fewer operations.
+For example, 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x). The chain of dependent products is then shorter by two
+or three products. An expanded sum may have fewer subexpressions in common with other sums. Therefore the
+result is used only if it has fewer operations.
 """
 
 from __future__ import annotations

@@ -420,8 +420,8 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return a/b, or 0 if all coefficients of b are zero. ArithmeticError is raised if a begins with a
-        lower power of h than b."""
+        """Return a/b, or 0 if all coefficients of b are zero. ArithmeticError is raised if the series a
+        begins with a lower power of h than b."""
         # Both series may vanish at h = 0. Their quotient may still have a limit at h = 0.
         power = self.ring.valuation(b)
         if power > self.order:

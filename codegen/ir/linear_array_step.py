@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 TERMS = 14
-"""The degree of the Taylor polynomials that is assumed for counts of operations. In a run the degree depends
-on the norm of the exponent.
+"""Counts of operations assume that the Taylor polynomials have this degree. In a run the degree depends on
+the norm of the exponent.
 """
 
 Letter = tuple[tuple[int, Number], ...]
